@@ -1,0 +1,156 @@
+#include "cam/job/job.h"
+
+#include <cmath>
+#include <limits>
+#include <system_error>
+
+#include "cam/job/manifest.h"
+#include "cam/job/preview.h"
+#include "cam/job/zip.h"
+#include "segment/error.h"
+#include "segment/intake/write_stl.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::uint64_t largest_file = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint64_t largest_text = 16u << 20;  // manifest, ticket: kilobytes in fact
+constexpr const char* manifest_name = "manifest.json";
+constexpr const char* ticket_name = "ticket.json";
+
+Bytes to_bytes(const std::string& text) {
+    return {text.begin(), text.end()};
+}
+
+std::string_view as_text(const Bytes& bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::uint16_t base_plane(const JobInput& input) {
+    if (!input.setup.base) return no_base_plane;
+    if (*input.setup.base < 0 || *input.setup.base >= no_base_plane) {
+        throw InputError(InputFault::use, "piece " + input.piece.name + ": cut " + std::to_string(*input.setup.base) +
+                                              " has no place in a ticket, which counts up to 65534");
+    }
+    return static_cast<std::uint16_t>(*input.setup.base);
+}
+
+[[noreturn]] void refuse(const std::string& source, const std::string& why) {
+    throw InputError(InputFault::mesh, source + " is not a whole job file: " + why,
+                     "write it again with qchopper prepare, or copy it again");
+}
+
+// The manifest and the files must name each other exactly.
+void check_entries(const ReadJob& job, const std::string& source) {
+    if (job.entries.size() + 1 != job.files.size()) refuse(source, "the manifest lists other files than are there");
+    for (const JobEntry& entry : job.entries) {
+        const auto found = job.files.find(entry.name);
+        if (entry.name == manifest_name || found == job.files.end()) refuse(source, entry.name + " is missing");
+        if (found->second.size() != entry.size) refuse(source, entry.name + " has another size than the manifest says");
+        if (sha256(found->second) != entry.sha256) refuse(source, entry.name + " does not match its SHA-256");
+    }
+    for (const char* name : {"piece.stl", "preview.glb", "setup.txt", ticket_name}) {
+        if (!job.files.contains(name)) refuse(source, std::string(name) + " is missing");
+    }
+}
+
+void check_ticket(const ReadJob& job, const std::string& source) {
+    const TicketTemplate& ticket = job.ticket;
+    const std::int32_t base = job.setup.base.value_or(no_base_plane);
+    const bool same = ticket.piece == job.piece && ticket.piece_no == job.piece_no &&
+                      ticket.piece_count == job.piece_count && ticket.project_id == job.project_id &&
+                      ticket.box == job.setup.box && ticket.stock == job.setup.block && ticket.base_plane == base;
+    if (!same) refuse(source, "ticket.json and manifest.json speak of different jobs");
+}
+
+}  // namespace
+
+std::string job_file_name(const std::string& piece) {
+    const std::string name = piece + ".qjob";
+    if (!is_job_file_name(name) || piece.empty()) {
+        throw InputError(InputFault::use, "piece \"" + piece + "\" cannot name a job file",
+                         "use up to 27 of A-Z a-z 0-9 . _ -");
+    }
+    return name;
+}
+
+TicketTemplate ticket_template(const JobInput& input) {
+    const Vec3 block = input.setup.block;
+    const Tool& tool = input.cell.tool;
+    TicketTemplate about;
+    about.piece = input.piece.name;
+    about.piece_no = input.piece_no;
+    about.piece_count = input.piece_count;
+    about.project_id = input.project_id;
+    about.box = input.setup.box;
+    about.stock = block;
+    about.material = input.cell.stock[input.setup.stock].material;
+    about.tool_no = tool.number;
+    about.tool_diameter = tool.diameter;
+    about.spindle_max_rpm = tool.spindle_max_rpm;
+    about.feed_max_mm_per_min = tool.feed_max_mm_per_min;
+    about.estimated_time_s =
+        crude_time_s(block.x * block.y * block.z, volume_mm3(*input.piece.mesh), tool.removal_mm3_per_s);
+    about.base_plane = base_plane(input);
+    return about;
+}
+
+Bytes job_file(const JobInput& input) {
+    job_file_name(input.piece.name);  // refuses a name that the wire cannot carry
+    const TriangleMesh lying = apply(input.setup.piece_in_setup, *input.piece.mesh);
+    const PreviewNotes notes{input.piece.name,  input.program_version,         input.piece_no,
+                             input.piece_count, input.setup.base.value_or(-1), input.envelope.fits()};
+    std::map<std::string, Bytes> files;
+    files["piece.stl"] = to_stl(lying);
+    files["preview.glb"] = preview_glb(lying, notes);
+    files["setup.txt"] = to_bytes(setup_sheet(input));
+    files[ticket_name] = to_bytes(to_json(ticket_template(input)));
+    std::vector<JobEntry> entries;
+    std::uint64_t total = 0;
+    for (const auto& [name, bytes] : files) {
+        entries.push_back({name, bytes.size(), sha256(bytes)});
+        total += bytes.size();
+    }
+    if (total > largest_file - largest_text) {
+        throw InputError(InputFault::use, "piece " + input.piece.name + ": its job file would exceed 4 GB",
+                         "cut the piece further");
+    }
+    files[manifest_name] = to_bytes(to_manifest(input, entries));
+    return zip(files);
+}
+
+ReadJob parse_job(const Bytes& bytes, const std::string& source) {
+    if (bytes.size() > largest_file) refuse(source, "it is larger than 4 GB");
+    std::map<std::string, Bytes> files = unzip(bytes, source);
+    for (const char* name : {manifest_name, ticket_name}) {
+        if (!files.contains(name)) refuse(source, std::string(name) + " is missing");
+        if (files[name].size() > largest_text) refuse(source, std::string(name) + " is too large");
+    }
+    ReadJob job = from_manifest(as_text(files[manifest_name]), source);
+    job.files = std::move(files);
+    check_entries(job, source);
+    job.ticket = ticket_template_from_json(as_text(job.files[ticket_name]), source);
+    check_ticket(job, source);
+    job.file_size = static_cast<std::uint32_t>(bytes.size());
+    job.file_sha256 = sha256(bytes);
+    return job;
+}
+
+ReadJob read_job(const std::filesystem::path& path) {
+    std::error_code unknown;  // a file that is not there is read_file's to report
+    const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+    if (!unknown && size > largest_file) refuse(path.string(), "it is larger than 4 GB");
+    return parse_job(read_file(path), path.string());
+}
+
+JobTicket job_ticket(const std::filesystem::path& path) {
+    const std::string name = path.filename().string();
+    if (!is_job_file_name(name)) {
+        throw InputError(InputFault::use, path.string() + ": the cell takes no file of this name",
+                         "use 1 to 32 of A-Z a-z 0-9 . _ -, not beginning with a dot");
+    }
+    const ReadJob job = read_job(path);
+    return {job.ticket, name, job.file_size, job.file_sha256};
+}
+
+}  // namespace qchopper

@@ -1,0 +1,71 @@
+#include "cam/job/json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace qchopper::json_values {
+namespace {
+
+double number(const Json& value, const std::string& key) {
+    if (!value.is_number() || !std::isfinite(value.get<double>())) throw wrong(key, "is not a finite number");
+    return value.get<double>();
+}
+
+}  // namespace
+
+const Json& member(const Json& object, const std::string& key) {
+    if (!object.is_object() || !object.contains(key)) throw wrong(key, "is missing");
+    return object.at(key);
+}
+
+std::string text(const Json& object, const std::string& key) {
+    const Json& value = member(object, key);
+    if (!value.is_string()) throw wrong(key, "is not a text");
+    return value.get<std::string>();
+}
+
+bool truth(const Json& object, const std::string& key) {
+    const Json& value = member(object, key);
+    if (!value.is_boolean()) throw wrong(key, "is not true or false");
+    return value.get<bool>();
+}
+
+double real(const Json& object, const std::string& key) {
+    return number(member(object, key), key);
+}
+
+std::uint64_t whole_up_to(const Json& object, const std::string& key, std::uint64_t most) {
+    const Json& value = member(object, key);
+    if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most) {
+        throw wrong(key, "is not a whole number in bounds");
+    }
+    return value.get<std::uint64_t>();
+}
+
+Vec3 to_vector(const Json& value, const std::string& key) {
+    if (!value.is_array() || value.size() != 3) throw wrong(key, "is not three numbers");
+    return {number(value[0], key), number(value[1], key), number(value[2], key)};
+}
+
+Vec3 vector(const Json& object, const std::string& key) {
+    return to_vector(member(object, key), key);
+}
+
+Box box(const Json& object, const std::string& key) {
+    const Json& value = member(object, key);
+    return {vector(value, "min"), vector(value, "max")};
+}
+
+Json from_vector(Vec3 v) {
+    return Json::array({v.x, v.y, v.z});
+}
+
+Json from_box(const Box& box) {
+    return {{"min", from_vector(box.min)}, {"max", from_vector(box.max)}};
+}
+
+std::string written(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace qchopper::json_values

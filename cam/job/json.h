@@ -1,0 +1,68 @@
+// Values out of a JSON text that somebody else may have written: each is checked before it is believed.
+//
+// The readers throw std::runtime_error that names the key; the caller knows the file.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json_fwd.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "segment/mesh/measure.h"
+
+namespace qchopper::json_values {
+
+using Json = nlohmann::ordered_json;
+
+inline std::runtime_error wrong(const std::string& key, const std::string& why) {
+    return std::runtime_error(key + " " + why);
+}
+
+const Json& member(const Json& object, const std::string& key);
+std::string text(const Json& object, const std::string& key);
+bool truth(const Json& object, const std::string& key);
+double real(const Json& object, const std::string& key);  // finite
+std::uint64_t whole_up_to(const Json& object, const std::string& key, std::uint64_t most);
+Vec3 to_vector(const Json& value, const std::string& key);
+Vec3 vector(const Json& object, const std::string& key);
+Box box(const Json& object, const std::string& key);
+
+Json from_vector(Vec3 v);
+Json from_box(const Box& box);
+
+// Two spaces a level and a last newline: a person may want to read it.
+std::string written(const Json& json);
+
+template <class Whole>
+Whole whole(const Json& object, const std::string& key) {
+    return static_cast<Whole>(whole_up_to(object, key, std::numeric_limits<Whole>::max()));
+}
+
+template <std::size_t Size>
+std::string to_hex(const std::array<std::uint8_t, Size>& bytes) {
+    std::string digits;
+    for (const std::uint8_t byte : bytes) {
+        digits += "0123456789abcdef"[byte >> 4];
+        digits += "0123456789abcdef"[byte & 15];
+    }
+    return digits;
+}
+
+template <std::size_t Size>
+std::array<std::uint8_t, Size> from_hex(const Json& object, const std::string& key) {
+    const std::string digits = text(object, key);
+    if (digits.size() != 2 * Size) throw wrong(key, "is not " + std::to_string(2 * Size) + " hexadecimal digits");
+    std::array<std::uint8_t, Size> bytes{};
+    for (std::size_t i = 0; i < digits.size(); ++i) {
+        const std::size_t value = std::string_view("0123456789abcdef").find(digits[i]);
+        if (value == std::string_view::npos) throw wrong(key, "holds a digit other than 0-9 and a-f");
+        bytes[i / 2] = static_cast<std::uint8_t>(bytes[i / 2] * 16 + value);
+    }
+    return bytes;
+}
+
+}  // namespace qchopper::json_values

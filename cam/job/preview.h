@@ -1,0 +1,27 @@
+// The piece as it will be carved, as GLB, for any viewer.
+//
+// glTF wants metres and Y up: the root node turns and scales, the numbers inside stay millimetres in setup coordinates
+// in single precision. The node piece/<name> carries extras {"qchopper": {...}} (tests/cam/job/preview_test.cpp).
+
+#pragma once
+
+#include <string>
+
+#include "segment/files/file.h"
+#include "segment/mesh/triangle_mesh.h"
+
+namespace qchopper {
+
+struct PreviewNotes {
+    std::string piece;
+    std::string program_version;
+    int piece_no = 0;
+    int piece_count = 0;
+    int base = -1;  // number of the cut whose cap lies on the table; -1: none
+    bool fits = true;
+};
+
+// The mesh is in setup coordinates. Caps are a second primitive with a colour of their own.
+Bytes preview_glb(const TriangleMesh& mesh, const PreviewNotes& notes);
+
+}  // namespace qchopper

@@ -1,0 +1,25 @@
+#include "cam/job/text.h"
+
+#include <charconv>
+#include <system_error>
+
+namespace qchopper {
+
+std::string fixed(double value, int decimals) {
+    char text[400];  // the largest double has 309 digits
+    const auto result = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, decimals);
+    if (result.ec != std::errc{}) return "?";
+    std::string digits(text, result.ptr);
+    if (digits.starts_with("-") && digits.find_first_not_of("-0.") == std::string::npos) digits.erase(0, 1);
+    return digits;
+}
+
+std::string duration(std::uint32_t seconds) {
+    if (seconds < 60) return std::to_string(seconds) + " s";
+    const std::uint32_t minutes = seconds / 60 + (seconds % 60 >= 30 ? 1 : 0);
+    if (minutes < 60) return std::to_string(minutes) + " min";
+    const std::string rest = std::to_string(minutes % 60);
+    return std::to_string(minutes / 60) + " h " + (rest.size() < 2 ? "0" : "") + rest + " min";
+}
+
+}  // namespace qchopper

@@ -1,0 +1,16 @@
+// Numbers for people: the same letters under every locale (tests/cam/job/ticket_test.cpp).
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace qchopper {
+
+// A number with so many decimals; never "-0".
+std::string fixed(double value, int decimals);
+
+// "45 s", "12 min", "3 h 05 min".
+std::string duration(std::uint32_t seconds);
+
+}  // namespace qchopper

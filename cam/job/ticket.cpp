@@ -1,0 +1,73 @@
+#include "cam/job/ticket.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "cam/job/json.h"
+#include "segment/error.h"
+
+namespace qchopper {
+
+using namespace json_values;
+
+std::string to_json(const TicketTemplate& about) {
+    const Json json = {{"ticket_version", 1},
+                       {"piece", about.piece},
+                       {"piece_no", about.piece_no},
+                       {"piece_count", about.piece_count},
+                       {"project_id", json_values::to_hex(about.project_id)},
+                       {"box", from_box(about.box)},
+                       {"stock", from_vector(about.stock)},
+                       {"material", to_word(about.material)},
+                       {"tool_no", about.tool_no},
+                       {"tool_diameter", about.tool_diameter},
+                       {"spindle_max_rpm", about.spindle_max_rpm},
+                       {"feed_max_mm_per_min", about.feed_max_mm_per_min},
+                       {"estimated_time_s", about.estimated_time_s},
+                       {"base_plane", about.base_plane}};
+    return written(json);
+}
+
+TicketTemplate ticket_template_from_json(std::string_view text, const std::string& source) {
+    try {
+        const Json json = Json::parse(text);
+        if (whole<std::uint16_t>(json, "ticket_version") != 1) throw wrong("ticket_version", "is not 1");
+        TicketTemplate about;
+        about.piece = json_values::text(json, "piece");
+        about.piece_no = whole<std::uint16_t>(json, "piece_no");
+        about.piece_count = whole<std::uint16_t>(json, "piece_count");
+        about.project_id = from_hex<16>(json, "project_id");
+        about.box = box(json, "box");
+        about.stock = vector(json, "stock");
+        const std::optional<Material> material = material_of(json_values::text(json, "material"));
+        if (!material) throw wrong("material", "is none that we know");
+        about.material = *material;
+        about.tool_no = whole<std::uint16_t>(json, "tool_no");
+        about.tool_diameter = real(json, "tool_diameter");
+        about.spindle_max_rpm = whole<std::uint16_t>(json, "spindle_max_rpm");
+        about.feed_max_mm_per_min = whole<std::uint32_t>(json, "feed_max_mm_per_min");
+        about.estimated_time_s = whole<std::uint32_t>(json, "estimated_time_s");
+        about.base_plane = whole<std::uint16_t>(json, "base_plane");
+        return about;
+    } catch (const std::exception& error) {
+        throw InputError(InputFault::mesh, source + ": ticket template: " + error.what(), "write the job again");
+    }
+}
+
+bool is_job_file_name(std::string_view name) {
+    const auto allowed = [](char c) {
+        return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' || c == '_' ||
+               c == '-';
+    };
+    return !name.empty() && name.size() <= 32 && name.front() != '.' && std::all_of(name.begin(), name.end(), allowed);
+}
+
+std::uint32_t crude_time_s(double stock_mm3, double piece_mm3, double removal_mm3_per_s) {
+    const double seconds = std::ceil((stock_mm3 - piece_mm3) / removal_mm3_per_s);
+    const double most = std::numeric_limits<std::uint32_t>::max();
+    return static_cast<std::uint32_t>(std::clamp(std::isnan(seconds) ? most : seconds, 1.0, most));
+}
+
+}  // namespace qchopper

@@ -1,0 +1,88 @@
+#include "cam/setup/envelope.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace qchopper {
+namespace {
+
+constexpr double rounding = 1e-6;  // mm
+
+std::string whole_mm(double mm) {
+    // A violation of a tenth is not "0 mm too high".
+    const double shown = std::abs(mm) < 10 ? std::ceil(std::abs(mm) * 10) / 10 : std::ceil(std::abs(mm));
+    std::string text = std::to_string(shown);
+    text.erase(text.find('.') + 2);
+    if (text.ends_with(".0")) text.erase(text.size() - 2);
+    return text + " mm";
+}
+
+std::string size_words(Vec3 size) {
+    const auto number = [](double mm) { return std::to_string(std::lround(mm)); };
+    return number(size.x) + " x " + number(size.y) + " x " + number(size.z) + " mm";
+}
+
+void add_piece_margins(const Setup& setup, const Cell& cell, std::vector<Margin>& margins) {
+    const Vec3 piece = setup.box.size();
+    const Vec3 block = setup.block;
+    const std::string name = "block " + cell.stock[setup.stock].name + " (" + size_words(block) + ")";
+    const double m = cell.stock_margin;
+    margins.push_back({"piece in block, length", "too long for " + name, block.x - piece.x - 2 * m});
+    margins.push_back({"piece in block, width", "too wide for " + name, block.y - piece.y - 2 * m});
+    margins.push_back({"piece in block, height", "too high for " + name, block.z - piece.z - m});
+}
+
+// The tool walks around the block, half of it outside.
+void add_reach_margins(const Setup& setup, const Cell& cell, std::vector<Margin>& margins) {
+    const Table& table = cell.table;
+    const Box& reach = cell.reach;
+    const double half_x = setup.block.x / 2 + cell.tool.diameter / 2;
+    const double half_y = setup.block.y / 2 + cell.tool.diameter / 2;
+    const std::string beyond = "of its block beyond the reach in ";
+    margins.push_back({"block to reach, -x", beyond + "-x", table.centre_x - half_x - reach.min.x});
+    margins.push_back({"block to reach, +x", beyond + "+x", reach.max.x - table.centre_x - half_x});
+    margins.push_back({"block to reach, -y", beyond + "-y", table.centre_y - half_y - reach.min.y});
+    margins.push_back({"block to reach, +y", beyond + "+y", reach.max.y - table.centre_y - half_y});
+    margins.push_back({"block top to reach ceiling", "too high for the reach with block and clearance",
+                       reach.max.z - table.height - setup.block.z - cell.clearance});
+    margins.push_back({"table to reach floor", "of its underside below the reach", table.height - reach.min.z});
+}
+
+}  // namespace
+
+bool EnvelopeReport::fits() const {
+    return worst().mm >= -rounding;
+}
+
+const Margin& EnvelopeReport::worst() const {
+    assert(!margins.empty());
+    return *std::min_element(margins.begin(), margins.end(),
+                             [](const Margin& a, const Margin& b) { return a.mm < b.mm; });
+}
+
+EnvelopeReport check_envelope(const Setup& setup, const Cell& cell) {
+    EnvelopeReport report;
+    add_piece_margins(setup, cell, report.margins);
+    add_reach_margins(setup, cell, report.margins);
+    report.margins.push_back(
+        {"block on table, x", "of its block beyond the table in x", (cell.table.size_x - setup.block.x) / 2});
+    report.margins.push_back(
+        {"block on table, y", "of its block beyond the table in y", (cell.table.size_y - setup.block.y) / 2});
+    return report;
+}
+
+std::string envelope_words(const std::string& piece, const EnvelopeReport& report) {
+    if (report.fits()) {
+        return "piece " + piece + " fits, tightest: " + report.worst().name + " " +
+               std::to_string(static_cast<long>(std::floor(std::max(0.0, report.worst().mm)))) + " mm";
+    }
+    std::string words;
+    for (const Margin& margin : report.margins) {
+        if (margin.mm >= -rounding) continue;
+        words += (words.empty() ? "" : ", ") + whole_mm(margin.mm) + " " + margin.problem;
+    }
+    return "piece " + piece + " does not fit: " + words;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,62 @@
+#include "cam/setup/undercut.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <vector>
+
+#include "segment/mesh/measure.h"
+
+namespace qchopper {
+namespace {
+
+// A wall turned by rounding must not become an overhang.
+constexpr double wall = 1e-6;
+
+}  // namespace
+
+Facing facing(const TriangleMesh& mesh, Vec3 up, std::optional<std::int32_t> base) {
+    Facing sums;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const double projected = dot(area_vector(mesh, t), up);
+        if (base && cap_of(mesh, t) == *base) {
+            sums.base -= projected;
+            ++sums.base_triangles;
+        } else if (projected < 0) {
+            sums.down -= projected;
+        } else {
+            sums.up += projected;
+        }
+    }
+    return sums;
+}
+
+double hidden_share(const TriangleMesh& mesh, const RayTree& rays, Vec3 up, std::optional<std::int32_t> base) {
+    const double off_the_surface = 1e-5 * norm(bounds(mesh).size());  // rays are single precision
+    std::vector<char> hidden(mesh.triangles.size(), 0);
+    const auto look = [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t t = range.begin(); t < range.end(); ++t) {
+            const Vec3 n = normalized(area_vector(mesh, t));
+            if (dot(n, up) < -wall) {
+                hidden[t] = 1;
+                continue;
+            }
+            const Triangle& corner = mesh.triangles[t];
+            const Vec3 middle = (1.0 / 3) * (mesh.points[corner[0]] + mesh.points[corner[1]] + mesh.points[corner[2]]);
+            hidden[t] = rays.first_hit(middle + off_the_surface * n, up).has_value() ? 1 : 0;
+        }
+    };
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.triangles.size(), 1024), look);
+    double all = 0;
+    double unseen = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (base && cap_of(mesh, t) == *base) continue;
+        const double area = norm(area_vector(mesh, t));
+        all += area;
+        if (hidden[t] != 0) unseen += area;
+    }
+    return all > 0 ? unseen / all : 0;
+}
+
+}  // namespace qchopper

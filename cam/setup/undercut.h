@@ -1,0 +1,32 @@
+// What a piece shows to a tool from straight above, when one of its caps lies on the table.
+//
+// Undercut u(phi): Nicholson, "QChopper", 2016, section 4.2.4, the base left out: with it the share is one half for
+// every closed surface. In [0, 1/2) on a closed piece (tests/cam/setup/undercut_test.cpp).
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "segment/mesh/rays.h"
+#include "segment/mesh/triangle_mesh.h"
+
+namespace qchopper {
+
+// Projected areas along `up`, in mm2.
+struct Facing {
+    double up = 0;    // of what faces up, base left out
+    double down = 0;  // of what faces down, base left out
+    double base = 0;  // of the base, signed: positive when it faces down
+    std::size_t base_triangles = 0;
+    // Share of what faces down; 1/2 where nothing faces either way.
+    double undercut() const { return up + down > 0 ? down / (up + down) : 0.5; }
+};
+Facing facing(const TriangleMesh& mesh, Vec3 up, std::optional<std::int32_t> base);
+
+// Share of the area, base left out, that faces down or has something of the piece straight above its middle. A wall
+// counts as seen: the side of the tool cuts it.
+double hidden_share(const TriangleMesh& mesh, const RayTree& rays, Vec3 up, std::optional<std::int32_t> base);
+
+}  // namespace qchopper

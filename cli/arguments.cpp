@@ -1,0 +1,242 @@
+#include "cli/arguments.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <iostream>
+#include <numeric>
+#include <sstream>
+
+#include "cli/exit_code.h"
+#include "cli/version.h"
+
+namespace qchopper {
+namespace {
+
+constexpr const char* examples = R"(Examples:
+  qchopper sample vertebra --faces 50000 -o vertebra.ply
+  qchopper inspect vertebra.ply --units mm
+  qchopper prepare vertebra.ply --units mm --cell cells/foam-1.toml --min-cuts 3 -o vertebra.qch
+  qchopper dry-run vertebra.qch
+  qchopper cell-sim --listen 127.0.0.1:15020 --drop drop --consent ask
+  qchopper dispatch vertebra.qch --to 127.0.0.1:15020 --drop drop
+
+Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use, 65 the scan is wrong,
+66 input missing, 69 cell not reachable, 73/74 cannot write, 75 try again later, 76 protocol, 78 settings file,
+130 stopped (finished work is kept).)";
+
+// Edits that turn one word into another.
+std::size_t distance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0]++;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t above = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+            diagonal = above;
+        }
+    }
+    return row[b.size()];
+}
+
+std::string hint(CLI::App& app, int argc, const char* const* argv) {
+    if (argc < 2 || argv[1][0] == '-') return {};
+    for (const CLI::App* command : app.get_subcommands({})) {
+        if (command->get_name() == argv[1]) return {};
+    }
+    for (const CLI::App* command : app.get_subcommands({})) {
+        if (distance(command->get_name(), argv[1]) <= 2) {
+            return "\"" + std::string(argv[1]) + "\" is no command; did you mean \"" + command->get_name() + "\"?";
+        }
+    }
+    return "\"" + std::string(argv[1]) + "\" is no command";
+}
+
+// Own words instead of CLI11's validators, which print type names and 300-digit bounds.
+CLI::Validator number_between(double low, double high, const std::string& words) {
+    return CLI::Validator(
+        [=](const std::string& text) {
+            double value = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            const bool ok = error == std::errc() && end == text.data() + text.size() && value >= low && value <= high;
+            return ok ? std::string() : "\"" + text + "\" is not " + words;
+        },
+        "");
+}
+
+CLI::Validator one_of(const std::vector<std::string>& words) {
+    return CLI::Validator(
+        [=](const std::string& text) {
+            if (std::find(words.begin(), words.end(), text) != words.end()) return std::string();
+            std::string list;
+            for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+            return "\"" + text + "\" is not one of " + list;
+        },
+        "");
+}
+
+constexpr double many = 1e15;
+
+void add_common(CLI::App* command, Arguments& arguments) {
+    command->add_flag("--json", arguments.json, "exactly one JSON document on stdout");
+    command->add_flag("-q,--quiet", arguments.quiet, "no progress, only warnings and errors on stderr");
+}
+
+// The text of X,Y,Z as three lengths.
+std::optional<Vec3> three_lengths(const std::string& text) {
+    std::istringstream in(text);
+    Vec3 v;
+    char comma[2] = {};
+    if (!(in >> v.x >> comma[0] >> v.y >> comma[1] >> v.z) || comma[0] != ',' || comma[1] != ',') return std::nullopt;
+    char rest = 0;
+    if (in >> rest || !(v.x > 0 && v.y > 0 && v.z > 0)) return std::nullopt;
+    return v;
+}
+
+struct Parser {
+    CLI::App app{"From the scan of a bone to carving jobs for a robot cell.", "qchopper"};
+    Arguments common;
+    SampleArguments sample;
+    InspectArguments inspect;
+    PrepareArguments prepare;
+    DryRunArguments dry_run;
+    CellSimArguments cell_sim;
+    DispatchArguments dispatch;
+    std::string max_obb;
+
+    Parser() {
+        app.footer(examples);
+        app.require_subcommand(1);
+        app.set_version_flag("--version", std::string("qchopper ") + version);
+        add_sample();
+        add_inspect();
+        add_prepare();
+        add_dry_run();
+        add_cell_sim();
+        add_dispatch();
+    }
+
+    void add_sample() {
+        CLI::App* c = app.add_subcommand("sample", "make a specimen that looks like a bone and is hard like one");
+        c->add_option("SPECIMEN", sample.specimen, "vertebra, femur or skull")
+            ->required()
+            ->check(one_of({"vertebra", "femur", "skull"}));
+        c->add_option("--faces", sample.faces, "how many faces (100000)")
+            ->check(number_between(1, many, "a count of faces"));
+        c->add_option("--holes", sample.holes, "leave so many holes (0)")
+            ->check(number_between(0, 1e6, "a count of holes"));
+        c->add_option("-o,--out", sample.out, "the file to write: .ply, or .stl")->required();
+        add_common(c, common);
+    }
+
+    void add_inspect() {
+        CLI::App* c = app.add_subcommand("inspect", "say what a scan is and what is wrong with it");
+        c->add_option("SCAN", inspect.scan, "PLY or STL")->required();
+        c->add_option("--units", inspect.units, "what one unit of the file is: mm, cm, m, in")
+            ->check(one_of({"mm", "cm", "m", "in"}));
+        add_common(c, common);
+    }
+
+    void add_prepare() {
+        CLI::App* c = app.add_subcommand("prepare", "the whole way: from a scan to job files");
+        c->add_option("SCAN", prepare.input, "PLY or STL; or the folder NAME.qch of a project to go on with")
+            ->required();
+        c->add_option("--units", prepare.units, "what one unit of the scan is: mm, cm, m, in")
+            ->check(one_of({"mm", "cm", "m", "in"}));
+        c->add_option("--scale", prepare.scale, "enlarge by this factor; recorded, and shown as a warning")
+            ->check(number_between(1e-6, 1e6, "a factor above 0"));
+        c->add_option("--cell", prepare.cell, "the cell file (docs/cell-file.md)");
+        c->add_option("--preset", prepare.preset, "weights and stop rule by name: bunny, femur, vertebrae, skull")
+            ->check(one_of({"bunny", "femur", "vertebrae", "skull"}));
+        c->add_option("--min-cuts", prepare.min_cuts, "stop rule: make at least N cuts")
+            ->check(number_between(0, 1e6, "a count of cuts"));
+        c->add_option("--max-faces", prepare.max_faces, "stop rule: every piece has fewer than N faces")
+            ->check(number_between(1, many, "a count of faces"));
+        c->add_option("--max-obb", max_obb, "stop rule: every piece fits in a box of X,Y,Z mm, in some orientation")
+            ->check(CLI::Validator(
+                [](const std::string& text) {
+                    return three_lengths(text) ? std::string() : "\"" + text + "\" is not X,Y,Z in mm";
+                },
+                ""));
+        c->add_flag("--fits-cell", prepare.fits_cell,
+                    "stop rule: every piece fits the cell (the default if no other is set)");
+        c->add_option("--stop", prepare.stop, "stop when any or all of the rules hold (all)")
+            ->check(one_of({"any", "all"}));
+        c->add_option("--fragility", prepare.fragility, "form of that objective: thinness or thesis (thinness)")
+            ->check(one_of({"thinness", "thesis"}));
+        c->add_option("--crumbs", prepare.crumbs, "solids too small to be pieces: keep or drop (keep)")
+            ->check(one_of({"keep", "drop"}));
+        c->add_option("-o,--out", prepare.out, "the project folder to make: NAME.qch");
+        add_common(c, common);
+    }
+
+    void add_dry_run() {
+        CLI::App* c = app.add_subcommand("dry-run", "hand every piece to a simulated cell inside, over real TCP");
+        c->add_option("PROJECT", dry_run.project, "the folder NAME.qch")->required();
+        c->add_option("--piece", dry_run.piece, "only this piece");
+        c->add_option("--speed", dry_run.speed, "simulated seconds per second (100000)")
+            ->check(number_between(1e-3, 1e9, "a factor above 0"));
+        add_common(c, common);
+    }
+
+    void add_cell_sim() {
+        CLI::App* c = app.add_subcommand("cell-sim", "be a simulated cell until stopped");
+        c->add_option("--listen", cell_sim.listen, "HOST:PORT (127.0.0.1:15020); port 0 takes a free one");
+        c->add_option("--drop", cell_sim.drop, "the folder where job files arrive")->required();
+        c->add_option("--consent", cell_sim.consent, "auto, ask (on this terminal) or never (auto)")
+            ->check(one_of({"auto", "ask", "never"}));
+        c->add_option("--store", cell_sim.store, "the folder of the cell's lasting memory; none: it forgets");
+        c->add_option("--cell", cell_sim.cell, "take id, reach and stock from this cell file");
+        c->add_option("--speed", cell_sim.speed, "simulated seconds per second (1)")
+            ->check(number_between(1e-3, 1e9, "a factor above 0"));
+        add_common(c, common);
+    }
+
+    void add_dispatch() {
+        CLI::App* c = app.add_subcommand("dispatch", "hand the jobs to the cell and follow them to their end");
+        c->add_option("PROJECT", dispatch.project, "the folder NAME.qch")->required();
+        c->add_option("--piece", dispatch.piece, "only this piece");
+        c->add_option("--to", dispatch.to, "HOST:PORT of the cell (from the cell file)");
+        c->add_option("--drop", dispatch.drop, "the folder where the cell fetches job files (from the cell file)");
+        c->add_flag("--yes", dispatch.yes, "do not ask before a real cell is set in motion");
+        add_common(c, common);
+    }
+
+    Arguments result() {
+        if (!max_obb.empty()) prepare.max_obb = three_lengths(max_obb);
+        const std::string name = app.get_subcommands().front()->get_name();
+        if (name == "sample")
+            common.command = sample;
+        else if (name == "inspect")
+            common.command = inspect;
+        else if (name == "prepare")
+            common.command = prepare;
+        else if (name == "dry-run")
+            common.command = dry_run;
+        else if (name == "cell-sim")
+            common.command = cell_sim;
+        else
+            common.command = dispatch;
+        return common;
+    }
+};
+
+}  // namespace
+
+std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) {
+    Parser parser;
+    try {
+        parser.app.parse(argc, argv);
+        return parser.result();
+    } catch (const CLI::ParseError& e) {
+        if (e.get_exit_code() == 0) return parser.app.exit(e, std::cout, std::cerr);  // help, version
+        const std::string near = hint(parser.app, argc, argv);
+        std::cerr << "qchopper: " << (near.empty() ? e.what() : near) << ". Nothing was done. See qchopper --help.\n";
+        return static_cast<int>(exit_use);
+    }
+}
+
+}  // namespace qchopper

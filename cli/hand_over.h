@@ -1,0 +1,39 @@
+// What dry-run and dispatch share: which jobs of a project, one after the other over a bus, and the table at the end.
+
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cam/job/ticket.h"
+#include "cli/terminal.h"
+#include "devices/dispatch.h"
+
+namespace qchopper {
+
+// The job files of a project, in the order of its pieces; only one piece if it is named.
+// Throws InputError: an unfinished project, no such piece, a job file that is missing or broken.
+struct PieceJob {
+    std::string piece;
+    std::filesystem::path file;
+    JobTicket ticket;
+};
+std::vector<PieceJob> jobs_of(const std::filesystem::path& project, const std::optional<std::string>& piece);
+
+struct HandedOver {
+    std::string piece;
+    JobOutcome outcome;
+};
+
+// Stops at the first job that did not run to its end: what follows may need the block that it left.
+std::vector<HandedOver> hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options,
+                                  Terminal& terminal);
+
+// Shows table or document; returns the exit code.
+int report(const std::vector<HandedOver>& handed, std::size_t wanted, const std::string& schema, bool simulated,
+           Terminal& terminal);
+
+}  // namespace qchopper

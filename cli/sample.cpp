@@ -1,0 +1,40 @@
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+#include "segment/intake/inspect.h"
+#include "segment/intake/write_ply.h"
+#include "segment/intake/write_stl.h"
+#include "segment/mesh/measure.h"
+#include "segment/sample/sample.h"
+
+namespace qchopper {
+
+int run(const SampleArguments& arguments, Terminal& terminal) {
+    const bool is_stl = arguments.out.extension() == ".stl";
+    if (!is_stl && arguments.out.extension() != ".ply") {
+        throw InputError(InputFault::use, arguments.out.string() + " ends neither in .ply nor in .stl",
+                         "name a .ply file");
+    }
+    SampleOptions options;
+    options.faces = arguments.faces;
+    options.holes = arguments.holes;
+    const TriangleMesh mesh = sample(*specimen_named(arguments.specimen), options, terminal.context());
+    write_file(arguments.out, is_stl ? to_stl(mesh) : to_ply(mesh));
+    const std::string size = size_in_words(bounds(mesh).size());
+    terminal.show(arguments.out.string() + ": " + arguments.specimen + ", " + with_commas(mesh.triangles.size()) +
+                  " faces, " + size + ", in mm");
+    terminal.json(nlohmann::ordered_json{
+        {"schema", "qchopper-sample-1"},
+        {"specimen", arguments.specimen},
+        {"file", arguments.out.string()},
+        {"faces", mesh.triangles.size()},
+        {"vertices", mesh.points.size()},
+        {"holes", arguments.holes},
+        {"units", "mm"},
+        {"size",
+         size}}.dump(1));
+    return exit_done;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,28 @@
+// What a simulated cell can, taken from a cell file.
+
+#pragma once
+
+#include "cam/cell/cell.h"
+#include "sim/machine.h"
+
+namespace qchopper {
+
+// The reach counts from the base frame of the programs: the middle of the table's top.
+inline CellLimits simulated_limits(const Cell& cell) {
+    CellLimits limits;
+    limits.cell_id = cell.id;
+    const Vec3 base{cell.table.centre_x, cell.table.centre_y, cell.table.height};
+    limits.reach = {cell.reach.min - base, cell.reach.max - base};
+    limits.max_stock = {};
+    for (const Stock& stock : cell.stock) {
+        const double wide = stock.size.x > stock.size.y ? stock.size.x : stock.size.y;  // it may stand turned
+        for (int axis = 0; axis < 3; ++axis) {
+            const double size = axis == 2 ? stock.size.z : wide;
+            if (size > limits.max_stock[axis]) limits.max_stock[axis] = size;
+        }
+    }
+    limits.tools = {cell.tool.number};
+    return limits;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,144 @@
+// The hand-off of one job as a pure state machine: what is known, what was answered and the time give the next action.
+//
+// Seconds of a clock that never jumps. Nothing here touches the outside world: dispatch.h does the actions, writes the
+// journal row of an action before it, and brings back the answers. START is sent at most once per token, and only
+// after a fresh CLAIM and a QUERY; whatever is not known for certain is reported UNKNOWN
+// (tests/devices/hand_off_test.cpp).
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/bus.h"
+#include "devices/codec.h"
+#include "devices/device_error.h"
+#include "devices/dispatch.h"
+
+namespace qchopper {
+
+enum class HandOffStep : std::uint8_t {
+    check_cell,
+    stage_file,
+    claim,
+    ask_before,
+    make_ready,
+    write_ticket,
+    write_signature,
+    store,
+    deliver,
+    verify,
+    rehearse,
+    prepare,
+    start,
+    run,
+    ask_after,
+    clear_result,
+    reset,
+    cancel,
+    release,
+    finished
+};
+const char* name(HandOffStep step);
+
+// All that is fixed before the first contact.
+struct HandOffPlan {
+    TicketWords ticket;
+    std::uint32_t owner = 0;   // random, not 0
+    std::uint32_t secret = 0;  // random, never shown
+    DispatchOptions options;
+};
+
+struct HandOffAction {
+    enum class Kind : std::uint8_t {
+        read_status,
+        read_result,
+        write_command,
+        write_ticket,
+        write_signature,
+        write_chunk,
+        heartbeat,
+        stage_file,  // the job file to the drop folder under a name that the cell does not look at
+        put_file,    // and from there to its name
+        wait,
+        finish
+    };
+    Kind kind = Kind::read_status;
+    Command command;           // write_command
+    Heartbeat beat;            // heartbeat
+    std::uint32_t offset = 0;  // write_chunk
+    double until_s = 0;        // wait
+    std::string journal;       // a row to be kept before the action is done; empty: none
+};
+
+// The answer to the last action.
+struct HandOffInput {
+    BusEnd end = BusEnd::ok;
+    int exception = 0;
+    WordFault fault = WordFault::none;  // with `lost`: somebody answered, but not like a cell
+    std::string why;                    // if end is not ok, or if put_file failed
+    std::optional<Status> status;
+    std::optional<ResultWords> result;
+    bool cancelled = false;  // the caller asks to stop
+};
+
+// What the hand-off knows. Begin with HandOff{}.
+struct HandOff {
+    HandOffStep step = HandOffStep::check_cell;
+    HandOffAction last;  // what was asked for last
+    bool has_begun = false;
+    std::optional<HandOffAction> deferred;  // to be done after a heartbeat, or again after "busy"
+
+    Command command;  // under way
+    bool waits_for_ack = false;
+    std::uint32_t epoch = 0;
+    std::uint32_t seq = 0;
+    std::uint32_t receipt = 0;
+    std::uint32_t chunk_next = 0;
+    std::uint32_t chunk_done = 0;  // as the cell said last
+    int chunks_in_flight = 0;
+
+    std::optional<Status> status;  // last good one
+    double step_since_s = 0;
+    double sent_s = 0;
+    double beat_s = 0;
+    std::uint16_t beat_counter = 0;
+    double cell_beat_s = 0;  // when the cell's heartbeat moved last
+    double lost_since_s = -1;
+    int lost_times = 0;
+    int busy_times = 0;
+    int fences = 0;    // repeated CLAIMs
+    int attempts = 0;  // STARTs that turned out not to have arrived
+
+    bool is_owner = false;  // CLAIM was granted
+    bool file_is_staged = false;
+    bool is_stored = false;    // STORE was sent: the cell may hold our job
+    bool start_sent = false;   // under the present epoch; the start may have happened
+    bool is_started = false;   // known
+    bool has_pending = false;  // PENDING was told
+    bool is_frozen = false;    // was told
+    bool is_cancelled = false;
+    bool reset_sent = false;   // at the end
+
+    double elapsed_s = 0;               // of the job, as the cell said last
+    std::optional<ResultWords> result;  // of the query at the end
+    StartVerdict verdict = StartVerdict::unknown;
+    AckResult refusal = AckResult::none;
+    std::optional<DeviceFault> fault;  // finished by an error before anything was started
+    std::string why;
+    std::string to_do;
+};
+
+struct HandOffTurn {
+    HandOff state;
+    HandOffAction action;
+    std::vector<std::string> lines;  // for the operator
+};
+HandOffTurn advance(const HandOffPlan& plan, HandOff state, const HandOffInput& input, double now_s);
+
+// What helps after a refusal, or nothing.
+const char* remedy(AckResult refusal);
+
+}  // namespace qchopper

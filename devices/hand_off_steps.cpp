@@ -1,0 +1,409 @@
+#include <algorithm>
+
+#include "devices/hand_off_turn.h"
+
+namespace qchopper::turning {
+namespace {
+
+// The steps that are one command: what it is, whether it names our job, and what comes next when it is done.
+struct StepRow {
+    HandOffStep step;
+    CellCommand command;
+    bool names_job;
+    HandOffStep next;
+    const char* says;  // when it is done
+};
+using enum HandOffStep;
+constexpr StepRow step_rows[] = {
+    {claim, CellCommand::claim, false, ask_before, "the cell is ours"},
+    {ask_before, CellCommand::query, true, make_ready, ""},
+    {store, CellCommand::store, true, deliver, "the cell has taken the ticket"},
+    {verify, CellCommand::verify, true, prepare, "the cell has the job file, and it is the right one (SHA-256)"},
+    {rehearse, CellCommand::rehearse, true, prepare, "the rehearsal in the cell has passed"},
+    {prepare, CellCommand::prepare, true, start, "the operator at the cell has consented"},
+    {start, CellCommand::start, true, run, "the job has started"},
+    {ask_after, CellCommand::query, true, clear_result, ""},
+    {clear_result, CellCommand::clear_result, true, reset, ""},
+    {reset, CellCommand::reset, false, release, ""},
+    {cancel, CellCommand::cancel, true, release, "the cell has dropped the job"},
+    {release, CellCommand::release, false, finished, ""},
+};
+
+const StepRow* row_of(HandOffStep step) {
+    const auto* row = std::find_if(std::begin(step_rows), std::end(step_rows),
+                                   [step](const StepRow& one) { return one.step == step; });
+    return row == std::end(step_rows) ? nullptr : row;
+}
+
+std::string journal_row(const TurnUnderWay& turn, HandOffStep step) {
+    const std::string numbers = " epoch=" + std::to_string(turn.h.epoch) + " seq=" + std::to_string(turn.h.seq + 1);
+    const std::string job = " job=" + to_text(turn.job_id());
+    switch (step) {
+        case claim:
+            return "EPOCH" + numbers + " owner=" + std::to_string(turn.plan.owner);
+        case start:
+            return "START_INTENT" + job + numbers + " token=" + std::to_string(turn.h.command.token);
+        case clear_result:
+            return "RESULT" + job + " " + name(turn.h.result ? turn.h.result->job_state : JobState::none);
+        default:
+            return std::string("COMMAND ") + name(step) + job + numbers;
+    }
+}
+
+HandOffAction send_step(TurnUnderWay& turn, const StepRow& row) {
+    HandOff& h = turn.h;
+    h.command = Command{};
+    if (row.names_job) {
+        h.command.job_id = turn.job_id();
+        h.command.file_sha256 = turn.plan.ticket.file_sha256;
+    }
+    switch (row.step) {
+        case claim:
+            h.epoch = std::max(h.epoch, turn.status().epoch_held) + 1;
+            h.command.arg1 = turn.plan.secret;
+            break;
+        case store:
+            h.is_stored = true;
+            break;
+        case prepare:
+            h.command.arg0 = h.receipt;
+            break;
+        case start:
+            h.command.token = turn.status().token;
+            h.start_sent = true;
+            break;
+        default:
+            break;
+    }
+    return send(turn, row.command, journal_row(turn, row.step));
+}
+
+// The way to the end after the job has ended; nothing here can change what is reported.
+HandOffAction wind_up(TurnUnderWay& turn) {
+    const Status& status = turn.status();
+    switch (turn.h.step) {
+        case reset:
+            if (!turn.h.reset_sent && (status.state == PackState::stopped || status.state == PackState::complete)) {
+                turn.h.reset_sent = true;
+                return send_step(turn, *row_of(reset));
+            }
+            if (status.state == PackState::resetting && turn.now_s - turn.h.step_since_s < turn.timings().answer_s) {
+                return pause(turn);
+            }
+            return enter(turn, release);
+        case release:
+            if (turn.h.is_owner) return send_step(turn, *row_of(release));
+            [[fallthrough]];
+        default:
+            return give_up(turn, "the hand-off is over");
+    }
+}
+
+HandOffAction tell_end(TurnUnderWay& turn) {
+    HandOff& h = turn.h;
+    const ResultWords& result = *h.result;
+    h.why =
+        result.job_state == JobState::ended && result.job_result == JobResult::complete
+            ? "the job ran to its end"
+            : std::string("the job started and was ") + name(result.job_state) + " (" + name(result.job_result) + ")";
+    if (result.job_state == JobState::aborted) h.to_do = "Look at the cell; a new dispatch is a new job.";
+    return enter(turn, clear_result);
+}
+
+bool answers_our_query(const TurnUnderWay& turn) {
+    const ResultWords& result = *turn.in.result;
+    return result.query_owner == turn.plan.owner && result.query_seq == turn.h.command.seq &&
+           result.job_id == turn.job_id();
+}
+
+// Somebody else's job stands in the way. We own the cell, so its dispatcher has gone.
+HandOffAction clear_the_way(TurnUnderWay& turn) {
+    const Status& status = turn.status();
+    turn.h.command = Command{};
+    turn.h.command.job_id = status.job_id;
+    const std::string job = " job=" + to_text(status.job_id);
+    if (status.job_state == JobState::ended || status.job_state == JobState::aborted) {
+        turn.say("the cell still shows the end of job " + to_text(status.job_id) + " (" + name(status.job_result) +
+                 "); it is cleared from the display, the cell remembers it");
+        return send(turn, CellCommand::clear_result, "CLEAR_OTHER" + job);
+    }
+    if (status.job_state == JobState::stored || status.job_state == JobState::prepared) {
+        turn.say("the cell holds job " + to_text(status.job_id) + " of a dispatcher that has gone; it is cancelled");
+        return send(turn, CellCommand::cancel, "CANCEL_OTHER" + job);
+    }
+    turn.h.fault = DeviceFault::busy;
+    return withdraw(turn, "the cell is busy with job " + to_text(status.job_id) + "; nothing was started",
+                    "Try again when it has ended.");
+}
+
+}  // namespace
+
+HandOffAction enter(TurnUnderWay& turn, HandOffStep step) {
+    HandOff& h = turn.h;
+    if (h.step != step) h.step_since_s = turn.now_s;
+    h.step = step;
+    h.waits_for_ack = false;
+    switch (step) {
+        case stage_file:
+            if (turn.plan.ticket.transfer == Transfer::chunks) return enter(turn, claim);
+            return plain(Kind::stage_file);
+        case make_ready:
+            // Whoever has decided to withdraw does not go on after a lost link.
+            if (!h.why.empty()) return enter(turn, h.is_stored ? cancel : release);
+            return get_ready(turn);
+        case write_ticket:
+            return plain(Kind::write_ticket);
+        case write_signature:
+            return plain(Kind::write_signature);
+        case deliver:
+            h.chunk_done = h.chunk_next = turn.status().transfer_next;
+            h.chunks_in_flight = 0;
+            return send_file(turn);
+        case run:
+            h.is_started = true;
+            return watch(turn);
+        case reset:
+        case release:
+        case finished:
+            return wind_up(turn);
+        default:
+            return send_step(turn, *row_of(step));
+    }
+}
+
+HandOffAction look_at_cell(TurnUnderWay& turn) {
+    const Status& status = turn.status();
+    const DispatchOptions& options = turn.plan.options;
+    turn.h.cell_beat_s = turn.now_s;
+    if (status.cell_id != options.cell_id) {
+        return fail(turn, DeviceFault::refused,
+                    "this is cell " + std::to_string(status.cell_id) + ", not cell " + std::to_string(options.cell_id) +
+                        "; nothing was sent",
+                    "Check the address, or the cell id in the cell file.");
+    }
+    if (status.has(flag::simulated) != options.want_simulated) {
+        return fail(turn, DeviceFault::refused,
+                    options.want_simulated ? "a simulated cell was wanted, but this one is real; nothing was sent"
+                                           : "a real cell was wanted, but this one is simulated; nothing was sent",
+                    "Check the address.");
+    }
+    turn.say("cell " + std::to_string(status.cell_id) + (status.has(flag::simulated) ? " (SIMULATED)" : "") +
+             " is in " + name(status.state));
+    return enter(turn, stage_file);
+}
+
+HandOffAction get_ready(TurnUnderWay& turn) {
+    const Status& status = turn.status();
+    const bool foreign = status.job_id != Uuid{} && status.job_id != turn.job_id();
+    if (foreign) return clear_the_way(turn);
+    switch (status.state) {
+        case PackState::idle:
+            return enter(turn, write_ticket);
+        case PackState::stopped:
+        case PackState::complete:
+            turn.h.command = Command{};
+            return send(turn, CellCommand::reset, "RESET");
+        case PackState::aborted:
+            turn.say("the machine is aborted; somebody at the cell must agree to clear it");
+            turn.h.command = Command{};
+            return send(turn, CellCommand::clear, "CLEAR");
+        default:
+            break;
+    }
+    if (turn.now_s - turn.h.step_since_s > turn.timings().answer_s) {
+        turn.h.fault = DeviceFault::busy;
+        return withdraw(turn, std::string("the cell stays in ") + name(status.state) + "; nothing was started",
+                        "Try again when it is idle.");
+    }
+    return pause(turn);
+}
+
+HandOffAction send_file(TurnUnderWay& turn) {
+    HandOff& h = turn.h;
+    constexpr int window = 16;
+    if (turn.plan.ticket.transfer == Transfer::drop_folder) return plain(Kind::put_file);
+    const std::uint32_t size = turn.plan.ticket.file_size;
+    if (turn.in.status && h.chunks_in_flight > 0) {
+        // What the cell says it has is where to go on, whatever became of the chunks before.
+        const bool moved = turn.status().transfer_next != h.chunk_done;
+        h.chunks_in_flight = 0;
+        h.chunk_done = h.chunk_next = turn.status().transfer_next;
+        if (h.chunk_next >= size) return enter(turn, verify);
+        if (moved) h.step_since_s = turn.now_s;
+        if (turn.now_s - h.step_since_s > turn.timings().answer_s) {
+            return withdraw(turn,
+                            std::string("the cell does not take the job file: ") + words(turn.status().transfer_result),
+                            "Give a drop folder.");
+        }
+        if (!moved) return pause(turn);
+    }
+    if (h.chunks_in_flight == window || h.chunk_next >= size) {
+        h.chunks_in_flight = std::max(h.chunks_in_flight, 1);
+        return plain(Kind::read_status);
+    }
+    HandOffAction action = plain(Kind::write_chunk);
+    action.offset = h.chunk_next;
+    h.chunk_next += std::min<std::uint32_t>(max_chunk_bytes, size - h.chunk_next);
+    ++h.chunks_in_flight;
+    return action;
+}
+
+HandOffAction watch(TurnUnderWay& turn) {
+    HandOff& h = turn.h;
+    const Status& status = turn.status();
+    if (!turn.shows_our_job() || status.job_state == JobState::ended || status.job_state == JobState::aborted) {
+        return enter(turn, ask_after);
+    }
+    if (turn.in.cancelled && !h.is_cancelled) {
+        h.is_cancelled = true;
+        if (!turn.plan.options.stop_when_cancelled) {
+            h.why = "stopped watching on request; the job runs on by itself";
+            h.to_do = "Stop it at the cell if it must not run.";
+            turn.say(h.why);
+            return enter(turn, release);
+        }
+        turn.say("stopping the machine on request");
+        h.command = Command{};
+        h.command.job_id = turn.job_id();
+        return send(turn, CellCommand::stop, "STOP job=" + to_text(turn.job_id()));
+    }
+    if (h.is_owner && status.owner_held == 0) {
+        h.is_owner = false;
+        turn.say("the lease of the cell has run out; the job runs on");
+    }
+    return pause(turn);
+}
+
+HandOffAction take_result(TurnUnderWay& turn) {
+    HandOff& h = turn.h;
+    if (!answers_our_query(turn)) return pause(turn);  // another client has asked in between: ask again
+    const ResultWords& result = *turn.in.result;
+    if (h.step == ask_before) {
+        if (has_started(result.job_state) && result.file_sha256 != turn.plan.ticket.file_sha256) {
+            h.refusal = AckResult::job_id_reused;
+            return withdraw(turn, "the cell has carved another file under this job id", "Dispatch it as a new job.");
+        }
+        if (has_started(result.job_state)) turn.say("the cell has started this job before; taking up its result");
+        if (!has_started(result.job_state) && h.start_sent) {
+            h.start_sent = false;
+            if (++h.attempts > 2) return withdraw(turn, "START did not reach the cell, three times", "");
+            turn.say("START did not reach the cell and now never can; preparing it again");
+        }
+        if (result.job_state == JobState::cancelled) {
+            h.refusal = AckResult::cancelled;
+            return withdraw(turn, "the job was cancelled in the cell", "Dispatch it as a new job.");
+        }
+    }
+    if (!has_started(result.job_state) && h.is_started) {
+        h.why = "the job has started, but the cell no longer remembers it";
+        h.to_do = "Look at the cell: its memory was lost.";
+        return enter(turn, release);
+    }
+    if (!has_started(result.job_state)) return enter(turn, make_ready);
+    h.is_started = true;
+    h.result = result;
+    if (result.job_state == JobState::ended || result.job_state == JobState::aborted) return tell_end(turn);
+    h.step = run;
+    return pause(turn);
+}
+
+HandOffAction acknowledged(TurnUnderWay& turn) {
+    HandOff& h = turn.h;
+    h.waits_for_ack = false;
+    h.step_since_s = turn.now_s;
+    switch (h.step) {
+        case claim:
+            h.is_owner = true;
+            h.beat_s = turn.now_s;
+            break;
+        case ask_before:
+        case ask_after:
+            return plain(Kind::read_result);
+        case verify:
+            if (turn.status().file_sha256 != turn.plan.ticket.file_sha256) {
+                h.refusal = AckResult::hash_mismatch;
+                return withdraw(turn, "the cell has another file than the one that was sent", "Dispatch it again.");
+            }
+            if (turn.plan.options.rehearse) {
+                turn.say(row_of(verify)->says);
+                return enter(turn, rehearse);
+            }
+            break;
+        case rehearse:
+            h.receipt = turn.status().ack_detail;
+            break;
+        case prepare:
+            if (turn.status().token == 0) return pause(turn);
+            break;
+        case make_ready:
+        case run:
+        case reset:
+            return plain(Kind::read_status);
+        default:
+            break;
+    }
+    const StepRow& row = *row_of(h.step);
+    if (row.says[0] != '\0') turn.say(row.says);
+    return enter(turn, row.next);
+}
+
+HandOffAction refused(TurnUnderWay& turn, AckResult result) {
+    HandOff& h = turn.h;
+    h.waits_for_ack = false;
+    const std::string answer = std::string(words(result)) + " (" + name(result) + ")";
+    if (h.step == ask_before || h.step == ask_after) {
+        if (result == AckResult::unknown_job) return plain(Kind::read_result);
+    }
+    if (h.step == start && result == AckResult::already_finished) return enter(turn, ask_after);
+    if (h.step == start) h.start_sent = false;  // its own refusal: this START has had no effect
+    if (h.step == run || h.step == make_ready || h.step == clear_result || h.step == reset || h.step == cancel ||
+        h.step == release) {
+        turn.say(std::string("the cell refused ") + name(h.command.command) + ": " + answer);
+        if (h.step == run) return pause(turn);
+        if (h.step == release) h.is_owner = false;  // somebody else's by now
+        if (h.step == release) return wind_up(turn);
+        if (h.step != make_ready) return enter(turn, row_of(h.step)->next);
+    }
+    h.refusal = result;
+    if (h.step == claim && !h.start_sent && !h.is_stored) {
+        if (result == AckResult::stale_epoch) return fence(turn, "another dispatcher was faster");
+        return fail(turn, result == AckResult::lease_busy ? DeviceFault::busy : DeviceFault::refused,
+                    "the cell cannot be claimed: " + answer + "; nothing was started",
+                    result == AckResult::lease_busy ? "Try again when the other one has finished." : "");
+    }
+    if (h.step == claim) h.is_owner = false;
+    if (h.step == claim) return give_up(turn, "the cell was taken over by another dispatcher: " + answer);
+    if (result == AckResult::not_owner) return fence(turn, "the lease of the cell has run out");
+    std::string why = "the cell refused the job at " + std::string(name(h.command.command)) + ": " + answer;
+    if (result == AckResult::ticket_field) why += ", address " + std::to_string(turn.status().ack_detail);
+    return withdraw(turn, why, remedy(result));
+}
+
+}  // namespace qchopper::turning
+
+namespace qchopper {
+
+const char* remedy(AckResult refusal) {
+    switch (refusal) {
+        case AckResult::no_consent:
+            return "Ask the operator at the cell, then dispatch again.";
+        case AckResult::file_missing:
+            return "Is the drop folder the one that the cell looks into?";
+        case AckResult::hash_mismatch:
+        case AckResult::file_size:
+            return "Something changed the job file on the way; dispatch it again.";
+        case AckResult::envelope:
+        case AckResult::stock_too_small:
+        case AckResult::tool:
+            return "Prepare the project with the cell file of this cell.";
+        case AckResult::store_full:
+        case AckResult::store_io:
+            return "Make room on the disk of the cell.";
+        case AckResult::stale_epoch:
+            return "Only one dispatcher may drive a cell.";
+        default:
+            return "";
+    }
+}
+
+}  // namespace qchopper

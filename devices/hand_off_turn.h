@@ -1,0 +1,58 @@
+// One turn of the hand-off under way: shared by hand_off.cpp (what every step has in common) and hand_off_steps.cpp
+// (what each step does). Not for others.
+
+#pragma once
+
+#include <string>
+
+#include "devices/hand_off.h"
+
+namespace qchopper::turning {
+
+struct TurnUnderWay {
+    const HandOffPlan& plan;
+    HandOff& h;
+    const HandOffInput& in;
+    double now_s;
+    std::vector<std::string>& lines;
+
+    void say(const std::string& line) { lines.push_back(line); }
+    const HandOffTimings& timings() const { return plan.options.timings; }
+    const Uuid& job_id() const { return plan.ticket.job_id; }
+    const Status& status() const { return *h.status; }
+    bool shows_our_job() const { return h.status && h.status->job_id == plan.ticket.job_id; }
+};
+
+using Kind = HandOffAction::Kind;
+
+// The states of a job that has been started once.
+constexpr bool has_started(JobState state) {
+    return state == JobState::running || state == JobState::interrupted || state == JobState::ended ||
+           state == JobState::aborted;
+}
+
+// hand_off.cpp
+HandOffAction next_action(TurnUnderWay& turn);
+HandOffAction plain(Kind kind, std::string journal = {});
+HandOffAction pause(TurnUnderWay& turn);
+HandOffAction send(TurnUnderWay& turn, CellCommand command, std::string journal = {});
+HandOffAction finish(TurnUnderWay& turn, StartVerdict verdict, const std::string& why, const std::string& to_do = {});
+// What is known decides the word: STARTED, UNKNOWN if a START may have arrived, else NOT STARTED.
+HandOffAction give_up(TurnUnderWay& turn, const std::string& why, const std::string& to_do = {});
+HandOffAction fail(TurnUnderWay& turn, DeviceFault fault, const std::string& why, const std::string& to_do);
+// The job will not be started: takes it out of the cell, gives the cell back, and ends with what was said here.
+HandOffAction withdraw(TurnUnderWay& turn, const std::string& why, const std::string& to_do);
+// A new epoch voids everything that may still be on its way; then the cell is asked.
+HandOffAction fence(TurnUnderWay& turn, const std::string& why);
+
+// hand_off_steps.cpp
+HandOffAction enter(TurnUnderWay& turn, HandOffStep step);
+HandOffAction look_at_cell(TurnUnderWay& turn);
+HandOffAction get_ready(TurnUnderWay& turn);
+HandOffAction send_file(TurnUnderWay& turn);
+HandOffAction watch(TurnUnderWay& turn);
+HandOffAction take_result(TurnUnderWay& turn);
+HandOffAction acknowledged(TurnUnderWay& turn);
+HandOffAction refused(TurnUnderWay& turn, AckResult result);
+
+}  // namespace qchopper::turning

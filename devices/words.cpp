@@ -1,0 +1,96 @@
+#include "devices/words.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+
+namespace qchopper {
+
+std::uint32_t crc32_of(std::span<const std::uint8_t> bytes) {
+    return static_cast<std::uint32_t>(crc32_z(0, bytes.data(), bytes.size()));
+}
+
+std::uint32_t crc32_of_words(std::span<const std::uint16_t> words) {
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(2 * words.size());
+    for (const std::uint16_t word : words) {
+        bytes.push_back(static_cast<std::uint8_t>(word >> 8));
+        bytes.push_back(static_cast<std::uint8_t>(word & 0xFF));
+    }
+    return crc32_of(bytes);
+}
+
+std::string_view cut_utf8(std::string_view text, std::size_t max_bytes) {
+    if (text.size() <= max_bytes) return text;
+    std::size_t end = max_bytes;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+    return text.substr(0, end);
+}
+
+WordWriter& WordWriter::u16(std::uint16_t value) {
+    words_.push_back(value);
+    return *this;
+}
+
+WordWriter& WordWriter::u32(std::uint32_t value) {
+    return u16(static_cast<std::uint16_t>(value >> 16)).u16(static_cast<std::uint16_t>(value & 0xFFFF));
+}
+
+WordWriter& WordWriter::u64(std::uint64_t value) {
+    return u32(static_cast<std::uint32_t>(value >> 32)).u32(static_cast<std::uint32_t>(value & 0xFFFFFFFF));
+}
+
+WordWriter& WordWriter::bytes(std::span<const std::uint8_t> data) {
+    for (std::size_t i = 0; i < data.size(); i += 2) {
+        const unsigned low = i + 1 < data.size() ? data[i + 1] : 0U;
+        u16(static_cast<std::uint16_t>((data[i] << 8U) | low));
+    }
+    return *this;
+}
+
+WordWriter& WordWriter::text(std::string_view characters, std::size_t registers) {
+    const std::string_view fitting = cut_utf8(characters, 2 * registers);
+    std::vector<std::uint8_t> padded(2 * registers, 0);
+    std::copy(fitting.begin(), fitting.end(), padded.begin());
+    return bytes(padded);
+}
+
+WordWriter& WordWriter::zeros(std::size_t registers) {
+    words_.insert(words_.end(), registers, 0);
+    return *this;
+}
+
+std::uint16_t WordReader::u16() {
+    const std::size_t at = at_++;
+    return at < words_.size() ? words_[at] : std::uint16_t{0};
+}
+
+std::uint32_t WordReader::u32() {
+    const std::uint32_t high = u16();
+    return (high << 16) | u16();
+}
+
+std::uint64_t WordReader::u64() {
+    const std::uint64_t high = u32();
+    return (high << 32) | u32();
+}
+
+void WordReader::bytes(std::span<std::uint8_t> data) {
+    for (std::size_t i = 0; i < data.size(); i += 2) {
+        const std::uint16_t word = u16();
+        data[i] = static_cast<std::uint8_t>(word >> 8);
+        if (i + 1 < data.size()) data[i + 1] = static_cast<std::uint8_t>(word & 0xFF);
+    }
+}
+
+std::string WordReader::text(std::size_t registers) {
+    std::vector<std::uint8_t> raw(2 * registers);
+    bytes(raw);
+    return {raw.begin(), std::find(raw.begin(), raw.end(), std::uint8_t{0})};
+}
+
+bool is_all_zero(std::span<const std::uint16_t> words) {
+    return std::all_of(words.begin(), words.end(), [](std::uint16_t word) { return word == 0; });
+}
+
+}  // namespace qchopper

@@ -1,0 +1,62 @@
+// Numbers, text and bytes as 16-bit registers: high word first, first character in the high byte, no floats.
+//
+// Reading what was written gives it back (tests/devices/words_test.cpp).
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "devices/bus.h"
+
+namespace qchopper {
+
+// CRC-32 of IEEE 802.3 (reflected, init and xorout all ones); "123456789" gives 0xCBF43926.
+std::uint32_t crc32_of(std::span<const std::uint8_t> bytes);
+// Over the bytes of the registers as they go over the wire.
+std::uint32_t crc32_of_words(std::span<const std::uint16_t> words);
+
+// Longest beginning of `text` of at most `max_bytes` that does not end inside a UTF-8 character.
+std::string_view cut_utf8(std::string_view text, std::size_t max_bytes);
+
+// Appends fields one after the other.
+class WordWriter {
+ public:
+    WordWriter& u16(std::uint16_t value);
+    WordWriter& u32(std::uint32_t value);
+    WordWriter& u64(std::uint64_t value);
+    WordWriter& i32(std::int32_t value) { return u32(static_cast<std::uint32_t>(value)); }
+    WordWriter& bytes(std::span<const std::uint8_t> data);  // an odd last byte in the high half
+    WordWriter& text(std::string_view characters, std::size_t registers);
+    WordWriter& zeros(std::size_t registers);
+    WordWriter& crc() { return u32(crc32_of_words(words_)); }  // over everything so far
+    const Words& words() const { return words_; }
+
+ private:
+    Words words_;
+};
+
+// Takes fields one after the other; behind the end everything is 0.
+class WordReader {
+ public:
+    explicit WordReader(std::span<const std::uint16_t> words) : words_(words) {}
+    std::uint16_t u16();
+    std::uint32_t u32();
+    std::uint64_t u64();
+    std::int32_t i32() { return static_cast<std::int32_t>(u32()); }
+    void bytes(std::span<std::uint8_t> data);
+    std::string text(std::size_t registers);  // up to the first NUL
+    void skip(std::size_t registers) { at_ += registers; }
+
+ private:
+    std::span<const std::uint16_t> words_;
+    std::size_t at_ = 0;
+};
+
+bool is_all_zero(std::span<const std::uint16_t> words);
+
+}  // namespace qchopper

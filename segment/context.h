@@ -1,0 +1,41 @@
+// What long work needs from its caller: where to report progress, and whether to stop.
+
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace qchopper {
+
+// Counts, never guesses: "37 of 120 planes priced".
+struct Progress {
+    std::string what;  // "planes priced"
+    std::size_t done = 0;
+    std::size_t total = 0;  // 0: not known
+};
+
+// Thrown by check_cancelled(); what was finished before is kept by the caller.
+struct Cancelled : std::runtime_error {
+    Cancelled() : std::runtime_error("stopped") {}
+};
+
+struct Context {
+    std::function<void(const Progress&)> on_progress;    // may be empty; called from one thread at a time
+    std::function<void(const std::string&)> on_message;  // one line for the operator; may be empty
+    const std::atomic<bool>* cancelled = nullptr;
+
+    void progress(const std::string& what, std::size_t done, std::size_t total) const {
+        if (on_progress) on_progress({what, done, total});
+    }
+    void message(const std::string& line) const {
+        if (on_message) on_message(line);
+    }
+    void check_cancelled() const {
+        if (cancelled != nullptr && cancelled->load()) throw Cancelled();
+    }
+};
+
+}  // namespace qchopper

@@ -1,0 +1,202 @@
+// Constrained Delaunay triangulation by CGAL, one region at a time. Its answer is taken only if it kept every point
+// and every loop edge; otherwise the region is cut into ears (ears.h), which cannot fail.
+
+#include "segment/cut/cap.h"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_2.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <optional>
+
+#include "segment/cut/ears.h"
+
+namespace qchopper {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
+using FaceBase =
+    CGAL::Constrained_triangulation_face_base_2<Kernel, CGAL::Triangulation_face_base_with_info_2<int, Kernel>>;
+using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
+using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+struct Rectangle {
+    Point2 min{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    Point2 max{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    bool contains(Point2 p) const { return p.x >= min.x && p.x <= max.x && p.y >= min.y && p.y <= max.y; }
+};
+
+Rectangle rectangle(std::span<const Point2> points, const Loop& loop) {
+    Rectangle r;
+    for (const std::uint32_t p : loop) {
+        r.min = {std::min(r.min.x, points[p].x), std::min(r.min.y, points[p].y)};
+        r.max = {std::max(r.max.x, points[p].x), std::max(r.max.y, points[p].y)};
+    }
+    return r;
+}
+
+bool is_inside(std::span<const Point2> points, const Loop& loop, Point2 p) {
+    bool inside = false;
+    for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
+        const Point2 a = points[loop[i]];
+        const Point2 b = points[loop[j]];
+        if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
+    }
+    return inside;
+}
+
+// Number of constrained edges between a face and the infinite one, modulo 2, for all faces.
+void mark_inside(Delaunay& cdt) {
+    for (const Delaunay::Face_handle face : cdt.all_face_handles()) face->info() = -1;
+    std::vector<Delaunay::Face_handle> stack{cdt.infinite_face()};
+    cdt.infinite_face()->info() = 0;
+    while (!stack.empty()) {
+        const Delaunay::Face_handle face = stack.back();
+        stack.pop_back();
+        for (int i = 0; i < 3; ++i) {
+            const Delaunay::Face_handle other = face->neighbor(i);
+            if (other->info() != -1) continue;
+            other->info() = cdt.is_constrained({face, i}) ? 1 - face->info() : face->info();
+            stack.push_back(other);
+        }
+    }
+}
+
+// Nothing if the triangulation would merge points, split a loop edge, or give another number of triangles.
+std::optional<Triangles> delaunay(std::span<const Point2> points, std::span<const Loop* const> loops) {
+    std::vector<std::uint32_t> order;
+    for (const Loop* loop : loops) order.insert(order.end(), loop->begin(), loop->end());
+    std::vector<Kernel::Point_2> place;
+    place.reserve(order.size());
+    for (const std::uint32_t p : order) place.emplace_back(points[p].x, points[p].y);
+    std::vector<std::size_t> sorted(order.size());
+    for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = i;
+    using Map = CGAL::Pointer_property_map<Kernel::Point_2>::type;
+    CGAL::spatial_sort(sorted.begin(), sorted.end(),
+                       CGAL::Spatial_sort_traits_adapter_2<Kernel, Map>(CGAL::make_property_map(place)));
+    Delaunay cdt;
+    std::vector<Delaunay::Vertex_handle> vertex(order.size());
+    Delaunay::Face_handle hint;
+    for (const std::size_t i : sorted) {
+        const std::size_t before = cdt.number_of_vertices();
+        vertex[i] = cdt.insert(place[i], hint);
+        if (cdt.number_of_vertices() == before) return std::nullopt;  // two points in one place
+        vertex[i]->info() = order[i];
+        hint = vertex[i]->face();
+    }
+    try {
+        std::size_t first = 0;
+        for (const Loop* loop : loops) {
+            for (std::size_t i = 0; i < loop->size(); ++i) {
+                cdt.insert_constraint(vertex[first + i], vertex[first + (i + 1) % loop->size()]);
+            }
+            first += loop->size();
+        }
+    } catch (const Delaunay::Intersection_of_constraints_exception&) {
+        return std::nullopt;
+    }
+    std::size_t first = 0;
+    for (const Loop* loop : loops) {
+        for (std::size_t i = 0; i < loop->size(); ++i) {
+            if (!cdt.is_edge(vertex[first + i], vertex[first + (i + 1) % loop->size()])) return std::nullopt;
+        }
+        first += loop->size();
+    }
+    mark_inside(cdt);
+    Triangles triangles;
+    for (const Delaunay::Face_handle face : cdt.finite_face_handles()) {
+        if (face->info() != 1) continue;
+        triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+    }
+    if (triangles.size() + 4 != order.size() + 2 * loops.size()) return std::nullopt;
+    return triangles;
+}
+
+}  // namespace
+
+double signed_area(std::span<const Point2> points, const Loop& loop) {
+    double twice = 0;
+    const Point2 o = points[loop.front()];
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Point2 a = points[loop[i]];
+        const Point2 b = points[loop[(i + 1) % loop.size()]];
+        twice += (a.x - o.x) * (b.y - o.y) - (b.x - o.x) * (a.y - o.y);
+    }
+    return twice / 2;
+}
+
+std::vector<CapRegion> nest(std::span<const Point2> points, std::span<const Loop> loops) {
+    const std::size_t count = loops.size();
+    std::vector<Rectangle> box(count);
+    std::vector<double> area(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        box[i] = rectangle(points, loops[i]);
+        area[i] = signed_area(points, loops[i]);
+    }
+    std::vector<std::vector<std::size_t>> around(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Point2 p = points[loops[i].front()];
+        for (std::size_t j = 0; j < count; ++j) {
+            if (j != i && box[j].contains(p) && is_inside(points, loops[j], p)) around[i].push_back(j);
+        }
+    }
+    std::vector<CapRegion> regions;
+    std::vector<std::size_t> region_of(count, count);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (around[i].size() % 2 != 0) continue;
+        region_of[i] = regions.size();
+        regions.push_back({i, {}, area[i] >= 0});
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        if (around[i].size() % 2 == 0) continue;
+        std::size_t outer = count;
+        for (const std::size_t j : around[i]) {
+            const bool is_outer = region_of[j] != count;
+            if (is_outer && (outer == count || std::abs(area[j]) < std::abs(area[outer]))) outer = j;
+        }
+        if (outer == count) {  // loops that cross each other can be inside holes only: then it stands alone
+            regions.push_back({i, {}, false});
+            continue;
+        }
+        CapRegion& region = regions[region_of[outer]];
+        region.holes.push_back(i);
+        if (area[i] > 0) region.is_simple = false;
+    }
+    return regions;
+}
+
+CapTriangles triangulate_caps(std::span<const Point2> points, std::span<const Loop> loops_in) {
+    CapTriangles result;
+    // Two triangles that meet along two edges leave a loop of two points: it closes by itself and takes no cap.
+    std::vector<Loop> kept;
+    std::copy_if(loops_in.begin(), loops_in.end(), std::back_inserter(kept),
+                 [](const Loop& l) { return l.size() > 2; });
+    const std::span<const Loop> loops = kept;
+    for (const CapRegion& region : nest(points, loops)) {
+        ++result.regions;
+        std::vector<const Loop*> region_loops{&loops[region.outer]};
+        for (const std::size_t hole : region.holes) region_loops.push_back(&loops[hole]);
+        std::optional<Triangles> triangles;
+        if (region.is_simple) triangles = delaunay(points, region_loops);
+        if (!triangles) {
+            ++result.forced_regions;
+            std::vector<Loop> holes;
+            for (const std::size_t hole : region.holes) holes.push_back(loops[hole]);
+            triangles = cut_ears(points, loops[region.outer], holes);
+        }
+        result.triangles.insert(result.triangles.end(), triangles->begin(), triangles->end());
+    }
+    return result;
+}
+
+}  // namespace qchopper

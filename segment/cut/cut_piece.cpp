@@ -1,0 +1,40 @@
+#include "segment/cut/cut_piece.h"
+
+#include <cassert>
+
+#include "segment/cut/cut.h"
+#include "segment/mesh/edges.h"
+#include "segment/mesh/shells.h"
+
+namespace qchopper {
+namespace {
+
+void add_solids(CutPieces& result, const Piece& parent, TriangleMesh half, const Bound& bound) {
+    for (TriangleMesh& solid : split_solids(half, bound.plane.normal)) {
+        assert(edges(solid).faults.is_closed());
+        Piece piece;
+        piece.mesh = std::make_shared<const TriangleMesh>(std::move(solid));
+        piece.bounds = parent.bounds;
+        piece.bounds.push_back(bound);
+        result.pieces.push_back(std::move(piece));
+    }
+}
+
+}  // namespace
+
+std::optional<CutPieces> cut_piece(const Piece& piece, const Plane& plane, std::int32_t cut_number) {
+    std::optional<CutHalves> halves = cut(*piece.mesh, plane, cut_number);
+    if (!halves) return std::nullopt;
+    CutPieces result;
+    result.cap_area_mm2 = halves->cap_area_mm2;
+    if (halves->forced_regions > 0) {
+        result.warnings.push_back("piece " + piece.name + " intersects itself in " +
+                                  std::to_string(halves->forced_regions) +
+                                  " place(s) of this cut: the pieces are closed, but their caps overlap there");
+    }
+    add_solids(result, piece, std::move(halves->above.mesh), {cut_number, plane, true});
+    add_solids(result, piece, std::move(halves->below.mesh), {cut_number, plane, false});
+    return result;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,35 @@
+#include "segment/mesh/measure.h"
+
+#include <algorithm>
+
+namespace qchopper {
+
+Box bounds(const TriangleMesh& mesh) {
+    if (mesh.points.empty()) return {};
+    Box box{mesh.points.front(), mesh.points.front()};
+    for (const Vec3& p : mesh.points) {
+        for (int axis = 0; axis < 3; ++axis) {
+            box.min[axis] = std::min(box.min[axis], p[axis]);
+            box.max[axis] = std::max(box.max[axis], p[axis]);
+        }
+    }
+    return box;
+}
+
+double volume_mm3(const TriangleMesh& mesh) {
+    if (mesh.points.empty()) return 0;
+    const Vec3 origin = mesh.points.front();  // near the mesh: far from the world's origin the terms would cancel
+    double six_volumes = 0;
+    for (const Triangle& t : mesh.triangles) {
+        six_volumes += dot(mesh.points[t[0]] - origin, cross(mesh.points[t[1]] - origin, mesh.points[t[2]] - origin));
+    }
+    return six_volumes / 6;
+}
+
+double area_mm2(const TriangleMesh& mesh) {
+    double area = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) area += norm(area_vector(mesh, t));
+    return area;
+}
+
+}  // namespace qchopper

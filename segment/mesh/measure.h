@@ -1,0 +1,25 @@
+// Plain measurements of a mesh: box, volume, area.
+
+#pragma once
+
+#include "segment/mesh/triangle_mesh.h"
+
+namespace qchopper {
+
+struct Box {
+    Vec3 min;
+    Vec3 max;
+    bool operator==(const Box&) const = default;
+    Vec3 size() const { return max - min; }
+    Vec3 centre() const { return 0.5 * (min + max); }
+};
+
+// Axis-parallel box of all points; {0,0} for none.
+Box bounds(const TriangleMesh& mesh);
+
+// Signed volume in mm3 of a closed mesh (divergence theorem): positive when the triangles face outwards.
+double volume_mm3(const TriangleMesh& mesh);
+
+double area_mm2(const TriangleMesh& mesh);
+
+}  // namespace qchopper

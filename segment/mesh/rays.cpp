@@ -1,0 +1,101 @@
+#include "segment/mesh/rays.h"
+
+#include <embree3/rtcore.h>
+
+#include <limits>
+
+#include "segment/mesh/measure.h"
+
+namespace qchopper {
+
+struct RayTree::Tree {
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+    Vec3 centre;
+    ~Tree() {
+        if (scene != nullptr) rtcReleaseScene(scene);
+        if (device != nullptr) rtcReleaseDevice(device);
+    }
+};
+
+namespace {
+
+// Refuses hits on surfaces that the ray would enter through.
+void only_exits(const RTCFilterFunctionNArguments* args) {
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] == 0) continue;
+        const float along = RTCRayN_dir_x(args->ray, args->N, i) * RTCHitN_Ng_x(args->hit, args->N, i) +
+                            RTCRayN_dir_y(args->ray, args->N, i) * RTCHitN_Ng_y(args->hit, args->N, i) +
+                            RTCRayN_dir_z(args->ray, args->N, i) * RTCHitN_Ng_z(args->hit, args->N, i);
+        if (along <= 0) args->valid[i] = 0;
+    }
+}
+
+}  // namespace
+
+RayTree::RayTree(const TriangleMesh& mesh) : tree_(std::make_unique<Tree>()) {
+    tree_->device = rtcNewDevice("threads=1");
+    tree_->scene = rtcNewScene(tree_->device);
+    // The low-quality tree pays for a few directions: 0.29 s against 1.1 s at 1.9 million faces, rays a fifth slower.
+    rtcSetSceneBuildQuality(tree_->scene, RTC_BUILD_QUALITY_LOW);
+    rtcSetSceneFlags(tree_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT |
+                                                              RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+    tree_->centre = bounds(mesh).centre();
+    RTCGeometry geometry = rtcNewGeometry(tree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                               3 * sizeof(float), mesh.points.size()));
+    for (std::size_t p = 0; p < mesh.points.size(); ++p) {
+        const Vec3 at = mesh.points[p] - tree_->centre;
+        vertex[3 * p] = static_cast<float>(at.x);
+        vertex[3 * p + 1] = static_cast<float>(at.y);
+        vertex[3 * p + 2] = static_cast<float>(at.z);
+    }
+    auto* index = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), mesh.triangles.size()));
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) index[3 * t + k] = mesh.triangles[t][k];
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(tree_->scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(tree_->scene);
+}
+
+RayTree::~RayTree() = default;
+RayTree::RayTree(RayTree&&) noexcept = default;
+RayTree& RayTree::operator=(RayTree&&) noexcept = default;
+
+namespace {
+
+std::optional<RayHit> trace(RTCScene scene, Vec3 centre, Vec3 origin, Vec3 direction, RTCFilterFunctionN filter) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.filter = filter;
+    const Vec3 from = origin - centre;
+    RTCRayHit ray{};
+    ray.ray.org_x = static_cast<float>(from.x);
+    ray.ray.org_y = static_cast<float>(from.y);
+    ray.ray.org_z = static_cast<float>(from.z);
+    ray.ray.dir_x = static_cast<float>(direction.x);
+    ray.ray.dir_y = static_cast<float>(direction.y);
+    ray.ray.dir_z = static_cast<float>(direction.z);
+    ray.ray.tnear = 0;
+    ray.ray.tfar = std::numeric_limits<float>::infinity();
+    ray.ray.mask = ~0U;
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene, &context, &ray);
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return RayHit{static_cast<double>(ray.ray.tfar), ray.hit.primID};
+}
+
+}  // namespace
+
+std::optional<RayHit> RayTree::first_hit(Vec3 origin, Vec3 direction) const {
+    return trace(tree_->scene, tree_->centre, origin, direction, nullptr);
+}
+
+std::optional<RayHit> RayTree::first_exit(Vec3 origin, Vec3 direction) const {
+    return trace(tree_->scene, tree_->centre, origin, direction, &only_exits);
+}
+
+}  // namespace qchopper

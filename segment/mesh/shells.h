@@ -1,0 +1,42 @@
+// The shells of a mesh (connected surfaces) and the solids that they bound.
+//
+// A solid is one outer shell together with the cavities in its material. A shell inside a cavity is a solid of
+// its own (tests/segment/mesh/shells_test.cpp).
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "segment/mesh/measure.h"
+#include "segment/mesh/triangle_mesh.h"
+
+namespace qchopper {
+
+// Triangles that share a vertex belong to one shell. Shells are numbered by their first triangle.
+struct Shells {
+    std::vector<std::uint32_t> shell_of;  // per triangle
+    std::vector<double> volume;           // per shell, signed mm3; negative: a cavity, or turned inside out
+    std::vector<Box> box;                 // per shell
+    std::size_t count() const { return volume.size(); }
+};
+Shells shells(const TriangleMesh& mesh);
+
+// Groups the shells of a closed mesh into solids. Each cavity joins the material around it: from its vertex
+// that is farthest along a direction square to `axis`, a straight line in that direction meets the surface of that
+// material first. `axis` keeps the line at one height, so a cut square to it never comes between (see cut.h).
+struct Solids {
+    std::vector<std::uint32_t> solid_of_shell;
+    std::size_t count = 0;
+    std::size_t loose_cavities = 0;  // negative shells with nothing around them: inside out, kept as solids
+};
+Solids solids(const TriangleMesh& mesh, const Shells& shells, Vec3 axis);
+
+// The sub-meshes of the solids, in the order of their first triangle, triangles in the order of the input.
+std::vector<TriangleMesh> split_solids(const TriangleMesh& mesh, Vec3 axis);
+
+// The part of the mesh whose triangles are numbered `group` in group_of; only points in use, in order of first use.
+TriangleMesh extract(const TriangleMesh& mesh, const std::vector<std::uint32_t>& group_of, std::uint32_t group);
+
+}  // namespace qchopper

@@ -1,0 +1,40 @@
+// The mesh that everybody shares: points and triangles that name them.
+//
+// Coordinates are doubles in millimetres. A triangle lists its corners counter-clockwise seen from outside.
+// A mesh is *closed* when every directed edge has exactly one opposite (tests/segment/mesh/closed_test.cpp).
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "segment/mesh/vec3.h"
+
+namespace qchopper {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+// What cap_of says of a triangle that no cut has made.
+constexpr std::int32_t no_cap = -1;
+
+struct TriangleMesh {
+    std::vector<Vec3> points;
+    std::vector<Triangle> triangles;
+    std::vector<std::int32_t> cap_of;  // per triangle: number of the cut whose cap it belongs to; empty: no caps at all
+    bool operator==(const TriangleMesh&) const = default;
+};
+
+// Half the cross product of two edges: the direction is the outward normal, the length the area in mm2.
+inline Vec3 area_vector(const TriangleMesh& mesh, std::size_t triangle) {
+    const Triangle& t = mesh.triangles[triangle];
+    const Vec3 a = mesh.points[t[0]];
+    return 0.5 * cross(mesh.points[t[1]] - a, mesh.points[t[2]] - a);
+}
+
+inline std::int32_t cap_of(const TriangleMesh& mesh, std::size_t triangle) {
+    return mesh.cap_of.empty() ? no_cap : mesh.cap_of[triangle];
+}
+
+}  // namespace qchopper

@@ -1,0 +1,185 @@
+#include "segment/picture/picture.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "segment/error.h"
+#include "segment/picture/light.h"
+#include "segment/picture/png.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::uint32_t nothing = std::numeric_limits<std::uint32_t>::max();
+
+// One ray of a pixel: what it saw and how bright.
+struct Sample {
+    std::uint32_t piece = nothing;
+    std::int32_t cap = no_cap;
+    float r = 0;
+    float g = 0;
+    float b = 0;
+};
+
+// All rays of the picture, supersampling times finer than its pixels.
+struct Film {
+    std::size_t width = 0;
+    std::size_t height = 0;
+    std::vector<Sample> samples;
+    const Sample& at(std::size_t x, std::size_t y) const { return samples[y * width + x]; }
+};
+
+void check(std::span<const Coloured> meshes, const PictureOptions& options) {
+    const auto refuse = [](const std::string& why) { throw InputError(InputFault::use, "no picture: " + why); };
+    const bool any = std::any_of(meshes.begin(), meshes.end(), [](const Coloured& one) {
+        return one.mesh != nullptr && !one.mesh->triangles.empty();
+    });
+    if (!any) refuse("there is no triangle to draw");
+    if (options.width < 1 || options.width > 16384 || options.height < 1 || options.height > 16384) {
+        refuse("width and height must be 1 to 16384 pixels");
+    }
+    if (options.supersampling < 1 || options.supersampling > 8) refuse("supersampling must be 1 to 8");
+    if (options.ambient_rays < 0 || options.ambient_rays > 4096) refuse("ambient rays must be 0 to 4096");
+    const double rays =
+        static_cast<double>(options.width) * options.height * options.supersampling * options.supersampling;
+    if (rays > 1.5e8) refuse("width x height x supersampling squared must not exceed 150 million");
+    if (!(norm(options.view) > 0) || !std::isfinite(norm(options.view))) refuse("the view must have a direction");
+    if (!std::isfinite(norm(options.up))) refuse("up must be finite");
+    if (!(options.frame >= 0 && options.frame < 0.5)) refuse("the frame must be 0 to 0.5");
+    if (!(options.outline >= 0 && options.outline <= 20)) refuse("the outline must be 0 to 20 pixels");
+}
+
+Camera frame(const TriangleMesh& mesh, const PictureOptions& options) {
+    Camera camera;
+    camera.forward = normalized(options.view);
+    camera.right = cross(camera.forward, options.up);
+    if (norm(camera.right) < 1e-9) camera.right = cross(camera.forward, Vec3{0, 1, 0});  // straight from above
+    if (norm(camera.right) < 1e-9) camera.right = Vec3{1, 0, 0};
+    camera.right = normalized(camera.right);
+    camera.up = cross(camera.right, camera.forward);
+    const double most = std::numeric_limits<double>::max();
+    Vec3 low{most, most, most};
+    Vec3 high = -low;
+    for (const Vec3& p : mesh.points) {
+        const Vec3 seen{dot(camera.right, p), dot(camera.up, p), dot(camera.forward, p)};
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = std::min(low[axis], seen[axis]);
+            high[axis] = std::max(high[axis], seen[axis]);
+        }
+    }
+    const Vec3 size = high - low;
+    const double inner = 1 - 2 * options.frame;
+    camera.mm_per_pixel = std::max(size.x / (options.width * inner), size.y / (options.height * inner));
+    if (!(camera.mm_per_pixel > 0)) camera.mm_per_pixel = 1;
+    const Vec3 middle = 0.5 * (low + high);
+    const double before = low.z - 0.05 * norm(size) - 1;
+    camera.origin = middle.x * camera.right + middle.y * camera.up + before * camera.forward;
+    return camera;
+}
+
+Sample cast(const Scene& scene, const Camera& camera, const PictureOptions& options, std::size_t x, std::size_t y) {
+    const double fine = options.supersampling;
+    const double right = (static_cast<double>(x) + 0.5) / fine - options.width / 2.0;
+    const double down = (static_cast<double>(y) + 0.5) / fine - options.height / 2.0;
+    const Vec3 from =
+        camera.origin + (camera.mm_per_pixel * right) * camera.right - (camera.mm_per_pixel * down) * camera.up;
+    const std::optional<SeenPoint> seen = scene.look(from, camera.forward);
+    const auto number = static_cast<std::uint32_t>(y * 131071 + x);
+    const Vec3 light = seen ? shade(scene, *seen, camera, options.ambient_rays, number) : to_linear(options.background);
+    Sample sample{nothing, no_cap, static_cast<float>(light.x), static_cast<float>(light.y),
+                  static_cast<float>(light.z)};
+    if (seen) {
+        sample.piece = scene.piece_of(seen->triangle);
+        sample.cap = scene.mesh().cap_of[seen->triangle];
+    }
+    return sample;
+}
+
+Film expose(const Scene& scene, const Camera& camera, const PictureOptions& options, const Context& context) {
+    Film film;
+    film.width = static_cast<std::size_t>(options.width * options.supersampling);
+    film.height = static_cast<std::size_t>(options.height * options.supersampling);
+    film.samples.resize(film.width * film.height);
+    constexpr std::size_t band = 64;
+    for (std::size_t top = 0; top < film.height; top += band) {
+        context.check_cancelled();
+        const std::size_t bottom = std::min(film.height, top + band);
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(top, bottom, 1),
+                          [&](const tbb::blocked_range<std::size_t>& rows) {
+                              for (std::size_t y = rows.begin(); y < rows.end(); ++y) {
+                                  for (std::size_t x = 0; x < film.width; ++x) {
+                                      film.samples[y * film.width + x] = cast(scene, camera, options, x, y);
+                                  }
+                              }
+                          });
+        context.progress("rows drawn", bottom, film.height);
+    }
+    return film;
+}
+
+// 1 inside, less where a border of the piece, or more faintly of a cap, runs within `radius` samples.
+double line_at(const Film& film, std::size_t x, std::size_t y, int radius) {
+    const Sample& here = film.at(x, y);
+    double keep = 1;
+    for (int dy = -radius; dy <= radius; ++dy) {
+        for (int dx = -radius; dx <= radius; ++dx) {
+            if (dx * dx + dy * dy > radius * radius) continue;
+            const auto nx = static_cast<std::ptrdiff_t>(x) + dx;
+            const auto ny = static_cast<std::ptrdiff_t>(y) + dy;
+            if (nx < 0 || ny < 0 || nx >= static_cast<std::ptrdiff_t>(film.width) ||
+                ny >= static_cast<std::ptrdiff_t>(film.height)) {
+                continue;
+            }
+            const Sample& there = film.at(static_cast<std::size_t>(nx), static_cast<std::size_t>(ny));
+            if (there.piece != here.piece) return 0.16;
+            if (there.cap != here.cap) keep = 0.42;
+        }
+    }
+    return keep;
+}
+
+Rgb develop(const Film& film, const PictureOptions& options, std::size_t px, std::size_t py) {
+    const auto fine = static_cast<std::size_t>(options.supersampling);
+    const int radius = static_cast<int>(std::lround(options.outline * options.supersampling / 2));
+    Vec3 sum;
+    bool empty = true;
+    for (std::size_t y = py * fine; y < (py + 1) * fine; ++y) {
+        for (std::size_t x = px * fine; x < (px + 1) * fine; ++x) {
+            const Sample& sample = film.at(x, y);
+            const bool drawn = sample.piece != nothing;
+            const double line = drawn && radius > 0 ? line_at(film, x, y, radius) : 1;
+            sum = sum + line * Vec3{sample.r, sample.g, sample.b};
+            empty = empty && !drawn;
+        }
+    }
+    return empty ? options.background : to_rgb(1.0 / static_cast<double>(fine * fine) * sum);
+}
+
+}  // namespace
+
+Bytes render_png(std::span<const Coloured> meshes, const PictureOptions& options, const Context& context) {
+    check(meshes, options);
+    std::vector<Coloured> drawn;
+    std::copy_if(meshes.begin(), meshes.end(), std::back_inserter(drawn),
+                 [](const Coloured& one) { return one.mesh != nullptr; });
+    const Scene scene(drawn);
+    const Camera camera = frame(scene.mesh(), options);
+    const Film film = expose(scene, camera, options, context);
+    const auto width = static_cast<std::size_t>(options.width);
+    const auto height = static_cast<std::size_t>(options.height);
+    std::vector<Rgb> pixels(width * height);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, height), [&](const tbb::blocked_range<std::size_t>& rows) {
+        for (std::size_t y = rows.begin(); y < rows.end(); ++y) {
+            for (std::size_t x = 0; x < width; ++x) pixels[y * width + x] = develop(film, options, x, y);
+        }
+    });
+    return to_png(pixels, options.width, options.height);
+}
+
+}  // namespace qchopper

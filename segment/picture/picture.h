@@ -1,0 +1,52 @@
+// The picture of meshes as PNG, by casting rays. No GPU, no window.
+//
+// The view is orthographic and framed on its own, so that everything shows whole. Same input, same bytes, whatever
+// the number of threads (tests/segment/picture/picture_test.cpp).
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "segment/context.h"
+#include "segment/files/file.h"
+#include "segment/mesh/triangle_mesh.h"
+
+namespace qchopper {
+
+struct Rgb {
+    std::uint8_t r = 0;
+    std::uint8_t g = 0;
+    std::uint8_t b = 0;
+    bool operator==(const Rgb&) const = default;
+};
+
+// Twelve colours that stay apart for colour-blind eyes too, then again from the first.
+Rgb piece_colour(std::size_t index);
+
+// The natural colour for a mesh that is not a segmentation.
+constexpr Rgb bone_colour{226, 214, 190};
+
+struct Coloured {
+    const TriangleMesh* mesh = nullptr;  // stays the caller's
+    Rgb colour = bone_colour;
+    Vec3 shift;  // mm, added to every point
+};
+
+struct PictureOptions {
+    int width = 1200;  // pixels
+    int height = 900;
+    Vec3 view{-0.55, 0.75, -0.38};  // from the eye to the thing; any length
+    Vec3 up{0, 0, 1};
+    Rgb background{250, 250, 248};
+    int supersampling = 2;  // rays per pixel: this squared
+    int ambient_rays = 16;  // per ray that hits, for the soft light of the sky; 0: none
+    double outline = 1.2;   // width of the dark line at the border of a piece, in pixels; 0: none
+    double frame = 0.06;    // empty border, as a share of the picture
+};
+
+// Throws InputError (use) if there is no triangle to draw or an option makes no sense; Cancelled if told to stop.
+Bytes render_png(std::span<const Coloured> meshes, const PictureOptions& options = {}, const Context& context = {});
+
+}  // namespace qchopper

@@ -1,0 +1,27 @@
+#include "segment/picture/png.h"
+
+#include <png.h>
+
+#include <cassert>
+#include <new>
+
+namespace qchopper {
+
+Bytes to_png(const std::vector<Rgb>& pixels, int width, int height) {
+    static_assert(sizeof(Rgb) == 3, "rows are handed to libpng as they lie");
+    assert(pixels.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(width);
+    image.height = static_cast<png_uint_32>(height);
+    image.format = PNG_FORMAT_RGB;
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+    Bytes bytes(size);
+    if (png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0, nullptr) == 0) {
+        throw std::bad_alloc();  // nothing else can fail with sizes that we chose ourselves
+    }
+    bytes.resize(size);
+    return bytes;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,20 @@
+// Prices many candidates at once, on all cores; the result does not depend on their number.
+
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "segment/context.h"
+#include "segment/score/candidates.h"
+#include "segment/score/oracle.h"
+
+namespace qchopper {
+
+// One price per candidate, in their order.
+std::vector<std::optional<Price>> price_all(const Piece& piece, std::span<const Candidate> candidates,
+                                            const Objectives& objectives, const RayTree& scan_rays,
+                                            const Context& context);
+
+}  // namespace qchopper

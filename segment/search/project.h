@@ -1,0 +1,93 @@
+// The project folder NAME.qch: the operator's decisions, saved when they are made.
+//
+//   NAME.qch/
+//     project.json      scan, settings, cuts with their terms and runners-up, pieces, crumbs
+//     cell.toml         the cell file as it was when the project was made
+//     pieces/A.ply ...  the pieces (binary PLY, double, face property cap = number of the cut)
+//     jobs/A.qjob ...   one job file per piece
+//     pictures/*.png
+//     lock              held while a program writes
+//
+// project.json alone decides: scan and cuts give the same pieces again, bit for bit
+// (tests/segment/search/project_test.cpp).
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "segment/intake/intake.h"
+#include "segment/search/search.h"
+
+namespace qchopper {
+
+enum class CrumbChoice { keep, drop };  // keep: written to pieces/crumbs.ply; drop: only listed
+
+// Which scan, and how its numbers became millimetres.
+struct ScanSource {
+    std::filesystem::path path;  // absolute
+    std::string sha256;
+    Unit unit = Unit::mm;
+    double scale = 1;
+    Vec3 centre;  // mm, subtracted from all points
+    std::size_t faces = 0;
+    double volume_mm3 = 0;
+    bool operator==(const ScanSource&) const = default;
+};
+
+// What the project says about a leaf or a crumb. Derived from scan and cuts; kept for whoever reads the file.
+struct SolidRecord {
+    std::string name;      // empty for a crumb
+    std::int32_t cut = 0;  // the cut that made it; 0: it was in the scan
+    std::size_t faces = 0;
+    double volume_mm3 = 0;
+    Vec3 centre;
+    bool operator==(const SolidRecord&) const = default;
+};
+
+enum class Stage {
+    cutting,  // the search goes on
+    cut,      // all cuts are made, jobs are not yet all written
+    done
+};
+
+struct Project {
+    ScanSource scan;
+    std::string preset;  // empty: none
+    SearchSettings settings;
+    CrumbChoice crumbs = CrumbChoice::keep;
+    Stage stage = Stage::cutting;
+    std::string ended_because;
+    std::vector<Cut> cuts;
+    std::vector<SolidRecord> pieces;
+    std::vector<SolidRecord> crumb_list;
+    std::vector<std::string> warnings;
+    bool operator==(const Project&) const = default;
+};
+
+// Copies what the segmentation says now into the project.
+void record(Project& project, const Segmentation& segmentation);
+
+// Written aside and renamed: a crash leaves the decisions before or after, never half of them.
+void save_project(const std::filesystem::path& folder, const Project& project);
+
+// Throws InputError: (missing) no project there, (config) a project file that this version cannot read.
+Project load_project(const std::filesystem::path& folder);
+
+// Applies the project's cuts to the scan exactly as they were made. Throws InputError (config) if one misses.
+Segmentation replay(const Project& project, const TriangleMesh& scan);
+
+// Keeps a second writer out while it lives. Throws InputError (busy) if somebody else holds it.
+class ProjectLock {
+ public:
+    explicit ProjectLock(const std::filesystem::path& folder);
+    ~ProjectLock();
+    ProjectLock(const ProjectLock&) = delete;
+    ProjectLock& operator=(const ProjectLock&) = delete;
+
+ private:
+    int descriptor_;
+};
+
+}  // namespace qchopper

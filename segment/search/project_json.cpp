@@ -1,0 +1,231 @@
+#include "segment/search/project_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "segment/error.h"
+
+namespace qchopper {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* schema = "qchopper-project-1";
+
+// Names of the enumerations, as they stand in the file.
+template <typename Enum>
+struct Word {
+    Enum value;
+    const char* word;
+};
+constexpr Word<Stage> stage_words[] = {{Stage::cutting, "cutting"}, {Stage::cut, "cut"}, {Stage::done, "done"}};
+constexpr Word<CrumbChoice> crumb_words[] = {{CrumbChoice::keep, "keep"}, {CrumbChoice::drop, "drop"}};
+constexpr Word<Stop> stop_words[] = {{Stop::any, "any"}, {Stop::all, "all"}};
+constexpr Word<FragilityForm> fragility_words[] = {{FragilityForm::thinness, "thinness"},
+                                                   {FragilityForm::thesis, "thesis"}};
+
+template <typename Enum, std::size_t n>
+const char* word_of(const Word<Enum> (&words)[n], Enum value) {
+    for (const auto& w : words) {
+        if (w.value == value) return w.word;
+    }
+    return "?";
+}
+
+template <typename Enum, std::size_t n>
+Enum value_of(const Word<Enum> (&words)[n], const Json& json) {
+    const std::string text = json.get<std::string>();
+    for (const auto& w : words) {
+        if (text == w.word) return w.value;
+    }
+    throw InputError(InputFault::config, "\"" + text + "\" is not known here");
+}
+
+Json to_json(Vec3 v) {
+    return Json::array({v.x, v.y, v.z});
+}
+
+Vec3 vec3(const Json& json) {
+    return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
+
+Json to_json(const Terms& t) {
+    return {{"face_ratio", t.face_ratio},
+            {"fragility", t.fragility},
+            {"piece_count", t.piece_count},
+            {"undercut", t.undercut},
+            {"total", t.total}};
+}
+
+Terms terms_from(const Json& json) {
+    return {json.at("face_ratio").get<double>(), json.at("fragility").get<double>(),
+            json.at("piece_count").get<double>(), json.at("undercut").get<double>(), json.at("total").get<double>()};
+}
+
+Json to_json(const Ranked& r) {
+    return {{"normal", to_json(r.plane.normal)}, {"offset_mm", r.plane.offset}, {"wanted_offset_mm", r.wanted_offset},
+            {"normal_number", r.normal},         {"offset_number", r.offset},   {"terms", to_json(r.terms)}};
+}
+
+Ranked ranked_from(const Json& json) {
+    return {{vec3(json.at("normal")), json.at("offset_mm").get<double>()},
+            json.at("wanted_offset_mm").get<double>(),
+            json.at("normal_number").get<int>(),
+            json.at("offset_number").get<int>(),
+            terms_from(json.at("terms"))};
+}
+
+Json to_json(const Cut& cut) {
+    Json runners_up = Json::array();
+    for (const Ranked& r : cut.runners_up) runners_up.push_back(to_json(r));
+    return {{"number", cut.number},         {"piece", cut.piece},   {"chosen", to_json(cut.chosen)},
+            {"candidates", cut.candidates}, {"pieces", cut.pieces}, {"crumbs", cut.crumbs},
+            {"runners_up", runners_up}};
+}
+
+Cut cut_from(const Json& json) {
+    Cut cut;
+    cut.number = json.at("number").get<std::int32_t>();
+    cut.piece = json.at("piece").get<std::string>();
+    cut.chosen = ranked_from(json.at("chosen"));
+    cut.candidates = json.at("candidates").get<std::size_t>();
+    cut.pieces = json.at("pieces").get<std::vector<std::string>>();
+    cut.crumbs = json.at("crumbs").get<std::size_t>();
+    for (const Json& r : json.at("runners_up")) cut.runners_up.push_back(ranked_from(r));
+    return cut;
+}
+
+Json to_json(const SearchSettings& s) {
+    const Objectives& o = s.objectives;
+    Json stop{{"combine", word_of(stop_words, s.stop.combine)},
+              {"fits_cell", s.stop.fits_cell},
+              {"max_cuts", s.stop.max_cuts}};
+    if (s.stop.max_faces) stop["max_faces"] = *s.stop.max_faces;
+    if (s.stop.min_cuts) stop["min_cuts"] = *s.stop.min_cuts;
+    if (s.stop.max_obb) stop["max_obb_mm"] = to_json(*s.stop.max_obb);
+    return {{"weights",
+             {{"face_ratio", o.weights.face_ratio},
+              {"fragility", o.weights.fragility},
+              {"piece_count", o.weights.piece_count},
+              {"undercut", o.weights.undercut}}},
+            {"face_ratio_threshold", o.face_ratio_threshold},
+            {"fragility_form", word_of(fragility_words, o.fragility_form)},
+            {"fragility_distance_mm", o.fragility_distance},
+            {"undercut_by_area", o.undercut_by_area},
+            {"crumb_volume_mm3", o.crumb_volume_mm3},
+            {"offsets_per_normal", s.candidates.offsets_per_normal},
+            {"runners_up", s.runners_up},
+            {"stop", stop}};
+}
+
+SearchSettings settings_from(const Json& json) {
+    SearchSettings s;
+    const Json& weights = json.at("weights");
+    s.objectives.weights = {weights.at("face_ratio").get<double>(), weights.at("fragility").get<double>(),
+                            weights.at("piece_count").get<double>(), weights.at("undercut").get<double>()};
+    s.objectives.face_ratio_threshold = json.at("face_ratio_threshold").get<double>();
+    s.objectives.fragility_form = value_of(fragility_words, json.at("fragility_form"));
+    s.objectives.fragility_distance = json.at("fragility_distance_mm").get<double>();
+    s.objectives.undercut_by_area = json.at("undercut_by_area").get<bool>();
+    s.objectives.crumb_volume_mm3 = json.at("crumb_volume_mm3").get<double>();
+    s.candidates.offsets_per_normal = json.at("offsets_per_normal").get<int>();
+    s.runners_up = json.at("runners_up").get<std::size_t>();
+    const Json& stop = json.at("stop");
+    s.stop.combine = value_of(stop_words, stop.at("combine"));
+    s.stop.fits_cell = stop.at("fits_cell").get<bool>();
+    s.stop.max_cuts = stop.at("max_cuts").get<int>();
+    if (stop.contains("max_faces")) s.stop.max_faces = stop.at("max_faces").get<std::size_t>();
+    if (stop.contains("min_cuts")) s.stop.min_cuts = stop.at("min_cuts").get<int>();
+    if (stop.contains("max_obb_mm")) s.stop.max_obb = vec3(stop.at("max_obb_mm"));
+    return s;
+}
+
+Json to_json(const SolidRecord& solid) {
+    Json json;
+    if (!solid.name.empty()) json["name"] = solid.name;
+    json["cut"] = solid.cut;
+    json["faces"] = solid.faces;
+    json["volume_mm3"] = solid.volume_mm3;
+    json["centre_mm"] = to_json(solid.centre);
+    return json;
+}
+
+std::vector<SolidRecord> solids_from(const Json& json) {
+    std::vector<SolidRecord> solids;
+    for (const Json& s : json) {
+        solids.push_back({s.value("name", ""), s.at("cut").get<std::int32_t>(), s.at("faces").get<std::size_t>(),
+                          s.at("volume_mm3").get<double>(), vec3(s.at("centre_mm"))});
+    }
+    return solids;
+}
+
+Json to_json(const ScanSource& scan) {
+    return {{"path", scan.path.string()},        {"sha256", scan.sha256},
+            {"units", name_of(scan.unit)},       {"scale", scan.scale},
+            {"centre_mm", to_json(scan.centre)}, {"faces", scan.faces},
+            {"volume_mm3", scan.volume_mm3}};
+}
+
+ScanSource scan_from(const Json& json) {
+    ScanSource scan;
+    scan.path = json.at("path").get<std::string>();
+    scan.sha256 = json.at("sha256").get<std::string>();
+    scan.unit = unit_named(json.at("units").get<std::string>());
+    scan.scale = json.at("scale").get<double>();
+    scan.centre = vec3(json.at("centre_mm"));
+    scan.faces = json.at("faces").get<std::size_t>();
+    scan.volume_mm3 = json.at("volume_mm3").get<double>();
+    return scan;
+}
+
+Project from_json(const Json& json) {
+    if (json.at("schema") != schema) throw InputError(InputFault::config, "its schema is not " + std::string(schema));
+    Project project;
+    project.scan = scan_from(json.at("scan"));
+    project.preset = json.at("preset").get<std::string>();
+    project.settings = settings_from(json.at("settings"));
+    project.crumbs = value_of(crumb_words, json.at("crumb_choice"));
+    project.stage = value_of(stage_words, json.at("stage"));
+    project.ended_because = json.at("ended_because").get<std::string>();
+    for (const Json& cut : json.at("cuts")) project.cuts.push_back(cut_from(cut));
+    project.pieces = solids_from(json.at("pieces"));
+    project.crumb_list = solids_from(json.at("crumbs"));
+    project.warnings = json.at("warnings").get<std::vector<std::string>>();
+    return project;
+}
+
+}  // namespace
+
+std::string to_json(const Project& project) {
+    Json cuts = Json::array();
+    for (const Cut& cut : project.cuts) cuts.push_back(to_json(cut));
+    Json pieces = Json::array();
+    for (const SolidRecord& piece : project.pieces) pieces.push_back(to_json(piece));
+    Json crumbs = Json::array();
+    for (const SolidRecord& crumb : project.crumb_list) crumbs.push_back(to_json(crumb));
+    const Json json{{"schema", schema},
+                    {"scan", to_json(project.scan)},
+                    {"preset", project.preset},
+                    {"settings", to_json(project.settings)},
+                    {"crumb_choice", word_of(crumb_words, project.crumbs)},
+                    {"stage", word_of(stage_words, project.stage)},
+                    {"ended_because", project.ended_because},
+                    {"cuts", cuts},
+                    {"pieces", pieces},
+                    {"crumbs", crumbs},
+                    {"warnings", project.warnings}};
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Project project_from_json(std::string_view text, const std::string& name) {
+    try {
+        return from_json(Json::parse(text));
+    } catch (const Json::exception& e) {
+        throw InputError(InputFault::config, name + " is not a project of this version: " + e.what(),
+                         "restore the file, or prepare the scan again");
+    } catch (const InputError& e) {
+        throw InputError(InputFault::config, name + " is not a project of this version: " + e.what(),
+                         "restore the file, or prepare the scan again");
+    }
+}
+
+}  // namespace qchopper

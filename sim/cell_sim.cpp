@@ -1,0 +1,290 @@
+#include "sim/cell_sim.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <random>
+#include <thread>
+
+#include "segment/error.h"
+#include "segment/files/sha256.h"
+#include "sim/memory.h"
+#include "sim/modbus_pdu.h"
+#include "sim/modbus_server.h"
+
+namespace qchopper {
+namespace {
+
+CellTime now() {
+    using namespace std::chrono;
+    const auto steady = duration_cast<milliseconds>(steady_clock::now().time_since_epoch()).count();
+    const auto unix_time = duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
+    return {steady, static_cast<std::uint64_t>(unix_time)};
+}
+
+// Where an answer of the operator waits; outlives the cell, because a person may still be thinking when it goes.
+struct Mailbox {
+    std::mutex mutex;
+    bool is_open = true;
+    std::function<void(std::uint64_t, bool)> deliver;
+};
+
+// The cell's folder: its memory, its lock, the files that it runs.
+class Store {
+ public:
+    // Throws InputError.
+    explicit Store(std::filesystem::path folder) : folder_(std::move(folder)) {
+        if (folder_.empty()) {
+            std::string pattern = (std::filesystem::temp_directory_path() / "qchopper-cell-XXXXXX").string();
+            if (mkdtemp(pattern.data()) == nullptr) {
+                throw InputError(InputFault::create,
+                                 std::string("cannot make a folder for the cell: ") + std::strerror(errno),
+                                 "Is there room for temporary files?");
+            }
+            folder_ = pattern;
+            is_ours_ = true;
+        }
+        std::error_code error;
+        std::filesystem::create_directories(folder_ / "jobs", error);
+        if (error)
+            throw InputError(InputFault::create, "cannot use " + folder_.string() + " as store: " + error.message(),
+                             "");
+        lock_ = open((folder_ / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+        if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
+        const bool is_held = lock_ >= 0 && errno == EWOULDBLOCK;
+        if (lock_ >= 0) close(lock_);
+        throw InputError(
+            is_held ? InputFault::busy : InputFault::create,
+            "the store " + folder_.string() + (is_held ? " belongs to another cell that runs" : " cannot be locked"),
+            "Give another store folder.");
+    }
+    ~Store() {
+        close(lock_);
+        std::error_code ignored;
+        if (is_ours_) std::filesystem::remove_all(folder_, ignored);
+    }
+    Store(const Store&) = delete;
+    Store& operator=(const Store&) = delete;
+
+    std::filesystem::path memory() const { return folder_ / "memory.json"; }
+    std::filesystem::path job(const TicketWords& ticket) const {
+        return folder_ / "jobs" / (to_text(ticket.job_id) + ".qjob");
+    }
+    std::uint32_t free_kib() const {
+        std::error_code error;
+        const auto space = std::filesystem::space(folder_, error);
+        return error ? 0 : static_cast<std::uint32_t>(std::min<std::uintmax_t>(space.available / 1024, 0xFFFFFFFFU));
+    }
+
+ private:
+    std::filesystem::path folder_;
+    bool is_ours_ = false;
+    int lock_ = -1;
+};
+
+}  // namespace
+
+struct CellSim::Parts {
+    explicit Parts(CellSimOptions given) : options(std::move(given)) {}
+
+    CellHooks hooks() {
+        return {[this](const CellMemory& memory) {
+                    try {
+                        save_memory(store->memory(), memory);
+                        return true;
+                    } catch (const InputError& fault) {
+                        say(fault.what());
+                        return false;
+                    }
+                },
+                [this](const std::string& line) { say(line); }};
+    }
+
+    void say(const std::string& line) const {
+        if (options.on_message) options.on_message(line);
+    }
+
+    Bytes answer(std::uint8_t unit, std::span<const std::uint8_t> pdu) {
+        const std::lock_guard lock(mutex);
+        Bytes bytes = answer_pdu(unit, pdu, cell, now(), cell_hooks);
+        look_after_pending();
+        return bytes;
+    }
+
+    void tick() {
+        const std::lock_guard lock(mutex);
+        pass_time(cell, now(), cell_hooks);
+        look_after_pending();
+    }
+
+    // Under the lock. A file is hashed and a person is asked elsewhere: the server never waits for either.
+    void look_after_pending() {
+        if (!cell.pending || cell.pending->number == handled) return;
+        if (cell.pending->waits == Pending::Waits::file) {
+            handled = cell.pending->number;
+            check = FileTask{handled, cell.job.ticket, cell.job.chunks};
+            wake.notify_all();
+        } else if (cell.pending->waits == Pending::Waits::consent && cell.limits.consent == Consent::ask) {
+            handled = cell.pending->number;
+            ask(handled, cell.pending->question);
+        }
+    }
+
+    void ask(std::uint64_t number, const std::string& question) const {
+        if (!options.ask) {
+            std::thread([box = mailbox, number] { post(box, number, false); }).detach();
+            return;
+        }
+        std::thread([box = mailbox, number, question, person = options.ask] {
+            post(box, number, person(question));
+        }).detach();
+    }
+
+    static void post(const std::shared_ptr<Mailbox>& box, std::uint64_t number, bool yes) {
+        const std::lock_guard lock(box->mutex);
+        if (box->is_open) box->deliver(number, yes);
+    }
+
+    struct FileTask {
+        std::uint64_t number = 0;
+        TicketWords ticket;
+        Bytes chunks;
+    };
+
+    void check_files() {
+        std::unique_lock lock(mutex);
+        while (!ends) {
+            if (!check) {
+                wake.wait(lock);
+                continue;
+            }
+            const FileTask task = std::move(*check);
+            check.reset();
+            lock.unlock();
+            const FileCheck found = take_in(task);
+            lock.lock();
+            file_checked(cell, task.number, found, now(), cell_hooks);
+        }
+    }
+
+    // The file comes into the cell's own store, and what is hashed are the bytes that are stored: what runs is the
+    // copy.
+    FileCheck take_in(const FileTask& task) const {
+        FileCheck found;
+        Bytes bytes = task.chunks;
+        const bool from_folder = task.ticket.transfer == Transfer::drop_folder;
+        try {
+            if (from_folder) {
+                const std::filesystem::path file = options.drop_folder / task.ticket.file_name;
+                std::error_code error;
+                const std::uintmax_t size = std::filesystem::file_size(file, error);
+                if (options.drop_folder.empty() || error || !std::filesystem::is_regular_file(file, error))
+                    return found;
+                found.size = size;
+                found.end = FileCheck::End::ok;
+                if (size != task.ticket.file_size) return found;  // never read more than was announced
+                bytes = read_file(file);
+            }
+        } catch (const InputError& fault) {
+            say(fault.what());
+            found.end = FileCheck::End::missing;
+            return found;
+        }
+        try {
+            write_file(store->job(task.ticket), bytes);
+        } catch (const InputError& fault) {
+            say(fault.what());
+            found.end = FileCheck::End::io_error;
+            return found;
+        }
+        found.end = FileCheck::End::ok;
+        found.size = bytes.size();
+        found.sha256 = sha256(bytes);
+        return found;
+    }
+
+    CellSimOptions options;
+    std::unique_ptr<Store> store;
+    CellHooks cell_hooks;
+    mutable std::mutex mutex;  // guards all below
+    CellState cell;
+    std::uint64_t handled = 0;  // number of the pending question that was passed on
+    std::optional<FileTask> check;
+    bool ends = false;
+    std::condition_variable wake;
+    std::shared_ptr<Mailbox> mailbox = std::make_shared<Mailbox>();
+    std::thread checker;
+    std::unique_ptr<ModbusServer> server;
+};
+
+CellSim::CellSim(CellSimOptions options) : parts_(std::make_unique<Parts>(std::move(options))) {}
+
+CellSim::~CellSim() {
+    stop();
+}
+
+void CellSim::start() {
+    Parts& p = *parts_;
+    if (p.server) return;
+    std::error_code error;
+    if (!p.options.drop_folder.empty() && !std::filesystem::is_directory(p.options.drop_folder, error)) {
+        throw InputError(InputFault::missing, "the drop folder " + p.options.drop_folder.string() + " is not there",
+                         "Make it, or give another.");
+    }
+    if (!(p.options.limits.speed > 0)) {
+        throw InputError(InputFault::use, "the speed of a cell must be greater than 0",
+                         "1 is as slow as the real one.");
+    }
+    p.store = std::make_unique<Store>(p.options.store_folder);
+    p.cell_hooks = p.hooks();
+    std::random_device device;
+    const std::uint64_t seed = (std::uint64_t{device()} << 32U) | device();
+    p.cell = boot(p.options.limits, load_memory(p.store->memory()), seed, now(), p.cell_hooks);
+    p.cell.store_free_kib = p.store->free_kib();
+    p.mailbox->deliver = [&p](std::uint64_t number, bool yes) {
+        const std::lock_guard lock(p.mutex);
+        consent_given(p.cell, number, yes, now(), p.cell_hooks);
+    };
+    auto server = std::make_unique<ModbusServer>(
+        ModbusServerOptions{p.options.listen_host, p.options.port, p.options.allow},
+        [&p](std::uint8_t unit, std::span<const std::uint8_t> pdu) { return p.answer(unit, pdu); }, [&p] { p.tick(); },
+        [&p](const std::string& line) { p.say(line); });
+    server->start();
+    p.checker = std::thread([&p] { p.check_files(); });
+    p.server = std::move(server);
+}
+
+std::uint16_t CellSim::port() const {
+    return parts_->server ? parts_->server->port() : std::uint16_t{0};
+}
+
+void CellSim::stop() {
+    Parts& p = *parts_;
+    {
+        const std::lock_guard lock(p.mailbox->mutex);
+        p.mailbox->is_open = false;
+    }
+    if (p.server) p.server->stop();
+    {
+        const std::lock_guard lock(p.mutex);
+        p.ends = true;
+    }
+    p.wake.notify_all();
+    if (p.checker.joinable()) p.checker.join();
+    p.server.reset();
+    p.store.reset();
+}
+
+Status CellSim::status() const {
+    const std::lock_guard lock(parts_->mutex);
+    return status_of(parts_->cell, now());
+}
+
+}  // namespace qchopper

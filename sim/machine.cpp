@@ -1,0 +1,171 @@
+#include "sim/machine.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/machine_parts.h"
+
+namespace qchopper {
+namespace cell {
+
+void log(CellState& cell, const CellHooks& hooks, const std::string& line) {
+    ++cell.events;
+    if (hooks.log) hooks.log(line);
+}
+
+bool save(const CellMemory& memory, const CellHooks& hooks) {
+    return !hooks.save || hooks.save(memory);
+}
+
+// splitmix64: the value stays a value, and a test can foretell it.
+std::uint32_t random_number(CellState& cell) {
+    std::uint32_t number = 0;
+    while (number == 0) {
+        std::uint64_t z = cell.random += 0x9E3779B97F4A7C15U;
+        z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
+        z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
+        number = static_cast<std::uint32_t>((z ^ (z >> 31)) >> 32);
+    }
+    return number;
+}
+
+}  // namespace cell
+
+CellState boot(const CellLimits& limits, CellMemory memory, std::uint64_t seed, CellTime now, const CellHooks& hooks) {
+    CellState cell;
+    cell.limits = limits;
+    cell.memory = std::move(memory);
+    cell.random = seed;
+    cell.booted = now;
+    cell.state_since_ms = now.steady_ms;
+    ++cell.memory.boot_count;
+    for (auto& [id, record] : cell.memory.jobs) {
+        if (record.state != JobState::running && record.state != JobState::interrupted) continue;
+        record.state = JobState::aborted;
+        record.result = JobResult::power_loss;
+        record.end_time_ms = now.unix_ms;
+        cell.state = cell.state_before = PackState::aborted;
+        cell.warning = true;
+        cell::log(cell, hooks, "job " + to_text(id) + " was cut off by a power cut; it is aborted for good");
+    }
+    if (!cell::save(cell.memory, hooks)) cell.warning = true;
+    return cell;
+}
+
+void take_heartbeat(CellState& cell, std::span<const std::uint16_t> block, CellTime now) {
+    const Decoded<Heartbeat> beat = decode_heartbeat(block);
+    if (!beat.is_ok() || !cell.lease) return;
+    Lease& lease = *cell.lease;
+    const bool is_holder = beat.value.epoch == cell.memory.epoch_held && beat.value.owner == lease.owner;
+    if (!is_holder || now.steady_ms >= lease.until_ms || lease.counter == beat.value.counter) return;
+    lease.counter = beat.value.counter;
+    lease.beat_ms = now.steady_ms;
+    lease.until_ms = now.steady_ms + cell::lease_ms;
+    cell.watchdog_expired = false;
+}
+
+void take_chunk(CellState& cell, const Chunk& chunk) {
+    CellJob& job = cell.job;
+    const auto answer = [&]() -> AckResult {
+        if (!cell.lease) return AckResult::not_owner;
+        if (!job.is_waiting() || job.ticket.transfer != Transfer::chunks) return AckResult::no_ticket;
+        const std::uint32_t crc =
+            chunk_crc(cell.memory.epoch_held, cell.lease->owner, job.ticket.job_id, chunk.offset, chunk.data);
+        if (crc != chunk.crc) return AckResult::chunk_crc;
+        if (std::uint64_t{chunk.offset} + chunk.data.size() > job.ticket.file_size) return AckResult::file_size;
+        if (chunk.offset > job.chunks.size()) return AckResult::wrong_offset;
+        if (chunk.offset < job.chunks.size()) {
+            const bool is_within = chunk.offset + chunk.data.size() <= job.chunks.size();
+            const bool is_same =
+                is_within && std::equal(chunk.data.begin(), chunk.data.end(),
+                                        job.chunks.begin() + static_cast<std::ptrdiff_t>(chunk.offset));
+            return is_same ? AckResult::already : AckResult::wrong_offset;
+        }
+        job.chunks.insert(job.chunks.end(), chunk.data.begin(), chunk.data.end());
+        return AckResult::ok;
+    };
+    cell.transfer_result = answer();
+}
+
+namespace {
+
+std::uint16_t flags_of(const CellState& cell) {
+    unsigned flags = flag::simulated;
+    const auto set = [&flags](bool is_so, std::uint16_t bit) { flags |= is_so ? bit : 0U; };
+    const bool is_free = cell.job.state == JobState::none;
+    set(cell.state == PackState::idle && is_free && cell.mode == UnitMode::production, flag::ready_for_ticket);
+    set(cell.job.state == JobState::prepared, flag::prepared);
+    set(cell.consent_present, flag::consent_present | flag::block_loaded);
+    set(cell.job.is_active(), flag::job_active);
+    set(cell.job.is_finished(), flag::result_waiting);
+    set(cell.warning || (!is_free && !cell.job.is_signed), flag::warning);
+    set(cell.watchdog_expired, flag::watchdog_expired);
+    set(cell.lease.has_value(), flag::lease_held);
+    set(cell.store_free_kib == 0, flag::store_full);
+    set(cell.mode == UnitMode::rehearsal, flag::rehearsal_running);
+    return static_cast<std::uint16_t>(flags);
+}
+
+void show_job(const CellState& cell, CellTime now, Status& s) {
+    const CellJob& job = cell.job;
+    if (job.state == JobState::none) return;
+    const double run_s = cell::run_so_far_s(cell, now);
+    const double whole_s = job.ticket.estimated_time_s;
+    const double share = whole_s > 0 ? std::min(1.0, run_s / whole_s) : job.state == JobState::ended ? 1.0 : 0.0;
+    s.job_id = job.ticket.job_id;
+    s.token = job.token;
+    s.job_state = job.state;
+    s.job_result = job.result;
+    s.progress = static_cast<std::uint16_t>(std::floor(10000 * share));
+    s.elapsed_s = static_cast<std::uint32_t>(run_s);
+    s.remaining_s = static_cast<std::uint32_t>(std::ceil(std::max(0.0, whole_s - run_s)));
+    s.transfer_state = job.transfer;
+    s.transfer_next = static_cast<std::uint32_t>(job.chunks.size());
+    s.file_sha256 = job.stored_sha256;
+    if (!job.is_active()) return;
+    s.tool_no = job.ticket.tool_no;
+    s.feed_override = 10000;
+    s.spindle_rpm = cell.state == PackState::execute ? job.ticket.spindle_max_rpm : std::uint16_t{0};
+    // No program is read here: the tip goes straight through the box of the piece.
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double from = job.ticket.box_min[axis];
+        const double to = job.ticket.box_max[axis];
+        s.tip[axis] = static_cast<std::int32_t>(std::lround(from + share * (to - from)));
+    }
+}
+
+}  // namespace
+
+Status status_of(const CellState& cell, CellTime now) {
+    Status s;
+    s.snapshot = static_cast<std::uint16_t>(now.steady_ms);
+    s.heartbeat = static_cast<std::uint16_t>((now.steady_ms - cell.booted.steady_ms) / 500);
+    s.boot_count = cell.memory.boot_count;
+    s.unit_mode = cell.mode;
+    s.state = cell.state;
+    s.state_before = cell.state_before;
+    s.flags = flags_of(cell);
+    s.epoch_held = cell.memory.epoch_held;
+    if (cell.lease) {
+        s.owner_held = cell.lease->owner;
+        s.lease_left_ds =
+            static_cast<std::uint16_t>(std::max<std::int64_t>(0, cell.lease->until_ms - now.steady_ms) / 100);
+    }
+    s.cell_id = cell.limits.cell_id;
+    s.ack_seq = cell.ack.seq;
+    s.ack_command = cell.ack.command;
+    s.ack_result = cell.ack.result;
+    s.ack_detail = cell.ack.detail;
+    s.ack_owner = cell.ack.owner;
+    s.transfer_result = cell.transfer_result;
+    s.store_free_kib = cell.store_free_kib;
+    s.event_no = cell.events;
+    s.starts_total = cell.memory.starts_total;
+    s.cell_time_ms = now.unix_ms;
+    s.bad_frames = cell.bad_frames;
+    s.bad_reason = cell.bad_reason;
+    show_job(cell, now, s);
+    return s;
+}
+
+}  // namespace qchopper

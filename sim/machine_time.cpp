@@ -1,0 +1,187 @@
+#include <algorithm>
+#include <cmath>
+
+#include "sim/machine_parts.h"
+#include "sim/ticket_check.h"
+
+namespace qchopper {
+namespace cell {
+
+double run_so_far_s(const CellState& cell, CellTime now) {
+    const double whole_s = cell.job.ticket.estimated_time_s;
+    if (cell.state != PackState::execute || !cell.job.is_active()) return cell.job.run_s;
+    const double here_s = static_cast<double>(now.steady_ms - cell.state_since_ms) / 1000 * cell.limits.speed;
+    return std::min(whole_s, cell.job.run_s + std::max(0.0, here_s));
+}
+
+void enter_state(CellState& cell, PackState to, std::int64_t at_ms) {
+    if (cell.state == PackState::execute) cell.job.run_s = run_so_far_s(cell, {at_ms, 0});
+    cell.state_before = cell.state;
+    cell.state = to;
+    cell.state_since_ms = at_ms;
+    if (!cell.job.is_active()) return;
+    const bool is_running = to == PackState::starting || to == PackState::execute || to == PackState::completing;
+    cell.job.state = is_running ? JobState::running : JobState::interrupted;
+}
+
+void end_job(CellState& cell, JobState state, JobResult result, CellTime now, const CellHooks& hooks) {
+    cell.job.state = state;
+    cell.job.result = result;
+    cell.consent_present = false;  // the block is used: the next start needs a new look
+    JobRecord& record = cell.memory.jobs[cell.job.ticket.job_id];
+    record.state = state;
+    record.result = result;
+    record.end_time_ms = now.unix_ms;
+    if (!save(cell.memory, hooks)) cell.warning = true;
+    log(cell, hooks, "job " + to_text(cell.job.ticket.job_id) + " " + name(state) + ": " + name(result));
+}
+
+void settle(CellState& cell, AckResult result, std::uint32_t detail) {
+    const auto put = [&](Acknowledgement& ack) {
+        if (ack.owner != cell.pending->owner || ack.seq != cell.pending->seq) return;
+        ack.result = result;
+        ack.detail = detail;
+    };
+    if (!cell.pending) return;
+    put(cell.ack);
+    for (Acknowledgement& ack : cell.senders) put(ack);
+    if (cell.pending->waits == Pending::Waits::rehearsal) cell.mode = UnitMode::production;
+    cell.pending.reset();
+}
+
+void drop_preparation(CellState& cell, AckResult why) {
+    if (cell.pending && cell.pending->waits != Pending::Waits::file) settle(cell, why);
+    if (cell.job.state != JobState::prepared) return;
+    cell.job.state = JobState::stored;
+    cell.job.token = 0;
+    cell.consent_present = false;
+}
+
+namespace {
+
+void pass_lease(CellState& cell, CellTime now, const CellHooks& hooks) {
+    if (!cell.lease) return;
+    if (!cell.watchdog_expired && now.steady_ms - cell.lease->beat_ms >= watchdog_ms) {
+        cell.watchdog_expired = true;
+        log(cell, hooks, "no heartbeat of the dispatcher for 2.5 s");
+        const bool holds = cell.job.is_active() && cell.job.ticket.on_link_loss == LinkLoss::hold;
+        const Transition to = transition(cell.state, CellCommand::hold);
+        if (holds && to.meeting == Meeting::moves) enter_state(cell, to.to, now.steady_ms);
+    }
+    if (now.steady_ms < cell.lease->until_ms) return;
+    log(cell, hooks, "the lease of the dispatcher has run out");
+    cell.lease.reset();
+    cell.watchdog_expired = false;
+    drop_preparation(cell, AckResult::not_owner);
+}
+
+void pass_token(CellState& cell, CellTime now, const CellHooks& hooks) {
+    if (cell.job.state != JobState::prepared || now.steady_ms < cell.job.token_until_ms) return;
+    cell.job.expired_token = cell.job.token;
+    drop_preparation(cell, AckResult::token_expired);
+    log(cell, hooks, "the start token has expired");
+}
+
+void pass_pending(CellState& cell, CellTime now, const CellHooks& hooks) {
+    if (!cell.pending) return;
+    if (cell.pending->waits == Pending::Waits::consent && cell.limits.consent != Consent::ask) {
+        consent_given(cell, cell.pending->number, cell.limits.consent == Consent::automatic, now, hooks);
+        return;
+    }
+    if (cell.pending->waits != Pending::Waits::rehearsal || now.steady_ms < cell.pending->due_ms) return;
+    if (const auto fault = does_not_fit(cell.job.ticket, cell.limits)) {
+        cell.job.result = JobResult::rehearsal_failed;
+        settle(cell, fault->result, fault->address);
+    } else {
+        cell.job.result = JobResult::rehearsal_passed;
+        cell.job.receipt = random_number(cell);
+        settle(cell, AckResult::ok, cell.job.receipt);
+    }
+}
+
+// When the present state is done by itself.
+std::int64_t state_ends_ms(const CellState& cell) {
+    if (cell.state != PackState::execute) return cell.state_since_ms + cell.limits.acting_ms;
+    const double left_s = cell.job.ticket.estimated_time_s - cell.job.run_s;
+    return cell.state_since_ms + static_cast<std::int64_t>(std::ceil(1000 * left_s / cell.limits.speed));
+}
+
+void pass_motion(CellState& cell, CellTime now, const CellHooks& hooks) {
+    for (;;) {
+        const PackState next = after_done(cell.state);
+        if (next == PackState::undefined) return;
+        const std::int64_t ends_ms = state_ends_ms(cell);
+        if (now.steady_ms < ends_ms) return;
+        const bool was_active = cell.job.is_active();
+        enter_state(cell, next, ends_ms);
+        if (was_active && next == PackState::complete) {
+            end_job(cell, JobState::ended, cell.job.cut_short ? JobResult::stopped : JobResult::complete, now, hooks);
+        }
+        if (was_active && next == PackState::stopped) end_job(cell, JobState::aborted, JobResult::stopped, now, hooks);
+    }
+}
+
+}  // namespace
+}  // namespace cell
+
+void pass_time(CellState& cell, CellTime now, const CellHooks& hooks) {
+    cell::pass_motion(cell, now, hooks);
+    cell::pass_lease(cell, now, hooks);
+    cell::pass_token(cell, now, hooks);
+    cell::pass_pending(cell, now, hooks);
+}
+
+void consent_given(CellState& cell, std::uint64_t number, bool yes, CellTime now, const CellHooks& hooks) {
+    if (!cell.pending || cell.pending->number != number || cell.pending->waits != Pending::Waits::consent) return;
+    const CellCommand command = cell.pending->command;
+    cell::log(cell, hooks, std::string("consent to ") + name(command) + (yes ? " given" : " refused"));
+    if (!yes) {
+        cell::settle(cell, AckResult::no_consent);
+        return;
+    }
+    const bool still_fits = command == CellCommand::clear
+                                ? cell.state == PackState::aborted
+                                : cell.state == PackState::idle && cell.job.state == JobState::stored;
+    if (!still_fits) {
+        cell::settle(cell, AckResult::wrong_state);
+        return;
+    }
+    if (command == CellCommand::clear) {
+        cell::enter_state(cell, PackState::clearing, now.steady_ms);
+    } else {
+        cell.job.state = JobState::prepared;
+        cell.job.token = cell::random_number(cell);
+        cell.job.token_until_ms = now.steady_ms + cell::token_ms;
+        cell.consent_present = true;
+    }
+    cell::settle(cell, AckResult::ok);
+}
+
+void file_checked(CellState& cell, std::uint64_t number, const FileCheck& check, CellTime now, const CellHooks& hooks) {
+    if (!cell.pending || cell.pending->number != number || cell.pending->waits != Pending::Waits::file) return;
+    pass_time(cell, now, hooks);
+    if (!cell.pending || cell.pending->number != number) return;
+    const TicketWords& ticket = cell.job.ticket;
+    AckResult result = AckResult::ok;
+    if (check.end == FileCheck::End::missing)
+        result = AckResult::file_missing;
+    else if (check.end == FileCheck::End::io_error)
+        result = AckResult::store_io;
+    else if (check.size != ticket.file_size)
+        result = AckResult::file_size;
+    else if (check.sha256 != ticket.file_sha256)
+        result = AckResult::hash_mismatch;
+    cell.job.stored_sha256 = check.end == FileCheck::End::ok ? check.sha256 : Sha256{};
+    cell.job.transfer = result == AckResult::ok             ? TransferState::complete
+                        : result == AckResult::file_missing ? TransferState::idle
+                                                            : TransferState::hash_mismatch;
+    // What came in chunks and is wrong must come again from the beginning.
+    if (result != AckResult::ok && ticket.transfer == Transfer::chunks) {
+        cell.job.chunks.clear();
+        cell.job.transfer = TransferState::open;
+    }
+    cell::log(cell, hooks, std::string("VERIFY ") + ticket.file_name + ": " + name(result));
+    cell::settle(cell, result);
+}
+
+}  // namespace qchopper

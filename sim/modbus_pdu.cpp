@@ -1,0 +1,114 @@
+#include "sim/modbus_pdu.h"
+
+#include <algorithm>
+
+namespace qchopper {
+namespace {
+
+constexpr std::uint8_t read_holding = 3;
+constexpr std::uint8_t read_input = 4;
+constexpr std::uint8_t write_holding = 16;
+
+constexpr std::uint8_t illegal_function = 1;
+constexpr std::uint8_t illegal_address = 2;
+constexpr std::uint8_t illegal_value = 3;
+constexpr std::uint8_t no_such_unit = 0x0B;
+
+constexpr std::size_t most_read = 125;
+constexpr std::size_t most_written = 123;
+
+std::uint16_t word_at(std::span<const std::uint8_t> bytes, std::size_t at) {
+    return static_cast<std::uint16_t>((bytes[at] << 8U) | bytes[at + 1]);
+}
+
+const Block* block_around(Side side, std::uint32_t address, std::uint32_t count) {
+    for (const Block* block : all_blocks()) {
+        if (block->side == side && block->contains(address, count)) return block;
+    }
+    return nullptr;
+}
+
+Words read_block(const Block& block, const CellState& cell, CellTime now) {
+    if (&block == &status_block) return encode(status_of(cell, now));
+    if (&block == &result_block && cell.has_answer) return encode(cell.answer);
+    return Words(block.count, 0);  // what was written is never shown: it may hold a secret
+}
+
+Bytes answer_read(Side side, std::span<const std::uint8_t> pdu, CellState& cell, CellTime now, const CellHooks& hooks) {
+    if (pdu.size() != 5) return exception_pdu(pdu[0], illegal_value);
+    const std::uint16_t address = word_at(pdu, 1);
+    const std::uint16_t count = word_at(pdu, 3);
+    if (count < 1 || count > most_read) return exception_pdu(pdu[0], illegal_value);
+    const Block* block = block_around(side, address, count);
+    if (block == nullptr) return exception_pdu(pdu[0], illegal_address);
+    pass_time(cell, now, hooks);
+    const Words words = read_block(*block, cell, now);
+    Bytes answer{pdu[0], static_cast<std::uint8_t>(2 * count)};
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint16_t word = words[address - block->base + i];
+        answer.push_back(static_cast<std::uint8_t>(word >> 8));
+        answer.push_back(static_cast<std::uint8_t>(word & 0xFF));
+    }
+    return answer;
+}
+
+// 0, or the exception.
+std::uint8_t write_block(const Block& block, const Words& words, CellState& cell, CellTime now,
+                         const CellHooks& hooks) {
+    if (&block == &chunk_block) {
+        const Decoded<Chunk> chunk = decode_chunk(words);
+        if (!chunk.is_ok()) return illegal_value;
+        pass_time(cell, now, hooks);
+        take_chunk(cell, chunk.value);
+        return 0;
+    }
+    if (&block == &command_block) take_command(cell, words, now, hooks);
+    if (&block == &heartbeat_block) {
+        pass_time(cell, now, hooks);
+        take_heartbeat(cell, words, now);
+    }
+    if (&block == &ticket_block) cell.ticket_draft = is_all_zero(words) ? Words{} : words;
+    if (&block == &signature_block) cell.signature_draft = is_all_zero(words) ? Words{} : words;
+    return 0;
+}
+
+Bytes answer_write(std::span<const std::uint8_t> pdu, CellState& cell, CellTime now, const CellHooks& hooks) {
+    if (pdu.size() < 6) return exception_pdu(pdu[0], illegal_value);
+    const std::uint16_t address = word_at(pdu, 1);
+    const std::uint16_t count = word_at(pdu, 3);
+    const bool fits = count >= 1 && count <= most_written && pdu[5] == 2 * count && pdu.size() == 6U + 2U * count;
+    if (!fits) return exception_pdu(pdu[0], illegal_value);
+    const Block* block = block_around(Side::holding, address, count);
+    if (block == nullptr || address != block->base) return exception_pdu(pdu[0], illegal_address);
+    const bool is_whole = block == &chunk_block ? count > chunk_head : count == block->count;
+    if (!is_whole) return exception_pdu(pdu[0], illegal_address);
+    Words words;
+    for (std::size_t i = 0; i < count; ++i) words.push_back(word_at(pdu, 6 + 2 * i));
+    const std::uint8_t code = write_block(*block, words, cell, now, hooks);
+    if (code != 0) return exception_pdu(pdu[0], code);
+    return {pdu.begin(), pdu.begin() + 5};
+}
+
+}  // namespace
+
+Bytes exception_pdu(std::uint8_t function, std::uint8_t code) {
+    return {static_cast<std::uint8_t>(function | 0x80U), code};
+}
+
+Bytes answer_pdu(std::uint8_t unit, std::span<const std::uint8_t> pdu, CellState& cell, CellTime now,
+                 const CellHooks& hooks) {
+    if (pdu.empty()) return exception_pdu(0, illegal_function);
+    if (unit != 1 && unit != 255) return exception_pdu(pdu[0], no_such_unit);
+    switch (pdu[0]) {
+        case read_holding:
+            return answer_read(Side::holding, pdu, cell, now, hooks);
+        case read_input:
+            return answer_read(Side::input, pdu, cell, now, hooks);
+        case write_holding:
+            return answer_write(pdu, cell, now, hooks);
+        default:
+            return exception_pdu(pdu[0], illegal_function);
+    }
+}
+
+}  // namespace qchopper

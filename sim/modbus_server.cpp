@@ -1,0 +1,306 @@
+#include "sim/modbus_server.h"
+
+#include <arpa/inet.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <list>
+#include <thread>
+
+#include "segment/error.h"
+
+namespace qchopper {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t most_connections = 8;
+constexpr std::size_t input_bytes = 520;       // two frames of the largest kind
+constexpr std::size_t output_bytes = 4 * 260;  // four answers; then this client is not read any more
+constexpr std::size_t head_bytes = 7;
+constexpr std::size_t least_length = 2;
+constexpr std::size_t most_length = 254;
+
+struct Connection {
+    int fd = -1;
+    std::string peer;
+    Bytes input;
+    Bytes output;
+    Clock::time_point last_byte;
+    Clock::time_point frame_began;   // of the frame that is not complete yet
+    Clock::time_point output_moved;  // when something was last sent, or the output began to fill
+    bool is_full() const { return output.size() + 260 > output_bytes; }
+};
+
+double since(Clock::time_point then, Clock::time_point now) {
+    return std::chrono::duration<double>(now - then).count();
+}
+
+std::string numeric(const sockaddr_storage& address) {
+    char text[INET6_ADDRSTRLEN] = "";
+    if (address.ss_family == AF_INET) {
+        inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in&>(address).sin_addr, text, sizeof text);
+    } else {
+        inet_ntop(AF_INET6, &reinterpret_cast<const sockaddr_in6&>(address).sin6_addr, text, sizeof text);
+    }
+    // An IPv4 peer of an IPv6 socket.
+    const std::string whole = text;
+    return whole.starts_with("::ffff:") ? whole.substr(7) : whole;
+}
+
+bool is_loopback(const std::string& address) {
+    return address == "::1" || address.starts_with("127.");
+}
+
+struct Listener {
+    int fd = -1;
+    std::uint16_t port = 0;
+};
+
+[[noreturn]] void refuse(const ModbusServerOptions& options, const std::string& why, const std::string& to_do,
+                         InputFault fault = InputFault::use) {
+    throw InputError(fault, "cannot listen on " + options.host + ":" + std::to_string(options.port) + ": " + why,
+                     to_do);
+}
+
+Listener listen_on(const ModbusServerOptions& options) {
+    const std::string host = options.host == "localhost" ? "127.0.0.1" : options.host;
+    addrinfo wanted{};
+    wanted.ai_socktype = SOCK_STREAM;
+    wanted.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV | AI_PASSIVE;
+    addrinfo* found = nullptr;
+    in_addr v4{};
+    in6_addr v6{};
+    // inet_pton is strict where others take "0" or "127.1" for an address.
+    const bool is_numeric = inet_pton(AF_INET, host.c_str(), &v4) == 1 || inet_pton(AF_INET6, host.c_str(), &v6) == 1;
+    if (!is_numeric || getaddrinfo(host.c_str(), std::to_string(options.port).c_str(), &wanted, &found) != 0) {
+        refuse(options, "this is not a numeric address", "Give an address such as 127.0.0.1.");
+    }
+    const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> guard(found, &freeaddrinfo);
+    if (!is_loopback(host) && options.allow.empty()) {
+        refuse(options, "others could reach it, and no list says who may",
+               "Listen on 127.0.0.1, or name the peers that may connect.");
+    }
+    const int fd = socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    if (fd < 0) refuse(options, std::strerror(errno), "", InputFault::create);
+    const int on = 1;
+    setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+    sockaddr_storage bound{};
+    socklen_t size = sizeof bound;
+    if (bind(fd, found->ai_addr, found->ai_addrlen) != 0 || listen(fd, 64) != 0 ||
+        getsockname(fd, reinterpret_cast<sockaddr*>(&bound), &size) != 0) {
+        const int error = errno;
+        close(fd);
+        refuse(options, std::strerror(error),
+               "Is another cell listening there? Take another port, or 0 for a free one.", InputFault::create);
+    }
+    const std::uint16_t port = bound.ss_family == AF_INET ? reinterpret_cast<const sockaddr_in&>(bound).sin_port
+                                                          : reinterpret_cast<const sockaddr_in6&>(bound).sin6_port;
+    return {fd, ntohs(port)};
+}
+
+}  // namespace
+
+struct ModbusServer::Loop {
+    Loop(ModbusServerOptions given, Answer answer_one, std::function<void()> tick,
+         std::function<void(const std::string&)> message)
+        : options(std::move(given)),
+          answer(std::move(answer_one)),
+          on_tick(std::move(tick)),
+          on_message(std::move(message)) {}
+
+    void say(const std::string& line) const {
+        if (on_message) on_message(line);
+    }
+
+    void run() {
+        while (true) {
+            std::vector<pollfd> waiting{{wake, POLLIN, 0}, {listener.fd, POLLIN, 0}};
+            for (const Connection& connection : connections) {
+                const int events = (connection.is_full() ? 0 : POLLIN) | (connection.output.empty() ? 0 : POLLOUT);
+                waiting.push_back({connection.fd, static_cast<short>(events), 0});
+            }
+            const int ready = poll(waiting.data(), waiting.size(), static_cast<int>(1000 * options.tick_s));
+            if (ready < 0 && errno != EINTR) say(std::string("poll: ") + std::strerror(errno));
+            if (ready > 0 && waiting[0].revents != 0) return;
+            serve(waiting);
+            if (ready > 0 && waiting[1].revents != 0) take_connections();
+            close_overdue();
+            on_tick();
+        }
+    }
+
+    void serve(const std::vector<pollfd>& waiting) {
+        std::size_t i = 2;
+        for (auto connection = connections.begin(); connection != connections.end(); ++i) {
+            const short events = waiting[i].revents;
+            bool is_alive = (events & (POLLERR | POLLNVAL)) == 0;
+            if ((events & POLLHUP) != 0 && connection->is_full()) is_alive = false;
+            if (is_alive && (events & POLLOUT) != 0) is_alive = flush(*connection) && work(*connection);
+            if (is_alive && (events & (POLLIN | POLLHUP)) != 0) is_alive = receive(*connection);
+            connection = is_alive ? std::next(connection) : drop(connection);
+        }
+    }
+
+    std::list<Connection>::iterator drop(std::list<Connection>::iterator connection) {
+        close(connection->fd);
+        return connections.erase(connection);
+    }
+
+    bool receive(Connection& connection) {
+        std::uint8_t buffer[input_bytes];
+        const std::size_t room = input_bytes - std::min(input_bytes, connection.input.size());
+        if (room == 0 || connection.is_full()) return true;
+        const ssize_t got = recv(connection.fd, buffer, room, 0);
+        if (got == 0) return false;
+        if (got < 0) return errno == EAGAIN || errno == EINTR;
+        const auto now = Clock::now();
+        if (connection.input.empty()) connection.frame_began = now;
+        connection.last_byte = now;
+        connection.input.insert(connection.input.end(), buffer, buffer + got);
+        return work(connection);
+    }
+
+    // Answers every complete frame for whose answer there is room. False: the connection is to be closed.
+    bool work(Connection& connection) {
+        while (connection.input.size() >= head_bytes && !connection.is_full()) {
+            const Bytes& in = connection.input;
+            const std::size_t length = (std::size_t{in[4]} << 8U) | in[5];
+            if (in[2] != 0 || in[3] != 0 || length < least_length || length > most_length) {
+                say(connection.peer + " does not speak Modbus TCP; closed");
+                return false;
+            }
+            const std::size_t whole = 6 + length;
+            if (in.size() < whole) break;
+            const Bytes pdu = answer(in[6], std::span(in).subspan(head_bytes, length - 1));
+            const std::size_t out_length = pdu.size() + 1;
+            if (connection.output.empty()) connection.output_moved = Clock::now();
+            connection.output.insert(connection.output.end(),
+                                     {in[0], in[1], 0, 0, static_cast<std::uint8_t>(out_length >> 8U),
+                                      static_cast<std::uint8_t>(out_length & 0xFFU), in[6]});
+            connection.output.insert(connection.output.end(), pdu.begin(), pdu.end());
+            connection.input.erase(connection.input.begin(),
+                                   connection.input.begin() + static_cast<std::ptrdiff_t>(whole));
+            connection.frame_began = Clock::now();
+        }
+        return flush(connection);
+    }
+
+    bool flush(Connection& connection) {
+        if (connection.output.empty()) return true;
+        const ssize_t sent = send(connection.fd, connection.output.data(), connection.output.size(), MSG_NOSIGNAL);
+        if (sent < 0) return errno == EAGAIN || errno == EINTR;
+        if (connection.is_full()) connection.frame_began = Clock::now();  // its time ran on while we did not read
+        connection.output.erase(connection.output.begin(), connection.output.begin() + sent);
+        connection.output_moved = Clock::now();
+        return true;
+    }
+
+    void close_overdue() {
+        const auto now = Clock::now();
+        for (auto connection = connections.begin(); connection != connections.end();) {
+            const char* why = nullptr;
+            const bool is_reading = !connection->is_full();
+            if (!connection->output.empty() && since(connection->output_moved, now) > options.drain_s) {
+                why = "does not fetch its answers";
+            } else if (is_reading && !connection->input.empty() &&
+                       since(connection->frame_began, now) > options.frame_s) {
+                why = "did not complete its request in time";
+            } else if (since(connection->last_byte, now) > options.idle_s) {
+                why = "was silent for too long";
+            }
+            if (why != nullptr) say(connection->peer + " " + why + "; closed");
+            connection = why == nullptr ? std::next(connection) : drop(connection);
+        }
+    }
+
+    bool may_stay(const std::string& peer) const {
+        const bool is_listed = std::find(options.allow.begin(), options.allow.end(), peer) != options.allow.end();
+        if (!is_listed && !is_loopback(peer)) return false;
+        // With a list, the last place is kept for those on it.
+        return connections.size() + (!options.allow.empty() && !is_listed ? 1 : 0) < most_connections;
+    }
+
+    void take_connections() {
+        for (;;) {
+            sockaddr_storage address{};
+            socklen_t size = sizeof address;
+            const int fd =
+                accept4(listener.fd, reinterpret_cast<sockaddr*>(&address), &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
+            if (fd < 0 && (errno == EMFILE || errno == ENFILE)) {
+                // Out of descriptors: give up the spare one to turn the caller away, else poll would spin.
+                close(spare);
+                const int surplus = accept(listener.fd, nullptr, nullptr);
+                if (surplus >= 0) close(surplus);
+                spare = open("/dev/null", O_RDONLY | O_CLOEXEC);
+                return;
+            }
+            if (fd < 0) return;
+            const std::string peer = numeric(address);
+            if (!may_stay(peer)) {
+                say(peer + " turned away: not on the list, or too many connections");
+                close(fd);
+                continue;
+            }
+            const int on = 1;
+            setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+            const auto now = Clock::now();
+            connections.push_back({fd, peer, {}, {}, now, now, now});
+        }
+    }
+
+    ModbusServerOptions options;
+    Answer answer;
+    std::function<void()> on_tick;
+    std::function<void(const std::string&)> on_message;
+    Listener listener;
+    int wake = -1;
+    int spare = -1;
+    std::list<Connection> connections;
+    std::thread thread;
+};
+
+ModbusServer::ModbusServer(ModbusServerOptions options, Answer answer, std::function<void()> on_tick,
+                           std::function<void(const std::string&)> on_message)
+    : loop_(std::make_unique<Loop>(std::move(options), std::move(answer), std::move(on_tick), std::move(on_message))) {}
+
+ModbusServer::~ModbusServer() {
+    stop();
+}
+
+void ModbusServer::start() {
+    if (loop_->thread.joinable()) return;
+    loop_->listener = listen_on(loop_->options);
+    loop_->wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    loop_->spare = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    loop_->thread = std::thread([this] { loop_->run(); });
+}
+
+std::uint16_t ModbusServer::port() const {
+    return loop_->listener.port;
+}
+
+void ModbusServer::stop() {
+    if (!loop_->thread.joinable()) return;
+    const std::uint64_t one = 1;
+    while (write(loop_->wake, &one, sizeof one) < 0 && errno == EINTR) {
+    }
+    loop_->thread.join();
+    for (const Connection& connection : loop_->connections) close(connection.fd);
+    loop_->connections.clear();
+    for (const int fd : {loop_->listener.fd, loop_->wake, loop_->spare}) {
+        if (fd >= 0) close(fd);
+    }
+}
+
+}  // namespace qchopper

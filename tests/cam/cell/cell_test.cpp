@@ -1,0 +1,203 @@
+#include "cam/cell/cell.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+#include <vector>
+
+#include "segment/error.h"
+
+namespace qchopper {
+namespace {
+
+const std::string good = R"(name = "test"
+id = 7
+stock_margin = 10
+[reach]
+min = [-1200, -1200, 0]
+max = [1200, 1200.0, 1400]
+[table]
+centre = [0, 50]
+size = [2200, 1600]
+height = 150
+[[stock]]
+name = "small"
+size = [300, 200, 100]
+material = "eps"
+[tool]
+number = 3
+name = "ball 20"
+diameter = 20
+spindle_max_rpm = 18000
+feed_max_mm_per_min = 9000
+removal_mm3_per_s = 24000
+[link]
+to = "127.0.0.1:15020"
+drop = "drop"
+)";
+
+// What read_cell says of the good file with one text replaced.
+struct Refusal {
+    std::string what;
+    std::string to_do;
+};
+Refusal refused(const std::string& from, const std::string& to) {
+    std::string text = good;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+    try {
+        parse_cell(text, "shop/cell.toml");
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.fault, InputFault::config);
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "one line: " << error.what();
+        return {error.what(), error.to_do};
+    }
+    ADD_FAILURE() << "taken: " << to;
+    return {};
+}
+
+TEST(Cell, IsReadAsItIsWritten) {
+    const Cell cell = parse_cell(good, "shop/cell.toml");
+    EXPECT_EQ(cell.name, "test");
+    EXPECT_EQ(cell.id, 7);
+    EXPECT_EQ(cell.reach, (Box{{-1200, -1200, 0}, {1200, 1200, 1400}}));
+    EXPECT_EQ(cell.table, (Table{0, 50, 2200, 1600, 150}));
+    EXPECT_EQ(cell.stock, (std::vector<Stock>{{"small", {300, 200, 100}, Material::eps}}));
+    EXPECT_EQ(cell.stock_margin, 10);
+    EXPECT_EQ(cell.clearance, 20);
+    EXPECT_EQ(cell.tool, (Tool{3, "ball 20", 20, 18000, 9000, 24000}));
+    EXPECT_EQ(cell.link.to, "127.0.0.1:15020");
+    EXPECT_EQ(cell.link.drop, "shop/drop");
+}
+
+TEST(Cell, TheExampleIsACell) {
+    const Cell cell = read_cell(QCHOPPER_SOURCE_DIR "/cells/foam-1.toml");
+    EXPECT_EQ(cell.name, "foam-1");
+    EXPECT_EQ(cell.stock.size(), 5U);
+    for (const Stock& stock : cell.stock) {
+        EXPECT_LE(stock.size.x, cell.table.size_x) << stock.name;
+        EXPECT_LE(cell.table.height + stock.size.z + cell.clearance, cell.reach.max.z) << stock.name;
+    }
+}
+
+TEST(Cell, NamesFileLineAndKeyOfEveryFault) {
+    struct Case {
+        std::string from, to, place, word;
+    };
+    const std::vector<Case> cases{
+        {"id = 7", "id = 70000", "cell.toml:2: id", "out of bounds"},
+        {"id = 7", "id = 7.5", "cell.toml:2: id", "whole number"},
+        {"id = 7", "id = \"7\"", "cell.toml:2: id", "not a text"},
+        {"name = \"test\"", "name = \"\"", "cell.toml:1: name", "empty"},
+        {"name = \"test\"", "name = \"a\\u001b[2J\"", "cell.toml:1: name", "one line"},
+        {"name = \"test\"", "", "name", "missing"},
+        {"min = [-1200, -1200, 0]", "min = [-1200, 1200, 0]", "cell.toml:6: reach.max", "along y"},
+        {"min = [-1200, -1200, 0]", "min = [-1200, -1200]", "cell.toml:5: reach.min", "3 numbers"},
+        {"min = [-1200, -1200, 0]", "min = [nan, -1200, 0]", "cell.toml:5: reach.min", "finite"},
+        {"min = [-1200, -1200, 0]", "min = [-inf, -1200, 0]", "cell.toml:5: reach.min", "finite"},
+        {"height = 150", "height = -1", "cell.toml:10: table.height", "below the reach"},
+        {"height = 150", "height = 1400", "cell.toml:10: table.height", "above the reach"},
+        {"height = 150", "height = true", "cell.toml:10: table.height", "not true or false"},
+        {"centre = [0, 50]", "centre = [0, 5000]", "cell.toml:8: table.centre", "outside of the reach"},
+        {"size = [2200, 1600]", "size = [2200, 0]", "cell.toml:9: table.size", "out of bounds"},
+        {"size = [300, 200, 100]", "size = [300, -200, 100]", "cell.toml:13: stock.size", "out of bounds"},
+        {"material = \"eps\"", "material = \"stone\"", "cell.toml:14: stock.material", "unknown material"},
+        {"[[stock]]", "[stock]", "stock", "[[stock]]"},
+        {"diameter = 20", "diameter = 0", "cell.toml:18: tool.diameter", "out of bounds"},
+        {"diameter = 20", "diameter = nan", "cell.toml:18: tool.diameter", "finite"},
+        {"removal_mm3_per_s = 24000", "", "tool.removal_mm3_per_s", "missing"},
+        {"spindle_max_rpm = 18000", "spindle_max_rpm = 0", "cell.toml:19: tool.spindle_max_rpm", "out of bounds"},
+        {"15020", "0", "cell.toml:23: link.to", "HOST:PORT"},
+        {"15020", "65536", "cell.toml:23: link.to", "HOST:PORT"},
+        {"127.0.0.1:15020", "15020", "cell.toml:23: link.to", "HOST:PORT"},
+        {"127.0.0.1:15020", "::1:502", "cell.toml:23: link.to", "HOST:PORT"},
+        {"127.0.0.1:15020", "a b:502", "cell.toml:23: link.to", "HOST:PORT"},
+        {"stock_margin = 10", "stock_margin = -1", "cell.toml:3: stock_margin", "out of bounds"},
+        {"stock_margin = 10", "stock_margin = 1979-05-27", "cell.toml:3: stock_margin", "date"},
+        {"id = 7", "id = ", "cell.toml:2", "not TOML"},
+        {"id = 7", "id = 7\nid = 8", "cell.toml:3", "not TOML"},
+    };
+    for (const Case& one : cases) {
+        const Refusal refusal = refused(one.from, one.to);
+        EXPECT_NE(refusal.what.find(one.place), std::string::npos) << one.to << " -> " << refusal.what;
+        EXPECT_NE(refusal.what.find(one.word), std::string::npos) << one.to << " -> " << refusal.what;
+    }
+}
+
+TEST(Cell, AnUnknownKeyIsRefusedWithTheNearestKnownOne) {
+    const Refusal root = refused("stock_margin", "stock_margn");
+    EXPECT_NE(root.what.find("cell.toml:3: unknown key stock_margn"), std::string::npos) << root.what;
+    EXPECT_NE(root.to_do.find("stock_margin"), std::string::npos) << root.to_do;
+    const Refusal inner = refused("diameter", "diametre");
+    EXPECT_NE(inner.what.find("cell.toml:18: unknown key tool.diametre"), std::string::npos) << inner.what;
+    EXPECT_NE(inner.to_do.find("tool.diameter"), std::string::npos) << inner.to_do;
+    EXPECT_NE(refused("[link]", "[lnk]").to_do.find("link"), std::string::npos);
+}
+
+TEST(Cell, TwoBlocksOfOneNameOrNoneAreRefused) {
+    const Refusal twice = refused("[tool]", "[[stock]]\nname = \"small\"\nsize = [1, 1, 1]\n[tool]");
+    EXPECT_NE(twice.what.find("cell.toml:16: stock.name"), std::string::npos) << twice.what;
+    const std::string block = "[[stock]]\nname = \"small\"\nsize = [300, 200, 100]\nmaterial = \"eps\"\n";
+    EXPECT_NE(refused(block, "").what.find("stock: is missing"), std::string::npos);
+    std::string empty_list = good;
+    empty_list.replace(empty_list.find(block), block.size(), "");
+    empty_list = "stock = []\n" + empty_list;
+    EXPECT_THROW(parse_cell(empty_list, "c.toml"), InputError);
+}
+
+TEST(Cell, AMissingFileIsMissingAndAFolderToo) {
+    for (const char* path : {"/nonexistent/cell.toml", "/"}) {
+        try {
+            read_cell(path);
+            FAIL() << path;
+        } catch (const InputError& error) {
+            EXPECT_EQ(error.fault, InputFault::missing);
+        }
+    }
+}
+
+TEST(Cell, LinkIsOptionalAndDropMayBeAbsolute) {
+    const std::string text = good.substr(0, good.find("[link]"));
+    EXPECT_EQ(parse_cell(text, "c.toml").link, Link{});
+    const std::string with = text + "[link]\nto = \"[::1]:502\"\ndrop = \"/srv/drop\"\n";
+    EXPECT_EQ(parse_cell(with, "shop/c.toml").link, (Link{"[::1]:502", "/srv/drop"}));
+}
+
+TEST(Material, WordsGoForthAndBack) {
+    for (const Material material :
+         {Material::unspecified, Material::pu_foam, Material::eps, Material::xps, Material::other}) {
+        EXPECT_EQ(material_of(to_word(material)), material);
+    }
+    EXPECT_EQ(material_of("PU_FOAM"), std::nullopt);
+}
+
+// Whatever the bytes: a possible cell or an InputError.
+TEST(Cell, DamagedTextNeverEscapes) {
+    std::mt19937 random(11);
+    int refusals = 0;
+    for (int round = 0; round < 3000; ++round) {
+        std::string text = good;
+        for (int k = 0; k < 1 + round % 4; ++k) {
+            const std::size_t at = random() % text.size();
+            if (round % 3 == 0) text[at] = static_cast<char>(random());
+            if (round % 3 == 1) text.erase(at, 1 + random() % 6);
+            if (round % 3 == 2) text.insert(at, 1, "[]{}=\"'\n.0e-"[random() % 12]);
+        }
+        try {
+            const Cell cell = parse_cell(text, "c.toml");
+            EXPECT_FALSE(cell.stock.empty());
+            EXPECT_GT(cell.tool.diameter, 0);
+            EXPECT_LT(cell.reach.min.z, cell.reach.max.z);
+        } catch (const InputError& error) {
+            ++refusals;
+            EXPECT_EQ(error.fault, InputFault::config);
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+        }
+    }
+    EXPECT_GT(refusals, 1000);
+}
+
+}  // namespace
+}  // namespace qchopper

@@ -1,0 +1,248 @@
+#include "cam/job/job.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "cam/job/zip.h"
+#include "segment/error.h"
+#include "segment/intake/read_mesh.h"
+#include "tests/cam/job/some_job.h"
+
+namespace qchopper {
+namespace {
+
+using namespace test_pieces;
+
+std::string refusal(const Bytes& bytes) {
+    try {
+        parse_job(bytes, "AB.qjob");
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.fault, InputFault::mesh);
+        EXPECT_EQ(std::string(error.what()).find("AB.qjob"), 0U) << error.what();
+        return error.what();
+    }
+    return "taken";
+}
+
+// The job file with one of its files changed; if it is not the manifest, the manifest is made to agree.
+Bytes forged(const std::string& name, const std::function<void(nlohmann::ordered_json&)>& change) {
+    std::map<std::string, Bytes> files = unzip(job_file(some_job()), "AB.qjob");
+    auto json = nlohmann::ordered_json::parse(text_of(files[name]));
+    change(json);
+    const std::string text = json.dump();
+    files[name] = {text.begin(), text.end()};
+    if (name == "manifest.json") return zip(files);
+    auto manifest = nlohmann::ordered_json::parse(text_of(files["manifest.json"]));
+    for (auto& entry : manifest["files"]) {
+        const Bytes& bytes = files[entry["name"].get<std::string>()];
+        entry["size"] = bytes.size();
+        entry["sha256"] = to_hex(sha256(bytes));
+    }
+    const std::string listed = manifest.dump();
+    files["manifest.json"] = {listed.begin(), listed.end()};
+    return zip(files);
+}
+
+TEST(Job, SameInputSameBytesWhateverTimeAndTimeZone) {
+    const Bytes first = job_file(some_job());
+    setenv("TZ", "Pacific/Kiritimati", 1);
+    tzset();
+    const std::timespec a_tick{1, 100'000'000};  // a clock that went in would show by now
+    nanosleep(&a_tick, nullptr);
+    const Bytes second = job_file(some_job());
+    unsetenv("TZ");
+    tzset();
+    EXPECT_EQ(first, second);
+}
+
+TEST(Job, WhatIsReadIsWhatWasWritten) {
+    const JobInput input = some_job();
+    const Bytes bytes = job_file(input);
+    const ReadJob job = parse_job(bytes, "AB.qjob");
+    EXPECT_EQ(job.piece, "AB");
+    EXPECT_EQ(job.piece_no, 2);
+    EXPECT_EQ(job.piece_count, 5);
+    EXPECT_EQ(job.program_version, "0.1.0");
+    EXPECT_EQ(job.project_id, input.project_id);
+    EXPECT_EQ(job.scan_sha256, input.scan_sha256);
+    EXPECT_EQ(job.setup, input.setup);
+    EXPECT_EQ(job.bounds, input.piece.bounds);
+    EXPECT_EQ(job.envelope, input.envelope);
+    EXPECT_EQ(job.block_name, input.cell.stock[input.setup.stock].name);
+    EXPECT_EQ(job.faces, input.piece.mesh->triangles.size());
+    EXPECT_EQ(job.volume_mm3, volume_mm3(*input.piece.mesh));
+    EXPECT_EQ(job.ticket, ticket_template(input));
+    EXPECT_EQ(job.file_size, bytes.size());
+    EXPECT_EQ(job.file_sha256, sha256(bytes));
+    ASSERT_EQ(job.entries.size(), 4U);
+    for (const JobEntry& entry : job.entries) EXPECT_EQ(entry.sha256, sha256(job.files.at(entry.name)));
+}
+
+TEST(Job, ThePieceLiesInTheFileAsInTheSetup) {
+    const JobInput input = some_job();
+    const ReadJob job = parse_job(job_file(input), "AB.qjob");
+    const TriangleMesh read = parse_mesh(job.files.at("piece.stl"), "piece.stl").mesh;
+    EXPECT_EQ(read.triangles.size(), input.piece.mesh->triangles.size());
+    const Box box = bounds(read);
+    EXPECT_LT(norm(box.min - input.setup.box.min), 1e-4);
+    EXPECT_LT(norm(box.max - input.setup.box.max), 1e-4);
+    EXPECT_NEAR(volume_mm3(read), volume_mm3(*input.piece.mesh), 1e-5 * volume_mm3(read)) << "turned, not mirrored";
+}
+
+TEST(Job, TicketSpeaksOfTheFile) {
+    const auto folder = std::filesystem::temp_directory_path() / ("qjob." + std::to_string(::getpid()));
+    std::filesystem::create_directory(folder);
+    const JobInput input = some_job();
+    const Bytes bytes = job_file(input);
+    const auto path = folder / job_file_name(input.piece.name);
+    write_file(path, bytes);
+    const JobTicket ticket = job_ticket(path);
+    std::filesystem::rename(path, folder / "no good name.qjob");
+    EXPECT_THROW(job_ticket(folder / "no good name.qjob"), InputError);
+    EXPECT_THROW(read_job(path), InputError) << "missing by now";
+    std::filesystem::remove_all(folder);
+    EXPECT_EQ(ticket.file_name, "AB.qjob");
+    EXPECT_EQ(ticket.file_size, bytes.size());
+    EXPECT_EQ(ticket.file_sha256, sha256(bytes));
+    EXPECT_EQ(ticket.about, ticket_template(input));
+    EXPECT_EQ(ticket.about.base_plane, 4);
+    EXPECT_EQ(ticket.about.stock, input.setup.block);
+}
+
+TEST(Job, TheEstimateIsFoamOverRemovalRate) {
+    const JobInput input = some_job();
+    const Vec3 block = input.setup.block;
+    const double foam = block.x * block.y * block.z - volume_mm3(*input.piece.mesh);
+    EXPECT_EQ(ticket_template(input).estimated_time_s, static_cast<std::uint32_t>(foam / 24000) + 1);
+}
+
+TEST(Job, TheSheetSaysWhatToDo) {
+    JobInput input = some_job();
+    const std::string sheet = setup_sheet(input);
+    for (const char* word :
+         {"piece AB (2 of 5)", "block \"small\" (eps), 100 x 60 x 50 mm", "the cap of cut 4",
+          "Number 1, ball, diameter 20.0 mm", "scaled by 0.5 on request", "piece in block, height"}) {
+        EXPECT_NE(sheet.find(word), std::string::npos) << word << "\n" << sheet;
+    }
+    EXPECT_EQ(sheet.find("DO NOT START"), std::string::npos);
+    input.envelope.margins[0].mm = -12;
+    EXPECT_NE(setup_sheet(input).find("DO NOT START: piece AB does not fit: 12 mm too long"), std::string::npos);
+}
+
+TEST(Job, ACutOffFileIsRefusedAtEveryLength) {
+    const Bytes bytes = job_file(some_job(3));
+    for (std::size_t length = 0; length < bytes.size(); length += 1 + length / 300) {
+        EXPECT_NE(refusal(Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length))), "taken")
+            << length;
+    }
+}
+
+// A byte that holds a date or a right says nothing about the job; every other change is found.
+TEST(Job, ADamagedByteIsFoundOrDoesNotMatter) {
+    const Bytes bytes = job_file(some_job(3));
+    const ReadJob whole = parse_job(bytes, "AB.qjob");
+    std::mt19937 random(3);
+    int found = 0;
+    int harmless = 0;
+    for (std::size_t at = 0; at < bytes.size(); at += 1 + random() % 5) {
+        Bytes damaged = bytes;
+        damaged[at] ^= static_cast<std::uint8_t>(1 + random() % 255);
+        try {
+            const ReadJob job = parse_job(damaged, "AB.qjob");
+            ++harmless;
+            EXPECT_EQ(job.files, whole.files) << at;
+            EXPECT_NE(job.file_sha256, whole.file_sha256);
+        } catch (const InputError&) {
+            ++found;
+        }
+    }
+    EXPECT_GT(found, 100);
+    EXPECT_LT(harmless, found / 10);
+}
+
+TEST(Job, ForgedManifestsAreRefusedAndSayWhere) {
+    using Json = nlohmann::ordered_json;
+    const std::vector<std::pair<std::function<void(Json&)>, std::string>> cases{
+        {[](Json& j) { j["schema"] = 2; }, "schema 2 is not 1"},
+        {[](Json& j) { j["format"] = "other"; }, "format"},
+        {[](Json& j) { j.erase("piece"); }, "piece is missing"},
+        {[](Json& j) { j["piece"]["number"] = 70000; }, "number is not a whole number"},
+        {[](Json& j) { j["piece"]["number"] = -1; }, "number is not a whole number"},
+        {[](Json& j) { j["piece"]["volume_mm3"] = "much"; }, "volume_mm3"},
+        {[](Json& j) { j["scan_sha256"] = "00"; }, "scan_sha256 is not 64"},
+        {[](Json& j) {
+             j["setup"]["piece_in_setup"]["rows"][2] = {0, 0, -1};
+         },
+         "not a rotation"},
+        {[](Json& j) {
+             j["setup"]["box"]["max"] = {1, 2};
+         },
+         "max is not three numbers"},
+        {[](Json& j) { j["setup"]["box"]["max"][0] = 1; }, "different jobs"},
+        {[](Json& j) { j["envelope"]["fits"] = false; }, "contradicts"},
+        {[](Json& j) { j["envelope"]["margins"] = Json::array(); }, "margins is empty"},
+        {[](Json& j) { j["files"][0]["sha256"] = std::string(64, '0'); }, "piece.stl does not match its SHA-256"},
+        {[](Json& j) { j["files"][0]["size"] = 1; }, "piece.stl has another size"},
+        {[](Json& j) { j["files"][0]["name"] = "../piece.stl"; }, "../piece.stl is missing"},
+        {[](Json& j) { j["files"].erase(0); }, "lists other files"},
+        {[](Json& j) { j = Json::array(); }, "manifest.json"},
+        {[](Json& j) { j["files"] = 3; }, "missing"},
+    };
+    for (const auto& [change, word] : cases) {
+        const std::string why = refusal(forged("manifest.json", change));
+        EXPECT_NE(why.find(word), std::string::npos) << word << " <- " << why;
+    }
+}
+
+TEST(Job, ForgedTicketsAreRefused) {
+    using Json = nlohmann::ordered_json;
+    EXPECT_NE(refusal(forged("ticket.json", [](Json& j) { j["material"] = "gold"; })).find("material"),
+              std::string::npos);
+    EXPECT_NE(refusal(forged("ticket.json", [](Json& j) { j["piece"] = "C"; })).find("different jobs"),
+              std::string::npos);
+    EXPECT_EQ(refusal(forged("ticket.json", [](Json&) {})), "taken") << "the forger itself does no harm";
+}
+
+TEST(Job, MissingAndForeignFilesAreRefused) {
+    const std::map<std::string, Bytes> files = unzip(job_file(some_job()), "AB.qjob");
+    for (const auto& [name, bytes] : files) {
+        auto fewer = files;
+        fewer.erase(name);
+        EXPECT_NE(refusal(zip(fewer)), "taken") << name;
+    }
+    auto more = files;
+    more["run.me"] = {1, 2, 3};
+    EXPECT_NE(refusal(zip(more)).find("lists other files"), std::string::npos);
+}
+
+TEST(Job, NamesThatTheWireCannotCarryAreRefused) {
+    EXPECT_EQ(job_file_name("AZ"), "AZ.qjob");
+    EXPECT_EQ(job_file_name(std::string(27, 'A')).size(), 32U);
+    for (const std::string& name : {std::string(), std::string(28, 'A'), std::string("a b"), std::string("../A")}) {
+        EXPECT_THROW(job_file_name(name), InputError) << name;
+    }
+}
+
+TEST(Job, ACutNumberThatNoTicketHoldsIsRefused) {
+    JobInput input = some_job();
+    input.setup.base = 65535;
+    EXPECT_THROW(job_file(input), InputError);
+}
+
+TEST(Job, APieceWithoutBaseSaysSo) {
+    JobInput input = some_job();
+    input.piece = uncut(shapes::ball({0, 0, 0}, 10, 6));
+    input.setup = choose_setup(input.piece, input.cell);
+    const ReadJob job = parse_job(job_file(input), "A.qjob");
+    EXPECT_EQ(job.setup.base, std::nullopt);
+    EXPECT_EQ(job.ticket.base_plane, no_base_plane);
+}
+
+}  // namespace
+}  // namespace qchopper

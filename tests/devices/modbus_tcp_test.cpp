@@ -1,0 +1,240 @@
+#include "devices/modbus_tcp.h"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include "devices/device_error.h"
+#include "segment/error.h"
+
+namespace qchopper {
+namespace {
+
+TEST(TcpAddress, HostAndPortAreTakenApart) {
+    const auto is = [](const char* text, const char* host, int port) {
+        const TcpAddress address = parse_tcp_address(text);
+        EXPECT_EQ(address.host, host) << text;
+        EXPECT_EQ(address.port, port) << text;
+    };
+    is("127.0.0.1:15020", "127.0.0.1", 15020);
+    is("cell-3", "cell-3", 502);
+    is("[::1]:15020", "::1", 15020);
+    is("::1", "::1", 502);
+    is("[fe80::1]", "fe80::1", 502);
+    for (const char* bad :
+         {"", ":502", "host:", "host:0", "host:65536", "host:5x", "[::1", "[::1]x", "[::1]:", "a b:5", "host:-1"}) {
+        EXPECT_THROW(parse_tcp_address(bad), InputError) << bad;
+    }
+}
+
+// Accepts connections one after the other and does with each what it is told.
+class Peer {
+ public:
+    explicit Peer(std::function<void(int fd, int number)> act)
+        : listener_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        socklen_t size = sizeof address;
+        EXPECT_EQ(bind(listener_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+        EXPECT_EQ(listen(listener_, 8), 0);
+        EXPECT_EQ(getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size), 0);
+        port = ntohs(address.sin_port);
+        thread_ = std::thread([this, act] {
+            for (int number = 1;; ++number) {
+                const int fd = accept(listener_, nullptr, nullptr);
+                if (fd < 0) return;
+                act(fd, number);
+                close(fd);
+            }
+        });
+    }
+    ~Peer() {
+        shutdown(listener_, SHUT_RDWR);
+        thread_.join();
+        close(listener_);
+    }
+    Peer(const Peer&) = delete;
+    Peer& operator=(const Peer&) = delete;
+    std::uint16_t port = 0;
+
+ private:
+    int listener_;
+    std::thread thread_;
+};
+
+std::array<std::uint8_t, 12> request_from(int fd) {
+    std::array<std::uint8_t, 12> request{};
+    EXPECT_EQ(recv(fd, request.data(), request.size(), MSG_WAITALL), 12);
+    return request;
+}
+
+// One register that says 0x1234.
+std::vector<std::uint8_t> answer_to(const std::array<std::uint8_t, 12>& request) {
+    return {request[0], request[1], 0, 0, 0, 5, request[6], request[7], 2, 0x12, 0x34};
+}
+
+void put(int fd, const std::vector<std::uint8_t>& bytes) {
+    send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+}
+
+double seconds_of(const std::function<void()>& work) {
+    const auto began = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+}
+
+void wait_for_close(int fd) {
+    std::uint8_t byte = 0;
+    while (recv(fd, &byte, 1, 0) > 0) {
+    }
+}
+
+TEST(ModbusTcpBus, NothingListensIsUnreachable) {
+    const int fd = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);  // bound, not listening: nobody else gets the port
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    ASSERT_EQ(bind(fd, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    ASSERT_EQ(getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size), 0);
+    ModbusTcpBus bus({"127.0.0.1", ntohs(address.sin_port)});
+    try {
+        bus.connect();
+        FAIL();
+    } catch (const DeviceError& error) {
+        EXPECT_EQ(error.fault, DeviceFault::unreachable);
+        EXPECT_NE(std::string(error.what()).find("127.0.0.1"), std::string::npos);
+    }
+    EXPECT_EQ(bus.read_input(0, 1).end, BusEnd::lost);
+    close(fd);
+}
+
+TEST(ModbusTcpBus, ANameThatNobodyKnowsIsUnreachableInTime) {
+    ModbusTcpBus bus({"no-such-cell.invalid", 502});
+    EXPECT_LT(seconds_of([&] { EXPECT_THROW(bus.connect(), DeviceError); }), 2.5);
+}
+
+TEST(ModbusTcpBus, ARegisterIsRead) {
+    const Peer peer([](int fd, int) {
+        put(fd, answer_to(request_from(fd)));
+        wait_for_close(fd);
+    });
+    ModbusTcpBus bus({"localhost", peer.port});
+    const BusAnswer answer = bus.read_input(7, 1);
+    ASSERT_TRUE(answer.is_ok()) << answer.why;
+    EXPECT_EQ(answer.words, (Words{0x1234}));
+}
+
+TEST(ModbusTcpBus, APeerThatIsSilentCostsOneSecondAndTheNextCallIsAFreshConnection) {
+    const Peer peer([](int fd, int number) {
+        const auto request = request_from(fd);
+        if (number > 1) put(fd, answer_to(request));
+        wait_for_close(fd);
+    });
+    ModbusTcpBus bus({"127.0.0.1", peer.port});
+    const double took = seconds_of([&] { EXPECT_EQ(bus.read_input(7, 1).end, BusEnd::lost); });
+    EXPECT_LT(took, 1.5);
+    EXPECT_TRUE(bus.read_input(7, 1).is_ok());
+}
+
+TEST(ModbusTcpBus, APeerThatSendsAByteAtATimeIsCutOffAfterTwoSeconds) {
+    const Peer peer([](int fd, int) {
+        for (const std::uint8_t byte : answer_to(request_from(fd))) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(300));
+            put(fd, {byte});
+        }
+    });
+    ModbusTcpBus bus({"127.0.0.1", peer.port});
+    const double took = seconds_of([&] {
+        const BusAnswer answer = bus.read_input(7, 1);
+        EXPECT_EQ(answer.end, BusEnd::lost);
+        EXPECT_NE(answer.why.find("in time"), std::string::npos) << answer.why;
+    });
+    EXPECT_GT(took, 1.9);
+    EXPECT_LT(took, 2.3);
+}
+
+TEST(ModbusTcpBus, ALateAnswerNeverBelongsToTheNextQuestion) {
+    const Peer peer([](int fd, int number) {
+        const auto request = request_from(fd);
+        if (number == 1) std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+        put(fd, answer_to(request));
+        wait_for_close(fd);
+    });
+    ModbusTcpBus bus({"127.0.0.1", peer.port});
+    EXPECT_EQ(bus.read_input(7, 1).end, BusEnd::lost);
+    EXPECT_TRUE(bus.read_input(8, 1).is_ok());
+}
+
+TEST(ModbusTcpBus, AnExceptionKeepsTheConnectionAndAnythingElseDoesNot) {
+    const Peer peer([](int fd, int) {
+        for (const std::uint8_t code : {6, 2}) {
+            const auto request = request_from(fd);
+            put(fd,
+                {request[0], request[1], 0, 0, 0, 3, request[6], static_cast<std::uint8_t>(request[7] | 0x80), code});
+        }
+        auto request = request_from(fd);
+        request[0] ^= 0xFF;  // another transaction
+        put(fd, answer_to(request));
+        wait_for_close(fd);
+    });
+    ModbusTcpBus bus({"127.0.0.1", peer.port});
+    for (const int code : {6, 2}) {
+        const BusAnswer answer = bus.read_input(7, 1);
+        EXPECT_EQ(answer.end, BusEnd::exception);
+        EXPECT_EQ(answer.exception, code);
+    }
+    EXPECT_EQ(bus.read_input(7, 1).end, BusEnd::lost);
+}
+
+TEST(ModbusTcpBus, ACloseAndATornAnswerAreLost) {
+    const Peer peer([](int fd, int number) {
+        std::vector<std::uint8_t> answer = answer_to(request_from(fd));
+        if (number == 1) return;
+        answer.resize(8);
+        put(fd, answer);
+    });
+    ModbusTcpBus bus({"127.0.0.1", peer.port});
+    EXPECT_EQ(bus.read_input(7, 1).end, BusEnd::lost);
+    EXPECT_EQ(bus.read_input(7, 1).end, BusEnd::lost);
+}
+
+TEST(ModbusTcpBus, ADescriptorTooHighForTheLibraryIsRefusedWithWords) {
+    rlimit limit{};
+    ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &limit), 0);
+    if (limit.rlim_max < 1100) GTEST_SKIP() << "this system allows too few files";
+    const rlimit raised{1100, limit.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &raised), 0);
+    const Peer peer([](int fd, int) { wait_for_close(fd); });
+    std::vector<int> files;
+    for (int fd = 0; fd < FD_SETSIZE;) {
+        fd = open("/dev/null", O_RDONLY | O_CLOEXEC);
+        ASSERT_GE(fd, 0);
+        files.push_back(fd);
+    }
+    ModbusTcpBus bus({"127.0.0.1", peer.port});
+    const BusAnswer answer = bus.read_input(7, 1);
+    for (const int fd : files) close(fd);
+    setrlimit(RLIMIT_NOFILE, &limit);
+    EXPECT_EQ(answer.end, BusEnd::lost);
+    EXPECT_NE(answer.why.find("too many files"), std::string::npos) << answer.why;
+}
+
+TEST(ModbusTcpBus, ACountThatNoRequestCanHoldIsRefusedAtHome) {
+    ModbusTcpBus bus({"127.0.0.1", 1});
+    EXPECT_EQ(bus.read_input(0, 126).exception, 3);
+    EXPECT_EQ(bus.read_holding(0, 0).exception, 3);
+    EXPECT_EQ(bus.write_holding(0, Words(124, 0)).exception, 3);
+}
+
+}  // namespace
+}  // namespace qchopper

@@ -1,0 +1,114 @@
+#include "devices/registers.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace qchopper {
+namespace {
+
+TEST(Registers, TheFieldsOfEveryBlockFollowOneAnotherWithoutGapOrOverlap) {
+    for (const Block* block : all_blocks()) {
+        unsigned next = block->base;
+        for (const Field& field : block->fields) {
+            EXPECT_EQ(field.address, next) << block->name << " " << field.name;
+            next = field.address + field.count;
+        }
+        EXPECT_EQ(next, block->base + block->count) << block->name;
+    }
+}
+
+TEST(Registers, ATypeHasItsSize) {
+    for (const Block* block : all_blocks()) {
+        for (const Field& field : block->fields) {
+            if (field.type == FieldType::u16) EXPECT_EQ(field.count, 1) << field.name;
+            if (field.type == FieldType::u32 || field.type == FieldType::i32) EXPECT_EQ(field.count, 2) << field.name;
+            if (field.type == FieldType::u64) EXPECT_EQ(field.count, 4) << field.name;
+        }
+    }
+}
+
+TEST(Registers, EveryBlockFitsOneRequest) {
+    for (const Block* block : all_blocks()) EXPECT_LE(block->count, block->whole ? 123 : 125) << block->name;
+    EXPECT_EQ(chunk_block.count, chunk_head + max_chunk_bytes / 2);
+}
+
+TEST(Registers, BlocksOfOneSideDoNotOverlap) {
+    for (const Block* one : all_blocks()) {
+        for (const Block* other : all_blocks()) {
+            if (one == other || one->side != other->side) continue;
+            EXPECT_TRUE(one->base + one->count <= other->base || other->base + other->count <= one->base)
+                << one->name << " " << other->name;
+        }
+    }
+}
+
+// Addresses that the link was agreed on, written by hand.
+TEST(Registers, WellKnownFieldsLieWhereTheyWereAgreed) {
+    const auto at = [](const Block& block, const char* field) {
+        const Field* found = field_named(block, field);
+        return found == nullptr ? -1 : static_cast<int>(found->address);
+    };
+    EXPECT_EQ(at(status_block, "STATE"), 7);
+    EXPECT_EQ(at(status_block, "ACK_RESULT"), 17);
+    EXPECT_EQ(at(status_block, "TOKEN"), 28);
+    EXPECT_EQ(at(status_block, "JOB_STATE"), 30);
+    EXPECT_EQ(at(status_block, "FILE_SHA256"), 69);
+    EXPECT_EQ(at(status_block, "STARTS_TOTAL"), 85);
+    EXPECT_EQ(at(status_block, "BAD_REASON"), 98);
+    EXPECT_EQ(at(result_block, "STARTS"), 210);
+    EXPECT_EQ(at(result_block, "QUERY_OWNER"), 244);
+    EXPECT_EQ(at(command_block, "OWNER"), 38);
+    EXPECT_EQ(at(ticket_block, "FILE_NAME"), 128);
+    EXPECT_EQ(at(ticket_block, "CELL_ID"), 193);
+    EXPECT_EQ(at(heartbeat_block, "COUNTER"), 504);
+    EXPECT_EQ(at(heartbeat_block, "NO_SUCH_FIELD"), -1);
+}
+
+TEST(Registers, TheNumbersOfTheStatesAreThoseOfPackTags) {
+    const char* names[] = {"Undefined", "Clearing",   "Stopped",      "Starting",  "Idle",       "Suspended",
+                           "Execute",   "Stopping",   "Aborting",     "Aborted",   "Holding",    "Held",
+                           "Unholding", "Suspending", "Unsuspending", "Resetting", "Completing", "Complete"};
+    for (std::uint16_t n = 0; n <= last_pack_state; ++n) EXPECT_STREQ(name(static_cast<PackState>(n)), names[n]);
+    EXPECT_STREQ(name(static_cast<PackState>(18)), "unknown");
+    EXPECT_STREQ(name(static_cast<AckResult>(0x306)), "HASH_MISMATCH");
+    EXPECT_STREQ(name(static_cast<AckResult>(0x9999)), "unknown result");
+}
+
+TEST(Registers, TheDocumentIsWhatTheTablesPrint) {
+    std::ifstream file(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "docs" / "registers.md");
+    std::stringstream text;
+    text << file.rdbuf();
+    EXPECT_EQ(text.str(), print_registers()) << "write print_registers() to docs/registers.md";
+}
+
+// The simulated cell must not share the logic that it is there to test, and nobody here needs geometry.
+TEST(Rooms, DevicesAndSimTakeOnlyWhatTheyMay) {
+    const std::set<std::string> for_devices{
+        "segment/error.h",     "segment/context.h",      "segment/files/file.h",         "segment/files/sha256.h",
+        "segment/mesh/vec3.h", "segment/mesh/measure.h", "segment/mesh/triangle_mesh.h", "cam/job/ticket.h"};
+    const std::set<std::string> of_devices{"devices/registers.h", "devices/packml.h", "devices/words.h",
+                                           "devices/codec.h", "devices/bus.h"};
+    int includes = 0;
+    for (const std::string room : {"devices", "sim"}) {
+        for (const auto& entry :
+             std::filesystem::directory_iterator(std::filesystem::path(QCHOPPER_SOURCE_DIR) / room)) {
+            std::ifstream file(entry.path());
+            for (std::string line; std::getline(file, line);) {
+                if (!line.starts_with("#include \"")) continue;
+                const std::string header = line.substr(10, line.rfind('"') - 10);
+                ++includes;
+                const bool is_own = header.starts_with(room + "/");
+                const bool is_allowed = for_devices.contains(header) || (room == "sim" && of_devices.contains(header));
+                EXPECT_TRUE(is_own || is_allowed) << entry.path() << " includes " << header;
+            }
+        }
+    }
+    EXPECT_GT(includes, 30);
+}
+
+}  // namespace
+}  // namespace qchopper

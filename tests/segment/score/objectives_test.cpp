@@ -1,0 +1,56 @@
+#include "segment/score/objectives.h"
+
+#include <gtest/gtest.h>
+
+namespace qchopper {
+namespace {
+
+Price two_halves(std::size_t a, std::size_t b) {
+    Price price;
+    price.cap_area_mm2 = 1;
+    price.solids = {{a, 10, true, {{1, 2, 10, 3, 6}}}, {b, 10, false, {{1, 1, 10, 1, 5}, {2, 4, 10, 0, 5}}}};
+    return price;
+}
+
+TEST(Objectives, EvenPiecesCostNothingUpToTheThreshold) {
+    EXPECT_EQ(terms(two_halves(100, 150), {}, {})->face_ratio, 0);
+    EXPECT_DOUBLE_EQ(terms(two_halves(100, 300), {}, {})->face_ratio, 1.5);
+    const std::vector<PieceShare> others{{50, 0.5}};
+    EXPECT_DOUBLE_EQ(terms(two_halves(100, 300), others, {})->face_ratio, 4.5);
+}
+
+TEST(Objectives, UndercutIsTheMeanOverPiecesOfTheLeastOverBases) {
+    EXPECT_DOUBLE_EQ(terms(two_halves(1, 1), {}, {})->undercut, (0.2 + 0.1) / 2);
+    Objectives by_count;
+    by_count.undercut_by_area = false;
+    EXPECT_DOUBLE_EQ(terms(two_halves(1, 1), {}, by_count)->undercut, (0.5 + 0.0) / 2);
+    const std::vector<PieceShare> others{{1, 0.5}};
+    EXPECT_DOUBLE_EQ(terms(two_halves(1, 1), others, {})->undercut, (0.2 + 0.1 + 0.5) / 3);
+}
+
+TEST(Objectives, ASolidWithoutCapCountsOneHalf) {
+    EXPECT_EQ(undercut(SolidPrice{}, true), 0.5);
+}
+
+TEST(Objectives, CrumbsEnterNothingAndACutThatOnlyShavesThemIsNoCandidate) {
+    Price price = two_halves(100, 100);
+    price.solids.push_back({4, 0.001, true, {}});
+    Objectives objectives;
+    objectives.crumb_volume_mm3 = 0.01;
+    const auto t = terms(price, {}, objectives);
+    EXPECT_EQ(t->piece_count, 0);
+    EXPECT_EQ(t->face_ratio, 0);
+    price.solids[1].volume_mm3 = 0.001;
+    EXPECT_FALSE(terms(price, {}, objectives).has_value());
+}
+
+TEST(Objectives, TheTotalIsTheWeightedSum) {
+    Price price = two_halves(100, 300);
+    price.fragility = 0.7;
+    price.solids.push_back({100, 5, true, {}});
+    const auto t = terms(price, {}, {});
+    EXPECT_DOUBLE_EQ(t->total, 10 * t->face_ratio + 5 * 0.7 + 50 * 1 + 10 * t->undercut);
+}
+
+}  // namespace
+}  // namespace qchopper

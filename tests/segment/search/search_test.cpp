@@ -1,0 +1,140 @@
+#include "segment/search/search.h"
+
+#include <gtest/gtest.h>
+
+#include "segment/mesh/edges.h"
+#include "segment/mesh/measure.h"
+#include "segment/search/presets.h"
+#include "tests/shapes.h"
+
+namespace qchopper {
+namespace {
+
+double total_volume(const Segmentation& segmentation) {
+    double sum = 0;
+    for (const Piece& piece : segmentation.pieces) sum += volume_mm3(*piece.mesh);
+    for (const Crumb& crumb : segmentation.crumbs) sum += crumb.volume_mm3;
+    return sum;
+}
+
+SearchSettings quick(int cuts) {
+    SearchSettings settings;
+    settings.candidates.offsets_per_normal = 7;
+    settings.stop.min_cuts = cuts;
+    return settings;
+}
+
+Segmentation searched(const TriangleMesh& mesh, const SearchSettings& settings) {
+    Segmentation segmentation = uncut(mesh, settings.objectives.crumb_volume_mm3);
+    const SearchEnd end = search(segmentation, settings, RayTree(mesh), {}, [](const Segmentation&) {}, {});
+    EXPECT_TRUE(end.is_finished) << end.reason;
+    return segmentation;
+}
+
+TEST(Search, NothingIsLostOnAnyShape) {
+    for (const auto& [name, mesh, count] : shapes::all_closed()) {
+        const Segmentation segmentation = searched(mesh, quick(4));
+        EXPECT_EQ(segmentation.cuts.size(), 4U) << name;
+        EXPECT_GE(segmentation.pieces.size(), count + 4) << name;
+        EXPECT_NEAR(total_volume(segmentation) / volume_mm3(mesh), 1, 1e-9) << name;
+        for (const Piece& piece : segmentation.pieces) {
+            EXPECT_TRUE(edges(*piece.mesh).faults.is_closed()) << name;
+        }
+    }
+}
+
+TEST(Search, TheChosenPlaneIsTheBestOfAllRankedAndRunnersUpFollowInOrder) {
+    const TriangleMesh mesh = shapes::linked_tori();
+    const Segmentation segmentation = searched(mesh, quick(2));
+    for (const Cut& cut : segmentation.cuts) {
+        double last = cut.chosen.terms.total;
+        EXPECT_FALSE(cut.runners_up.empty());
+        for (const Ranked& r : cut.runners_up) {
+            EXPECT_GE(r.terms.total, last - 1e-9);
+            last = r.terms.total;
+        }
+    }
+}
+
+TEST(Search, TiesGoToTheLowerNormalThenOffset) {
+    const TriangleMesh cube = shapes::box({0, 0, 0}, {10, 10, 10}, 2);
+    SearchSettings settings = quick(1);
+    settings.objectives.weights = {0, 0, 1, 0};  // every plane gives two pieces: all tie
+    const Segmentation segmentation = uncut(cube, 0);
+    const std::vector<Ranked> ranked = rank(segmentation, 0, settings, RayTree(cube), {});
+    for (std::size_t i = 1; i < ranked.size(); ++i) {
+        EXPECT_LT(std::pair(ranked[i - 1].normal, ranked[i - 1].offset), std::pair(ranked[i].normal, ranked[i].offset));
+    }
+}
+
+TEST(Search, ThePieceWithMostFacesIsCutFirst) {
+    const TriangleMesh mesh = shapes::joined({shapes::ball({0, 0, 0}, 10, 8), shapes::ball({40, 0, 0}, 10, 12)});
+    const Segmentation segmentation = searched(mesh, quick(1));
+    EXPECT_EQ(segmentation.cuts[0].piece, "B");
+    EXPECT_EQ(segmentation.cuts[0].pieces, (std::vector<std::string>{"C", "D"}));
+}
+
+TEST(Search, CrumbsAreListedAndNotCut) {
+    const TriangleMesh mesh = shapes::joined({shapes::ball({0, 0, 0}, 10, 8), shapes::ball({40, 0, 0}, 0.1, 6)});
+    SearchSettings settings = quick(1);
+    settings.objectives.crumb_volume_mm3 = 1e-5 * volume_mm3(mesh);
+    const Segmentation segmentation = searched(mesh, settings);
+    ASSERT_EQ(segmentation.crumbs.size(), 1U);
+    EXPECT_EQ(segmentation.crumbs[0].cut, 0);
+    EXPECT_NEAR(segmentation.crumbs[0].centre.x, 40, 0.1);
+    EXPECT_NEAR(total_volume(segmentation) / volume_mm3(mesh), 1, 1e-9);
+}
+
+TEST(Search, StopsInWordsWhenNoPlanePartsAnything) {
+    SearchSettings settings = quick(1);
+    settings.candidates.offsets_per_normal = 0;
+    const TriangleMesh mesh = shapes::ball({0, 0, 0}, 10);
+    Segmentation segmentation = uncut(mesh, 0);
+    const SearchEnd end = search(segmentation, settings, RayTree(mesh), {}, [](const Segmentation&) {}, {});
+    EXPECT_FALSE(end.is_finished);
+    EXPECT_EQ(end.reason, "no plane parts any of the unfinished pieces");
+}
+
+TEST(Search, WhenStoppedTheCutsMadeUntilThenStand) {
+    const TriangleMesh mesh = shapes::torus({0, 0, 0}, 40, 12);
+    std::atomic<bool> stop{false};
+    Context context;
+    context.cancelled = &stop;
+    Segmentation segmentation = uncut(mesh, 0);
+    std::size_t told = 0;
+    EXPECT_THROW(search(
+                     segmentation, quick(9), RayTree(mesh), {},
+                     [&](const Segmentation& s) {
+                         told = s.cuts.size();
+                         if (told == 2) stop = true;
+                     },
+                     context),
+                 Cancelled);
+    EXPECT_EQ(told, 2U);
+    EXPECT_EQ(segmentation.cuts.size(), 2U);
+}
+
+TEST(Search, IsTheSameTwice) {
+    const TriangleMesh mesh = shapes::nested();
+    EXPECT_EQ(searched(mesh, quick(3)).cuts, searched(mesh, quick(3)).cuts);
+}
+
+TEST(PieceNames, CountOnAfterZ) {
+    EXPECT_EQ(piece_name(0), "A");
+    EXPECT_EQ(piece_name(25), "Z");
+    EXPECT_EQ(piece_name(26), "AA");
+    EXPECT_EQ(piece_name(27), "AB");
+    EXPECT_EQ(piece_name(26 + 26 * 26), "AAA");
+}
+
+TEST(Presets, TheFourCasesOfTheThesisAreThere) {
+    EXPECT_EQ(preset("bunny")->stop.min_cuts, 3);
+    EXPECT_EQ(preset("bunny")->objectives.weights, (Weights{10, 5, 50, 10}));
+    EXPECT_EQ(preset("skull")->stop.max_faces, 100'000U);
+    EXPECT_EQ(preset("vertebrae")->objectives.weights, (Weights{5, 1, 200, 1}));
+    EXPECT_TRUE(preset("femur"));
+    EXPECT_FALSE(preset("rabbit"));
+}
+
+}  // namespace
+}  // namespace qchopper

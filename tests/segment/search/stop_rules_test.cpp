@@ -1,0 +1,74 @@
+#include "segment/search/stop_rules.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/shapes.h"
+
+namespace qchopper {
+namespace {
+
+Segmentation two_boxes() {
+    return uncut(shapes::joined({shapes::box({0, 0, 0}, {10, 10, 10}, 2), shapes::box({20, 0, 0}, {50, 20, 10}, 4)}),
+                 0);
+}
+
+TEST(StopRules, EachRuleNamesThePieceThatBreaksIt) {
+    const Segmentation s = two_boxes();  // A: 48 faces, B: 192 faces
+    StopRules rules;
+    rules.max_faces = 100;
+    EXPECT_EQ(next_piece(s, rules, {}, {}).piece, 1U);
+    rules.max_faces = 193;
+    EXPECT_TRUE(next_piece(s, rules, {}, {}).is_finished);
+    rules.max_faces = 192;  // fewer than
+    EXPECT_FALSE(next_piece(s, rules, {}, {}).is_finished);
+    rules = {};
+    rules.max_obb = Vec3{11, 31, 21};
+    EXPECT_TRUE(next_piece(s, rules, {}, {}).is_finished);
+    rules.max_obb = Vec3{11, 29, 21};
+    EXPECT_EQ(next_piece(s, rules, {}, {}).piece, 1U);
+    rules = {};
+    rules.fits_cell = true;
+    EXPECT_EQ(next_piece(s, rules, [](const Piece& p) { return p.name == "B"; }, {}).piece, 0U);
+    rules = {};
+    rules.min_cuts = 1;
+    EXPECT_EQ(next_piece(s, rules, {}, {}).piece, 1U);
+}
+
+TEST(StopRules, AnyStopsAtTheFirstRuleThatHoldsAllWaitsForEach) {
+    const Segmentation s = two_boxes();
+    StopRules rules;
+    rules.max_faces = 1000;
+    rules.min_cuts = 1;
+    EXPECT_FALSE(next_piece(s, rules, {}, {}).is_finished);
+    rules.combine = Stop::any;
+    EXPECT_TRUE(next_piece(s, rules, {}, {}).is_finished);
+    rules.max_faces = 10;
+    EXPECT_FALSE(next_piece(s, rules, {}, {}).is_finished);
+}
+
+TEST(StopRules, NoRuleIsFinishedAtOnceAndTheSafetyStopNamesNoPiece) {
+    Segmentation s = two_boxes();
+    EXPECT_TRUE(next_piece(s, {}, {}, {}).is_finished);
+    StopRules rules;
+    rules.max_faces = 10;
+    rules.max_cuts = 0;
+    const NextPiece next = next_piece(s, rules, {}, {});
+    EXPECT_FALSE(next.is_finished);
+    EXPECT_FALSE(next.piece);
+}
+
+TEST(StopRules, APieceWithoutCandidatesIsPassedOver) {
+    const Segmentation s = two_boxes();
+    StopRules rules;
+    rules.max_faces = 10;
+    EXPECT_EQ(next_piece(s, rules, {}, {"B"}).piece, 0U);
+    EXPECT_FALSE(next_piece(s, rules, {}, {"A", "B"}).piece);
+}
+
+TEST(StopRules, ABoxFitsInSomeAxisOrder) {
+    EXPECT_TRUE(fits_in({1, 2, 3}, {3, 1, 2}));
+    EXPECT_FALSE(fits_in({1, 2, 3.1}, {3, 2, 2}));
+}
+
+}  // namespace
+}  // namespace qchopper

@@ -1,0 +1,61 @@
+// What the tests of the link share: a job to send, a cell to send it to, a raw socket to misbehave with.
+
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "devices/dispatch.h"
+#include "devices/modbus_tcp.h"
+#include "sim/cell_sim.h"
+
+namespace qchopper::rig {
+
+// A folder of its own, removed at the end.
+class Folder {
+ public:
+    Folder();
+    ~Folder();
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    const std::filesystem::path path;
+};
+
+struct Job {
+    std::filesystem::path file;
+    JobTicket ticket;
+};
+// A file of `bytes` pseudo-random bytes in `folder` and a sound ticket for it that takes `seconds`.
+Job make_job(const std::filesystem::path& folder, std::size_t bytes = 5000, std::uint32_t seconds = 20);
+
+// A cell that runs jobs 100 times as fast, and a dispatcher that polls quickly.
+CellSimOptions quick_cell(const std::filesystem::path& drop);
+DispatchOptions quick_dispatch(const std::filesystem::path& drop);
+
+std::unique_ptr<ModbusTcpBus> connect(const CellSim& cell);
+
+// A TCP connection to 127.0.0.1 without any manners.
+class RawSocket {
+ public:
+    explicit RawSocket(std::uint16_t port);
+    ~RawSocket();
+    RawSocket(const RawSocket&) = delete;
+    RawSocket& operator=(const RawSocket&) = delete;
+    void send(const Bytes& bytes) const;
+    // Up to `count` bytes; fewer if the peer closes or nothing comes for `seconds`.
+    Bytes receive(std::size_t count, double seconds = 1) const;
+    bool is_closed_within(double seconds) const;
+
+ private:
+    int fd_;
+};
+
+// MBAP header and PDU.
+Bytes frame(std::uint16_t transaction, const Bytes& pdu, std::uint8_t unit = 1);
+Bytes read_request(std::uint8_t function, std::uint16_t address, std::uint16_t count);
+Bytes write_request(std::uint16_t address, const Words& words);
+
+}  // namespace qchopper::rig
