@@ -11,9 +11,8 @@
 #include <CGAL/boost/graph/graph_traits_TriMesh_ArrayKernelT.h>
 
 #include <iterator>
-#include <string>
+#include <optional>
 
-#include "segment/error.h"
 #include "segment/intake/manifold.h"
 
 namespace qchopper {
@@ -26,21 +25,17 @@ struct Doubles : OpenMesh::DefaultTraits {
 using Surface = OpenMesh::TriMesh_ArrayKernelT<Doubles>;
 
 // Beyond this many edges only triangles of the Delaunay tetrahedra are tried: the search over all grows with n^3.
-constexpr std::size_t most_edges_for_full_search = 600;
+constexpr std::size_t most_edges_for_full_search = 400;
 
-Surface surface_of(const TriangleMesh& mesh) {
+// Nothing where the surface folds onto itself in a way that half-edges cannot tell.
+std::optional<Surface> surface_of(const TriangleMesh& mesh) {
+    omerr().disable();  // it would print what the caller reports
     Surface surface;
     surface.reserve(mesh.points.size(), 3 * mesh.triangles.size() / 2 + 1, mesh.triangles.size());
     for (const Vec3& p : mesh.points) surface.add_vertex({p.x, p.y, p.z});
     for (const Triangle& t : mesh.triangles) {
         const auto corner = [&](std::size_t i) { return surface.vertex_handle(t[i]); };
-        if (!surface.add_face(corner(0), corner(1), corner(2)).is_valid()) {
-            const Vec3 p = mesh.points[t[0]];
-            throw InputError(InputFault::mesh,
-                             "the surface folds onto itself near (" + std::to_string(p.x) + ", " + std::to_string(p.y) +
-                                 ", " + std::to_string(p.z) + ") and its holes cannot be closed",
-                             "repair the scan in the scanning software");
-        }
+        if (!surface.add_face(corner(0), corner(1), corner(2)).is_valid()) return {};
     }
     return surface;
 }
@@ -65,11 +60,11 @@ FilledHoles fill_holes(TriangleMesh& mesh) {
     FilledHoles result;
     const std::vector<std::vector<std::uint32_t>> loops = border_loops(mesh, unpaired(mesh, edges(mesh)).open);
     if (loops.empty()) return result;
-    Surface surface = surface_of(mesh);
+    std::optional<Surface> surface = surface_of(mesh);
     std::vector<Triangle> added;
     for (const std::vector<std::uint32_t>& loop : loops) {
-        const std::vector<Surface::FaceHandle> faces =
-            fill(surface, border_half_edge(surface, mesh, loop.front()), loop.size());
+        std::vector<Surface::FaceHandle> faces;
+        if (surface) faces = fill(*surface, border_half_edge(*surface, mesh, loop.front()), loop.size());
         if (faces.empty()) {
             result.left.push_back({centre_of(mesh, loop), loop.size()});
             continue;
@@ -78,7 +73,7 @@ FilledHoles fill_holes(TriangleMesh& mesh) {
         for (const Surface::FaceHandle face : faces) {
             Triangle triangle{};
             std::size_t i = 0;
-            for (const Surface::VertexHandle corner : surface.fv_range(face)) {
+            for (const Surface::VertexHandle corner : surface->fv_range(face)) {
                 triangle[i++] = static_cast<std::uint32_t>(corner.idx());
             }
             added.push_back(triangle);

@@ -1,5 +1,6 @@
 #include "segment/intake/inspect.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -38,19 +39,25 @@ void count_shells(const TriangleMesh& mesh, const Edges& found_edges, Inspection
     }
 }
 
-std::string length_in_words(double mm) {
-    const char* unit = "mm";
-    double value = mm;
-    if (mm >= 999.5) {
-        unit = "m";
-        value = mm / 1000;
-    } else if (mm >= 99.95) {
-        unit = "cm";
-        value = mm / 10;
-    }
-    const int decimals = value >= 99.95 ? 0 : value >= 9.995 ? 1 : 2;
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%.*f %s", decimals, value, unit);
+// How lengths are told next to the longest of them.
+struct Wording {
+    const char* unit;
+    double mm;
+    int decimals;  // three digits for the longest
+};
+
+Wording wording_for(double longest_mm) {
+    const auto in = [&](const char* unit, double mm) {
+        const double value = longest_mm / mm;
+        return Wording{unit, mm, value >= 99.95 ? 0 : value >= 9.995 ? 1 : 2};
+    };
+    if (longest_mm >= 999.5) return in("m", 1000);
+    return longest_mm >= 99.95 ? in("cm", 10) : in("mm", 1);
+}
+
+std::string in_words(double mm, const Wording& wording) {
+    std::array<char, 400> text{};  // the largest double has 309 digits
+    std::snprintf(text.data(), text.size(), "%.*f %s", wording.decimals, mm / wording.mm, wording.unit);
     return text.data();
 }
 
@@ -91,7 +98,8 @@ Inspection inspect(const RawMesh& scan) {
 }
 
 std::string size_in_words(Vec3 size_mm) {
-    return length_in_words(size_mm.x) + " x " + length_in_words(size_mm.y) + " x " + length_in_words(size_mm.z);
+    const Wording wording = wording_for(std::max({size_mm.x, size_mm.y, size_mm.z}));
+    return in_words(size_mm.x, wording) + " x " + in_words(size_mm.y, wording) + " x " + in_words(size_mm.z, wording);
 }
 
 }  // namespace qchopper

@@ -49,7 +49,7 @@ struct Inspection {
 
 Inspection inspect(const RawMesh& scan);
 
-// "1.82 m x 0.94 m x 0.71 m"; each length in m, cm or mm, whichever reads best, three significant digits.
+// "1.82 m x 0.94 m x 0.71 m": all in the unit that suits the longest, which gets three digits.
 std::string size_in_words(Vec3 size_mm);
 
 }  // namespace qchopper

@@ -50,8 +50,7 @@ class Taking {
             throw InputError(InputFault::use, "units and scale must be positive numbers", "leave --scale out for 1");
         }
         if (options.scale != 1) {
-            warn("The scan is enlarged by " + in_digits(options.scale) +
-                 " (--scale): its pieces are not in true size.");
+            warn("The scan is scaled by " + in_digits(options.scale) + " (--scale): its pieces are not in true size.");
         }
     }
 

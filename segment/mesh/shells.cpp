@@ -5,25 +5,12 @@
 #include <numeric>
 #include <optional>
 
+#include "segment/mesh/disjoint_sets.h"
+
 namespace qchopper {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
-// Disjoint sets of numbers; the root of a set is its smallest member, so that results do not depend on order.
-struct DisjointSets {
-    std::vector<std::uint32_t> parent;
-    explicit DisjointSets(std::size_t size) : parent(size) { std::iota(parent.begin(), parent.end(), 0U); }
-    std::uint32_t root(std::uint32_t a) {
-        while (parent[a] != a) a = parent[a] = parent[parent[a]];
-        return a;
-    }
-    void unite(std::uint32_t a, std::uint32_t b) {
-        a = root(a);
-        b = root(b);
-        if (a != b) parent[std::max(a, b)] = std::min(a, b);
-    }
-};
 
 // Where the surface meets the line of constant height h and side s, as its coordinate t along the line.
 // The rule ">= is above" makes every closed surface cross the line an even number of times, also through vertices.
@@ -82,9 +69,10 @@ class Surroundings {
         for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) triangles_[next[shells.shell_of[t]]++] = t;
     }
 
-    // The shell that the tether of this cavity meets, or none if it does not leave material there.
-    std::uint32_t around(std::uint32_t cavity) const {
-        const Coordinates start = farthest_point(cavity);
+    // Nothing if the line meets nothing, or does not leave material there.
+    std::optional<Tether> tether(std::uint32_t cavity) const {
+        const std::uint32_t from = farthest_vertex(cavity);
+        const Coordinates start = coordinates(mesh_.points[from]);
         double nearest = std::numeric_limits<double>::infinity();
         std::uint32_t hit = none;
         for (std::uint32_t shell = 0; shell < shells_.count(); ++shell) {
@@ -98,8 +86,8 @@ class Surroundings {
                 }
             }
         }
-        if (hit == none || dot(area_vector(mesh_, hit), frame_.along) <= 0) return none;
-        return shells_.shell_of[hit];
+        if (hit == none || dot(area_vector(mesh_, hit), frame_.along) <= 0) return std::nullopt;
+        return Tether{cavity, from, hit};
     }
 
  private:
@@ -116,15 +104,18 @@ class Surroundings {
         return crossing(corner, start.h, start.s);
     }
 
-    Coordinates farthest_point(std::uint32_t shell) const {
-        Coordinates best{0, 0, -std::numeric_limits<double>::infinity()};
+    std::uint32_t farthest_vertex(std::uint32_t shell) const {
+        double best = -std::numeric_limits<double>::infinity();
+        std::uint32_t vertex = none;
         for (std::size_t i = first_[shell]; i < first_[shell + 1]; ++i) {
             for (const std::uint32_t v : mesh_.triangles[triangles_[i]]) {
-                const Coordinates c = coordinates(mesh_.points[v]);
-                if (c.t > best.t) best = c;
+                const double along = dot(frame_.along, mesh_.points[v]);
+                if (along <= best) continue;
+                best = along;
+                vertex = v;
             }
         }
-        return best;
+        return vertex;
     }
 
     // Conservative: could the half-line from `start` pass the box?
@@ -184,24 +175,26 @@ Shells shells(const TriangleMesh& mesh) {
     return result;
 }
 
+std::vector<Tether> tethers(const TriangleMesh& mesh, const Shells& shells, Vec3 axis) {
+    std::vector<Tether> result;
+    const bool has_cavity = std::any_of(shells.volume.begin(), shells.volume.end(), [](double v) { return v < 0; });
+    if (!has_cavity || shells.count() == 1) return result;
+    const Surroundings surroundings(mesh, shells, axis);
+    for (std::uint32_t shell = 0; shell < shells.count(); ++shell) {
+        if (shells.volume[shell] >= 0) continue;
+        if (const auto tether = surroundings.tether(shell)) result.push_back(*tether);
+    }
+    return result;
+}
+
 Solids solids(const TriangleMesh& mesh, const Shells& shells, Vec3 axis) {
     Solids result;
     result.solid_of_shell.assign(shells.count(), none);
     DisjointSets sets(shells.count());
-    const bool has_cavity = std::any_of(shells.volume.begin(), shells.volume.end(), [](double v) { return v < 0; });
-    if (has_cavity && shells.count() > 1) {
-        const Surroundings surroundings(mesh, shells, axis);
-        for (std::uint32_t shell = 0; shell < shells.count(); ++shell) {
-            if (shells.volume[shell] >= 0) continue;
-            const std::uint32_t around = surroundings.around(shell);
-            if (around == none)
-                ++result.loose_cavities;
-            else
-                sets.unite(shell, around);
-        }
-    } else if (has_cavity) {
-        result.loose_cavities = 1;
-    }
+    const std::vector<Tether> ties = tethers(mesh, shells, axis);
+    for (const Tether& tie : ties) sets.unite(tie.cavity, shells.shell_of[tie.triangle]);
+    const auto cavities = std::count_if(shells.volume.begin(), shells.volume.end(), [](double v) { return v < 0; });
+    result.loose_cavities = static_cast<std::size_t>(cavities) - ties.size();
     for (std::uint32_t shell = 0; shell < shells.count(); ++shell) {
         std::uint32_t& solid = result.solid_of_shell[sets.root(shell)];
         if (solid == none) solid = static_cast<std::uint32_t>(result.count++);

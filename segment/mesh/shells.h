@@ -23,9 +23,19 @@ struct Shells {
 };
 Shells shells(const TriangleMesh& mesh);
 
-// Groups the shells of a closed mesh into solids. Each cavity joins the material around it: from its vertex
-// that is farthest along a direction square to `axis`, a straight line in that direction meets the surface of that
-// material first. `axis` keeps the line at one height, so a cut square to it never comes between (see cut.h).
+// Ties a cavity to the material around it: from its vertex that is farthest along a direction square to `axis`, a
+// straight line in that direction meets the surface of that material first. The line runs at one height along `axis`,
+// so a cut square to it never comes between.
+struct Tether {
+    std::uint32_t cavity = 0;    // shell
+    std::uint32_t vertex = 0;    // of the cavity
+    std::uint32_t triangle = 0;  // where the line leaves the material
+};
+
+// One tether for every negative shell; those with nothing around them have none: they are loose.
+std::vector<Tether> tethers(const TriangleMesh& mesh, const Shells& shells, Vec3 axis);
+
+// Groups the shells of a closed mesh into solids, each cavity by its tether.
 struct Solids {
     std::vector<std::uint32_t> solid_of_shell;
     std::size_t count = 0;

@@ -36,7 +36,7 @@ void add_upper_end(std::vector<FieldPart>& parts) {
     parts.push_back(
         added(24, {cone({72, -34, 1128}, 28, {84, 8, 1116}, 26), cone({86, 6, 1100}, 24, {70, 24, 1000}, 20)}));
     parts.push_back(carved(20, {ellipsoid({24, -64, 1098}, {24, 34, 44})}));
-    parts.push_back(added(20, {cone({-30, -28, 930}, 26, {-54, -50, 905}, 19)}));
+    parts.push_back(added(20, {cone({-26, -26, 935}, 30, {-46, -44, 915}, 22)}));
     parts.push_back(added(16, {cone({-50, -48, 912}, 14, {70, -58, 1080}, 12)}));  // the crest between them
 }
 
@@ -64,7 +64,7 @@ Bone femur() {
     add_lower_end(parts);
     bone.field.textures = {{2.2, 140, 0.21}, {1.1, 57, 0.43}, {0.5, 31, 0.71}};
     bone.box = {{-270, -190, -50}, {190, 170, 1260}};
-    bone.base_spacing = 9;
+    bone.base_spacing = 11;
     return bone;
 }
 

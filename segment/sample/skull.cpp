@@ -69,7 +69,7 @@ void carve_openings(std::vector<FieldPart>& parts) {
     // nostrils
     parts.push_back(carved(
         24,
-        both_sides(tube({{{66, 1000, 70}, 54}, {{58, 860, 66}, 52}, {{52, 700, 60}, 44}, {{50, 540, 60}, 34}}, 4))));
+        both_sides(tube({{{74, 1000, 74}, 50}, {{68, 860, 68}, 46}, {{62, 700, 60}, 38}, {{56, 540, 60}, 30}}, 4))));
     // temporal hollows beside the brain case
     parts.push_back(carved(50, both_sides({ellipsoid({318, -430, 190}, {80, 190, 160})})));
     parts.push_back(carved(14, both_sides({cone({330, -770, 30}, 26, {190, -740, 34}, 20)})));  // ears
@@ -111,7 +111,7 @@ Bone skull() {
     add_teeth(parts);
     bone.field.textures = {{3.5, 230, 0.17}, {2.0, 96, 0.41}, {0.8, 53, 0.77}};
     bone.box = {{-560, -1100, -520}, {560, 1080, 600}};
-    bone.base_spacing = 15;
+    bone.base_spacing = 18;
     return bone;
 }
 

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <queue>
-#include <tuple>
 #include <vector>
 
 #include "segment/mesh/measure.h"
@@ -36,6 +35,8 @@ struct Quadric {
     }
 };
 
+constexpr std::uint32_t gone = 1U << 31;  // the age of a point that is no more
+
 // Triangles by the cubes of space that their boxes touch; cubes far apart may share a list.
 class Neighbourhood {
  public:
@@ -52,19 +53,17 @@ class Neighbourhood {
             list.pop_back();
         });
     }
-    // Whether the predicate holds for any triangle whose cubes the box touches; each is asked once.
-    template <class Predicate>
-    bool any(const Box& box, const Predicate& predicate) {
+    // Triangles whose cubes the box touches, each once.
+    void collect(const Box& box, std::vector<std::uint32_t>& found) {
         ++round_;
-        bool found = false;
+        found.clear();
         for_each_list(box, [&](const std::vector<std::uint32_t>& list) {
-            for (std::size_t i = 0; i < list.size() && !found; ++i) {
-                if (seen_[list[i]] == round_) continue;
-                seen_[list[i]] = round_;
-                found = predicate(list[i]);
+            for (const std::uint32_t triangle : list) {
+                if (seen_[triangle] == round_) continue;
+                seen_[triangle] = round_;
+                found.push_back(triangle);
             }
         });
-        return found;
     }
 
  private:
@@ -87,6 +86,20 @@ class Neighbourhood {
     std::uint64_t round_ = 0;
 };
 
+Box joined(const Box& a, const Box& b) {
+    Box both = a;
+    for (int axis = 0; axis < 3; ++axis) {
+        both.min[axis] = std::min(both.min[axis], b.min[axis]);
+        both.max[axis] = std::max(both.max[axis], b.max[axis]);
+    }
+    return both;
+}
+
+bool overlap(const Box& a, const Box& b) {
+    return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y && a.min.z <= b.max.z &&
+           b.min.z <= a.max.z;
+}
+
 // How much a collapse may turn and squeeze the triangles around it.
 struct Strictness {
     double least_cosine;
@@ -98,9 +111,10 @@ struct Candidate {
     double cost;
     std::uint32_t from;
     std::uint32_t to;
-    std::uint64_t age;                          // of both ends' quadrics when the cost was taken
+    std::uint32_t age;                          // of both ends' quadrics when the cost was taken
     bool operator<(const Candidate& b) const {  // the cheapest comes out of a priority queue first
-        return std::tie(b.cost, b.from, b.to) < std::tie(cost, from, to);
+        if (cost != b.cost) return cost > b.cost;
+        return from != b.from ? from > b.from : to > b.to;
     }
 };
 
@@ -138,37 +152,37 @@ class Thinning {
 
  private:
     Box box_of(const Triangle& t) const {
-        Box box{mesh_.points[t[0]], mesh_.points[t[0]]};
-        for (const std::uint32_t corner : t) {
-            for (int axis = 0; axis < 3; ++axis) {
-                box.min[axis] = std::min(box.min[axis], mesh_.points[corner][axis]);
-                box.max[axis] = std::max(box.max[axis], mesh_.points[corner][axis]);
-            }
-        }
-        return box;
+        const Box a{mesh_.points[t[0]], mesh_.points[t[0]]};
+        const Box b{mesh_.points[t[1]], mesh_.points[t[1]]};
+        return joined(joined(a, b), {mesh_.points[t[2]], mesh_.points[t[2]]});
     }
 
     void run_once(std::size_t target, const Strictness& strictness, const Context& context) {
-        std::priority_queue<Candidate> queue;
+        std::vector<Candidate> all;
         for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
             if (!is_alive_[t]) continue;
-            for (std::size_t k = 0; k < 3; ++k)
-                queue.push(candidate(mesh_.triangles[t][k], mesh_.triangles[t][(k + 1) % 3]));
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t a = mesh_.triangles[t][k];
+                const std::uint32_t b = mesh_.triangles[t][(k + 1) % 3];
+                if (a < b) all.push_back(cheaper(a, b));
+            }
         }
+        std::priority_queue<Candidate> queue({}, std::move(all));
         while (left_ > target && !queue.empty()) {
             const Candidate next = queue.top();
             queue.pop();
-            if (next.age != age_[next.from] + age_[next.to] || star_[next.from].empty() || star_[next.to].empty()) {
-                continue;
+            if (next.age != age_[next.from] + age_[next.to]) continue;
+            std::uint32_t kept = next.to;
+            if (!collapse(next.from, next.to, strictness)) {
+                if (!collapse(next.to, next.from, strictness)) continue;
+                kept = next.from;
             }
-            if (!collapse(next.from, next.to, strictness)) continue;
-            for (const std::uint32_t neighbour : neighbours(next.to)) {
-                queue.push(candidate(next.to, neighbour));
-                queue.push(candidate(neighbour, next.to));
-            }
+            for (const std::uint32_t neighbour : neighbours(kept)) queue.push(cheaper(kept, neighbour));
             if ((left_ & 0x3ff) == 0) context.check_cancelled();
         }
     }
+
+    Candidate cheaper(std::uint32_t a, std::uint32_t b) const { return std::max(candidate(a, b), candidate(b, a)); }
 
     Candidate candidate(std::uint32_t from, std::uint32_t to) const {
         const Vec3 p = mesh_.points[to];
@@ -235,21 +249,26 @@ class Thinning {
     }
 
     bool meets_anything(std::uint32_t from, const std::vector<Triangle>& after) {
+        std::vector<Box> boxes;
+        Box all = box_of(after.front());
+        for (const Triangle& triangle : after) {
+            boxes.push_back(box_of(triangle));
+            all = joined(all, boxes.back());
+        }
         for (std::size_t i = 0; i < after.size(); ++i) {
             for (std::size_t j = i + 1; j < after.size(); ++j) {
                 if (triangles_cross(mesh_.points, after[i], after[j])) return true;
             }
-            const Box box = box_of(after[i]);
-            const bool crosses = near_.any(box, [&](std::uint32_t t) {
-                const Triangle& other = mesh_.triangles[t];
-                if (std::find(other.begin(), other.end(), from) != other.end()) return false;  // goes away
-                const Box other_box = box_of(other);
-                for (int axis = 0; axis < 3; ++axis) {
-                    if (other_box.min[axis] > box.max[axis] || other_box.max[axis] < box.min[axis]) return false;
-                }
-                return triangles_cross(mesh_.points, after[i], other);
-            });
-            if (crosses) return true;
+        }
+        near_.collect(all, nearby_);
+        for (const std::uint32_t t : nearby_) {
+            const Triangle& other = mesh_.triangles[t];
+            const Box box = box_of(other);
+            if (!overlap(box, all)) continue;
+            if (std::find(other.begin(), other.end(), from) != other.end()) continue;  // goes away
+            for (std::size_t i = 0; i < after.size(); ++i) {
+                if (overlap(box, boxes[i]) && triangles_cross(mesh_.points, after[i], other)) return true;
+            }
         }
         return false;
     }
@@ -273,6 +292,7 @@ class Thinning {
         star_[from].clear();
         quadric_[to].add(quadric_[from]);
         ++age_[to];
+        age_[from] = gone;
     }
 
     void compact() {
@@ -299,8 +319,9 @@ class Thinning {
     std::vector<bool> is_alive_;
     std::vector<std::vector<std::uint32_t>> star_;  // per point, the triangles around it
     std::vector<Quadric> quadric_;
-    std::vector<std::uint64_t> age_;
+    std::vector<std::uint32_t> age_;
     Neighbourhood near_;
+    std::vector<std::uint32_t> nearby_;  // kept to save allocations
 };
 
 }  // namespace

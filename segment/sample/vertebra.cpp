@@ -21,7 +21,7 @@ void add_body(std::vector<FieldPart>& parts) {
 // Pedicles and laminae close the foramen above the body.
 void add_arch(std::vector<FieldPart>& parts) {
     parts.push_back(added(
-        16, both_sides(tube({{{37, -16, 32}, 15}, {{42, -14, 60}, 13}, {{43, -10, 84}, 13}, {{38, 0, 104}, 13}}, 4))));
+        16, both_sides(tube({{{38, -18, 28}, 19}, {{43, -16, 60}, 16}, {{44, -12, 84}, 16}, {{38, 0, 104}, 14}}, 4))));
     parts.push_back(added(12, both_sides({plate({40, -22, 98}, {36, 32, 94}, {4, -14, 130}, 8.5),
                                           plate({36, 32, 94}, {4, 40, 124}, {4, -14, 130}, 8.5)})));
     // the notch through which the nerve leaves, behind the pedicle
@@ -54,7 +54,7 @@ void add_transverse_processes(std::vector<FieldPart>& parts) {
 void add_facets(std::vector<FieldPart>& parts) {
     parts.push_back(added(12, both_sides(tube({{{38, -12, 100}, 13}, {{42, -38, 112}, 13}, {{42, -54, 120}, 13}}, 4))));
     parts.push_back(added(7, both_sides({ellipsoid({42, -54, 122}, {12.5, 5, 9}, {0, 24, 0}, 22),
-                                         cone({54, -44, 130}, 9, {58, -34, 142}, 7)})));
+                                         cone({52, -44, 128}, 11, {56, -34, 138}, 9)})));
     parts.push_back(carved(4, both_sides({ellipsoid({17, -64, 131}, {18, 7, 14}, {0, 30, 0}, 23)})));
     parts.push_back(added(12, both_sides(tube({{{26, 24, 108}, 12}, {{24, 48, 104}, 12}, {{23, 64, 99}, 11}}, 4))));
     parts.push_back(added(6, both_sides({ellipsoid({25, 66, 96}, {7, 3, 4}, {0, 20, 0}, 18)})));
@@ -72,7 +72,7 @@ Bone vertebra() {
     add_arch(parts);
     bone.field.textures = {{1.0, 47, 0.13}, {0.6, 21, 0.37}};
     bone.box = {{-200, -120, -90}, {200, 120, 290}};
-    bone.base_spacing = 5;
+    bone.base_spacing = 5.5;
     return bone;
 }
 

@@ -4,19 +4,48 @@
 
 #include <mutex>
 
+#include "segment/score/sweep.h"
+
 namespace qchopper {
+namespace {
+
+// Candidates [first, last) share a normal; their offsets ascend.
+struct Group {
+    std::size_t first;
+    std::size_t last;
+};
+
+std::vector<Group> groups_of(std::span<const Candidate> candidates) {
+    std::vector<Group> groups;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        const bool goes_on = i > 0 && candidates[i].plane.normal == candidates[i - 1].plane.normal &&
+                             candidates[i].plane.offset > candidates[i - 1].plane.offset;
+        if (!goes_on) groups.push_back({i, i});
+        groups.back().last = i + 1;
+    }
+    return groups;
+}
+
+}  // namespace
 
 std::vector<std::optional<Price>> price_all(const Piece& piece, std::span<const Candidate> candidates,
                                             const Objectives& objectives, const RayTree& scan_rays,
                                             const Context& context) {
     std::vector<std::optional<Price>> prices(candidates.size());
+    context.check_cancelled();
+    const PreparedPiece prepared = prepare(piece, objectives);
     std::mutex reporting;
     std::size_t done = 0;
-    tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
+    const std::vector<Group> groups = groups_of(candidates);
+    tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
         context.check_cancelled();
-        prices[i] = price_by_cutting(piece, candidates[i].plane, objectives, scan_rays);
+        const auto [first, last] = groups[g];
+        std::vector<double> offsets;
+        for (std::size_t i = first; i < last; ++i) offsets.push_back(candidates[i].plane.offset);
+        auto swept = sweep(prepared, candidates[first].plane.normal, offsets, objectives, scan_rays);
+        std::move(swept.begin(), swept.end(), prices.begin() + static_cast<std::ptrdiff_t>(first));
         const std::lock_guard lock(reporting);
-        context.progress("planes priced", ++done, candidates.size());
+        context.progress("planes priced", done += last - first, candidates.size());
     });
     return prices;
 }

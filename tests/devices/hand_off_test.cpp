@@ -1,1 +1,402 @@
+// The hand-off without a cell: what it asks for, given what it is told.
+
+#include "devices/hand_off.h"
+
 #include <gtest/gtest.h>
+
+#include <functional>
+
+namespace qchopper {
+namespace {
+
+using Kind = HandOffAction::Kind;
+
+constexpr Uuid job{1, 2, 3};
+constexpr Uuid other_job{9, 9, 9};
+
+HandOffPlan a_plan() {
+    HandOffPlan plan;
+    plan.ticket.job_id = job;
+    plan.ticket.file_sha256.fill(7);
+    plan.ticket.file_size = 100;
+    plan.ticket.file_name = "piece.qjob";
+    plan.owner = 77;
+    plan.secret = 88;
+    return plan;
+}
+
+// A cell made of paper: every command is granted at once, unless the test says otherwise.
+struct PaperCell {
+    explicit PaperCell(HandOffPlan with = a_plan()) : plan(std::move(with)) {
+        status.cell_id = any_cell_id;
+        status.flags = flag::simulated;
+        status.state = PackState::stopped;
+        status.boot_count = 1;
+        result.job_state = JobState::none;
+    }
+
+    // One action and its answer; false when it is finished.
+    bool step() {
+        HandOffTurn turn = advance(plan, state, input, now_s);
+        state = turn.state;
+        action = turn.action;
+        lines.insert(lines.end(), turn.lines.begin(), turn.lines.end());
+        if (action.kind == Kind::finish) return false;
+        now_s += 0.01;
+        status.heartbeat = static_cast<std::uint16_t>(freeze_s > 0 ? freeze_s / 0.5 : now_s / 0.5);
+        input = HandOffInput{};
+        input.cancelled = cancelled;
+        if (action.kind == Kind::wait) now_s = std::max(now_s, action.until_s);
+        if (lose && lose(action)) {
+            input.end = BusEnd::lost;
+            input.why = "cut";
+            return true;
+        }
+        if (refuse && refuse(action) != 0) {
+            input.end = BusEnd::exception;
+            input.exception = refuse(action);
+            return true;
+        }
+        if (action.kind == Kind::read_status) input.status = status;
+        if (action.kind == Kind::read_result) input.result = result;
+        if (action.kind == Kind::write_command) take(action.command);
+        return true;
+    }
+
+    void run(int most = 5000) {
+        while (most-- > 0 && step()) {
+        }
+        EXPECT_EQ(action.kind, Kind::finish) << "no end in sight at " << name(state.step);
+    }
+
+    void take(const Command& command) {
+        commands.push_back(command);
+        const AckResult answer = grant ? grant(command) : AckResult::ok;
+        if (answer == AckResult::none) return;
+        status.ack_owner = command.owner;
+        status.ack_seq = command.seq;
+        status.ack_command = command.command;
+        status.ack_result = answer;
+        if (is_refusal(answer)) return;
+        switch (command.command) {
+            case CellCommand::claim:
+                status.epoch_held = command.epoch;
+                status.owner_held = command.owner;
+                status.flags |= flag::lease_held;
+                break;
+            case CellCommand::reset:
+                status.state = PackState::idle;
+                break;
+            case CellCommand::store:
+                status.job_id = command.job_id;
+                status.job_state = JobState::stored;
+                break;
+            case CellCommand::verify:
+                status.file_sha256 = command.file_sha256;
+                break;
+            case CellCommand::prepare:
+                status.token = ++tokens;
+                status.job_state = JobState::prepared;
+                break;
+            case CellCommand::start:
+                status.job_state = JobState::running;
+                status.state = PackState::execute;
+                break;
+            case CellCommand::query:
+                result.job_id = command.job_id;
+                result.query_owner = command.owner;
+                result.query_seq = command.seq;
+                if (status.job_id == command.job_id) result.job_state = status.job_state;
+                result.file_sha256 = plan.ticket.file_sha256;
+                break;
+            default:
+                break;
+        }
+    }
+
+    int count(CellCommand command) const {
+        int n = 0;
+        for (const Command& one : commands) n += one.command == command ? 1 : 0;
+        return n;
+    }
+    std::string order() const {
+        std::string text;
+        for (const Command& one : commands) text += std::string(name(one.command)) + " ";
+        return text;
+    }
+
+    HandOffPlan plan;
+    HandOff state;
+    HandOffInput input;
+    HandOffAction action;
+    double now_s = 100;
+    double freeze_s = 0;
+    bool cancelled = false;
+    Status status;
+    ResultWords result;
+    std::uint32_t tokens = 1000;
+    std::vector<Command> commands;
+    std::vector<std::string> lines;
+    std::function<AckResult(const Command&)> grant;
+    std::function<bool(const HandOffAction&)> lose;
+    std::function<int(const HandOffAction&)> refuse;
+};
+
+void end_the_job(PaperCell& cell) {
+    while (cell.state.step != HandOffStep::run && cell.step()) {
+    }
+    cell.status.job_state = JobState::ended;
+    cell.status.job_result = JobResult::complete;
+    cell.status.state = PackState::complete;
+    cell.result.job_result = JobResult::complete;
+    cell.result.starts = 1;
+    cell.run();
+}
+
+TEST(HandOff, TheCommandsComeInTheOrderOfTheProtocol) {
+    PaperCell cell;
+    end_the_job(cell);
+    EXPECT_EQ(cell.order(), "CLAIM QUERY Reset STORE VERIFY PREPARE Start QUERY CLEAR_RESULT Reset RELEASE ");
+    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+    ASSERT_TRUE(cell.state.result.has_value());
+    EXPECT_EQ(cell.state.result->starts, 1U);
+    for (const Command& command : cell.commands) EXPECT_EQ(command.owner, 77U);
+    for (std::size_t i = 1; i < cell.commands.size(); ++i) EXPECT_GT(cell.commands[i].seq, cell.commands[i - 1].seq);
+}
+
+TEST(HandOff, BeforeEveryCommandThereIsARowForTheJournal) {
+    PaperCell cell;
+    std::string rows;
+    int commands = 0;
+    while (cell.state.step != HandOffStep::run && cell.step()) {
+        if (cell.action.kind != Kind::write_command) continue;
+        ++commands;
+        EXPECT_FALSE(cell.action.journal.empty()) << name(cell.action.command.command);
+        rows += cell.action.journal + "\n";
+    }
+    EXPECT_EQ(commands, 7);
+    EXPECT_NE(rows.find("EPOCH"), std::string::npos);
+    EXPECT_NE(rows.find("START_INTENT job=" + to_text(job)), std::string::npos) << rows;
+    EXPECT_NE(rows.find("token=1001"), std::string::npos) << rows;
+}
+
+TEST(HandOff, AnOwnRefusalOfStartIsNotStarted) {
+    PaperCell cell;
+    cell.grant = [](const Command& c) {
+        return c.command == CellCommand::start ? AckResult::safety_open : AckResult::ok;
+    };
+    cell.run();
+    EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+    EXPECT_EQ(cell.state.refusal, AckResult::safety_open);
+    EXPECT_EQ(cell.order(), "CLAIM QUERY Reset STORE VERIFY PREPARE Start CANCEL RELEASE ");
+}
+
+TEST(HandOff, TheAcknowledgementOfSomebodyElseIsNotTakenForOurs) {
+    PaperCell cell;
+    bool foreign = false;
+    cell.grant = [&](const Command& c) {
+        if (c.command != CellCommand::store || foreign) return AckResult::ok;
+        foreign = true;
+        cell.status.ack_owner = 12345;
+        cell.status.ack_seq = c.seq;
+        cell.status.ack_result = AckResult::ok;
+        return AckResult::none;
+    };
+    end_the_job(cell);
+    EXPECT_EQ(cell.count(CellCommand::store), 2);
+    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+}
+
+TEST(HandOff, ACommandThatIsNotAcknowledgedIsSentAgainAsTheVerySameFrame) {
+    PaperCell cell;
+    int unanswered = 2;
+    cell.grant = [&](const Command& c) {
+        return c.command == CellCommand::start && unanswered-- > 0 ? AckResult::none : AckResult::ok;
+    };
+    end_the_job(cell);
+    EXPECT_EQ(cell.count(CellCommand::start), 3);
+    const auto first = std::find_if(cell.commands.begin(), cell.commands.end(),
+                                    [](const Command& c) { return c.command == CellCommand::start; });
+    EXPECT_EQ(first[0], first[1]);
+    EXPECT_EQ(first[0], first[2]);
+}
+
+TEST(HandOff, AfterALostLinkComesAFenceAndAQuestionBeforeAnythingElse) {
+    // Cut at the write of START, once. The cell has not seen it.
+    PaperCell cell;
+    bool cut = false;
+    cell.lose = [&](const HandOffAction& action) {
+        if (cut || action.kind != Kind::write_command || action.command.command != CellCommand::start) return false;
+        cut = true;
+        cell.status.job_state = JobState::stored;
+        return true;
+    };
+    end_the_job(cell);
+    EXPECT_EQ(cell.order(),
+              "CLAIM QUERY Reset STORE VERIFY PREPARE CLAIM QUERY STORE VERIFY PREPARE Start QUERY CLEAR_RESULT Reset "
+              "RELEASE ");
+    EXPECT_GT(cell.commands[6].epoch, cell.commands[5].epoch);
+    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+    EXPECT_EQ(cell.commands[11].token, 1002U);  // a new token
+}
+
+TEST(HandOff, AStartThatArrivedThoughItsAnswerDidNotIsTakenUp) {
+    PaperCell cell;
+    bool cut = false;
+    cell.lose = [&](const HandOffAction& action) {
+        if (cut || action.kind != Kind::write_command || action.command.command != CellCommand::start) return false;
+        cut = true;
+        cell.take(action.command);
+        return true;
+    };
+    end_the_job(cell);
+    EXPECT_EQ(cell.count(CellCommand::start), 1);
+    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+}
+
+TEST(HandOff, ALinkThatNeverComesBackIsUnknownOnlyIfAStartMayHaveArrived) {
+    for (const CellCommand last : {CellCommand::store, CellCommand::prepare, CellCommand::start}) {
+        PaperCell cell;
+        bool dead = false;
+        cell.lose = [&](const HandOffAction& action) {
+            dead = dead || (action.kind == Kind::write_command && action.command.command == last);
+            return dead && action.kind != Kind::wait;
+        };
+        const double began = cell.now_s;
+        cell.run();
+        EXPECT_EQ(cell.state.verdict, last == CellCommand::start ? StartVerdict::unknown : StartVerdict::not_started);
+        EXPECT_EQ(cell.count(CellCommand::start), 0);
+        EXPECT_LT(cell.now_s - began, 40);
+    }
+}
+
+TEST(HandOff, ALinkLostForGoodWhileTheJobRunsIsStillStarted) {
+    PaperCell cell;
+    while (cell.state.step != HandOffStep::run && cell.step()) {
+    }
+    cell.lose = [](const HandOffAction& action) { return action.kind != Kind::wait; };
+    cell.run();
+    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+    EXPECT_NE(cell.state.why.find("runs on by itself"), std::string::npos);
+}
+
+TEST(HandOff, BusyIsAskedAgainTenTimesAndNoMore) {
+    PaperCell cell;
+    int asked = 0;
+    cell.refuse = [&](const HandOffAction& action) {
+        return action.kind == Kind::write_command && action.command.command == CellCommand::store ? 6 : 0;
+    };
+    while (cell.step())
+        asked += cell.action.kind == Kind::write_command && cell.action.command.command == CellCommand::store ? 1 : 0;
+    EXPECT_EQ(asked, 11);
+    EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+    EXPECT_NE(cell.state.why.find("exception 6"), std::string::npos) << cell.state.why;
+}
+
+TEST(HandOff, AnyOtherExceptionIsReportedAtOnce) {
+    PaperCell cell;
+    int asked = 0;
+    cell.refuse = [&](const HandOffAction& action) { return action.kind == Kind::write_ticket ? 2 : 0; };
+    while (cell.step()) asked += cell.action.kind == Kind::write_ticket ? 1 : 0;
+    EXPECT_EQ(asked, 1);
+    EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+}
+
+TEST(HandOff, AFrozenCellGetsNoCommand) {
+    PaperCell cell;
+    cell.grant = [&](const Command& c) {
+        return c.command == CellCommand::prepare ? AckResult::pending : AckResult::ok;
+    };
+    while (cell.state.step != HandOffStep::prepare && cell.step()) {
+    }
+    cell.freeze_s = cell.now_s;
+    const auto before = cell.commands.size();
+    cell.run();
+    EXPECT_EQ(cell.commands.size(), before + 1);  // PREPARE itself
+    EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+    EXPECT_NE(cell.state.why.find("frozen"), std::string::npos) << cell.state.why;
+}
+
+TEST(HandOff, HeartbeatsGoOutEveryHalfSecondOnceTheCellIsOurs) {
+    PaperCell cell;
+    double last = -1;
+    double worst = 0;
+    std::uint16_t counter = 0;
+    while (cell.now_s < 200 && cell.step()) {
+        if (cell.action.kind != Kind::heartbeat) continue;
+        if (last > 0) worst = std::max(worst, cell.now_s - last);
+        EXPECT_NE(cell.action.beat.counter, counter);
+        counter = cell.action.beat.counter;
+        EXPECT_EQ(cell.action.beat.owner, 77U);
+        EXPECT_EQ(cell.action.beat.epoch, cell.status.epoch_held);
+        last = cell.now_s;
+    }
+    EXPECT_EQ(cell.state.step, HandOffStep::run);
+    EXPECT_GT(last, 199);
+    EXPECT_LT(worst, 0.6);
+}
+
+TEST(HandOff, AStopOnRequestAtAnyMomentBeforeStartIsConfirmedAndNothingIsStarted) {
+    for (int at = 0; at < 200; ++at) {
+        PaperCell cell;
+        for (int n = 0; n < at && cell.state.step < HandOffStep::start; ++n) cell.step();
+        if (cell.state.step >= HandOffStep::start) {
+            EXPECT_GT(at, 10);
+            return;
+        }
+        cell.cancelled = true;
+        cell.input.cancelled = true;
+        const bool was_stored = cell.count(CellCommand::store) > 0 || cell.action.kind == Kind::write_command;
+        cell.run();
+        EXPECT_EQ(cell.count(CellCommand::start), 0) << at;
+        EXPECT_EQ(cell.state.verdict, StartVerdict::not_started) << at;
+        EXPECT_TRUE(cell.state.is_cancelled);
+        if (cell.count(CellCommand::store) > 0) {
+            EXPECT_TRUE(was_stored);
+            EXPECT_EQ(cell.count(CellCommand::cancel), 1) << at << cell.order();
+        }
+        if (cell.count(CellCommand::claim) > 0) {
+            EXPECT_EQ(cell.commands.back().command, CellCommand::release) << at << cell.order();
+        }
+    }
+    FAIL() << "never came to START";
+}
+
+TEST(HandOff, WhatStandsInTheWayIsClearedOrNamed) {
+    PaperCell cell;
+    cell.status.job_id = other_job;
+    cell.status.job_state = JobState::stored;
+    cell.grant = [&](const Command& c) {
+        if (c.command == CellCommand::cancel) {
+            EXPECT_EQ(c.job_id, other_job);
+            cell.status.job_id = {};
+            cell.status.job_state = JobState::none;
+        }
+        return AckResult::ok;
+    };
+    end_the_job(cell);
+    EXPECT_EQ(cell.count(CellCommand::cancel), 1);
+    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+
+    PaperCell busy;
+    busy.status.job_id = other_job;
+    busy.status.job_state = JobState::running;
+    busy.status.state = PackState::execute;
+    busy.run();
+    EXPECT_EQ(busy.state.fault, DeviceFault::busy);
+    EXPECT_EQ(busy.order(), "CLAIM QUERY RELEASE ");
+}
+
+TEST(HandOff, ACellWhoseWordsAreNotOursIsAnErrorOfTheProtocol) {
+    PaperCell cell;
+    cell.step();
+    cell.input = {};
+    cell.input.end = BusEnd::lost;
+    cell.input.fault = WordFault::magic;
+    HandOffTurn turn = advance(cell.plan, cell.state, cell.input, 1);
+    EXPECT_EQ(turn.action.kind, Kind::finish);
+    EXPECT_EQ(turn.state.fault, DeviceFault::protocol);
+}
+
+}  // namespace
+}  // namespace qchopper

@@ -24,9 +24,12 @@ TEST(Registers, TheFieldsOfEveryBlockFollowOneAnotherWithoutGapOrOverlap) {
 TEST(Registers, ATypeHasItsSize) {
     for (const Block* block : all_blocks()) {
         for (const Field& field : block->fields) {
-            if (field.type == FieldType::u16) EXPECT_EQ(field.count, 1) << field.name;
-            if (field.type == FieldType::u32 || field.type == FieldType::i32) EXPECT_EQ(field.count, 2) << field.name;
-            if (field.type == FieldType::u64) EXPECT_EQ(field.count, 4) << field.name;
+            const bool is_two = field.type == FieldType::u32 || field.type == FieldType::i32;
+            const int size = field.type == FieldType::u16   ? 1
+                             : is_two                       ? 2
+                             : field.type == FieldType::u64 ? 4
+                                                            : field.count;
+            EXPECT_EQ(field.count, size) << field.name;
         }
     }
 }

@@ -1,0 +1,37 @@
+// Which loops of a section are holes of which: the flat regions that a plane cuts out of a solid.
+//
+// Plane coordinates, mm. The cutter and the sweep ask this one function, so they agree
+// (tests/segment/cut/cap_test.cpp).
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace qchopper {
+
+struct Point2 {
+    double x = 0;
+    double y = 0;
+    bool operator==(const Point2&) const = default;
+};
+
+// Point numbers in order, counter-clockwise around material and clockwise around holes.
+using Loop = std::vector<std::uint32_t>;
+
+// Signed area by the shoelace formula: positive counter-clockwise.
+double signed_area(std::span<const Point2> points, const Loop& loop);
+
+// One outer loop and the holes in it, as indices of loops.
+struct CapRegion {
+    std::size_t outer = 0;
+    std::vector<std::size_t> holes;
+    bool is_simple = true;  // false: a loop runs the wrong way round for its nesting depth
+};
+
+// Even-odd nesting: a loop inside an odd number of others is a hole of the smallest one around it.
+std::vector<CapRegion> nest(std::span<const Point2> points, std::span<const Loop> loops);
+
+}  // namespace qchopper

@@ -1,0 +1,219 @@
+#include "segment/score/sweep.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "segment/mesh/disjoint_sets.h"
+#include "segment/score/fragility_sweep.h"
+#include "segment/score/section.h"
+#include "segment/score/slabs.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::int32_t new_cut = std::numeric_limits<std::int32_t>::max();
+
+struct GraphEdge {
+    std::uint32_t a;
+    std::uint32_t b;
+};
+
+// One side of all planes: nodes are taken in slab by slab, from the far end towards the planes, and merged; between two
+// slabs lies a plane, at which the parts are read off.
+class Side {
+ public:
+    Side(const PreparedPiece& prepared, const Slabs& slabs, const Section& section, Vec3 normal,
+         std::span<const double> offsets, bool above)
+        : p_(prepared),
+          slabs_(slabs),
+          section_(section),
+          normal_(normal),
+          offsets_(offsets),
+          above_(above),
+          planes_(offsets.size()),
+          sets_(slabs.nodes()),
+          sums_(slabs.sums),
+          edges_at_(planes_ + 1),
+          nodes_at_(planes_ + 1) {
+        for (std::uint32_t n = 0; n < slabs.nodes(); ++n) nodes_at_[slabs.node_slab[n]].push_back(n);
+        for (const Straddler& s : slabs.straddlers) {
+            // Whole on this side as soon as its corner nearest to the planes is taken in.
+            const std::uint16_t last = above ? s.low : s.high;
+            const std::size_t k = s.slab[0] == last ? 0 : s.slab[1] == last ? 1 : 2;
+            add_triangle(sums_.row(s.node[k]), p_, s.triangle, normal, 1, 1);
+            for (std::size_t i = 0; i < 3; ++i) add_edge(s.node[i], s.node[(i + 1) % 3]);
+        }
+        for (const Tether& t : tethers(*p_.piece->mesh, p_.shells, normal)) {
+            add_edge(slabs.node_of[t.vertex], slabs.node_of[far_corner(t.triangle)]);
+        }
+    }
+
+    // Adds this side's solids to the prices of all planes that have loops.
+    void run(std::vector<std::optional<Price>>& prices, const std::vector<std::vector<SectionRegion>>& regions) {
+        for (std::size_t step = 0; step < planes_; ++step) {
+            const std::size_t slab = above_ ? planes_ - step : step;
+            const std::size_t plane = above_ ? slab - 1 : slab;
+            take_in(slab);
+            if (prices[plane]) read_parts(plane, regions[plane], *prices[plane]);
+        }
+    }
+
+ private:
+    // The tether lies at the cavity's height; of the triangle that it meets, this corner is on its side of any plane.
+    std::uint32_t far_corner(std::uint32_t triangle) const {
+        const Triangle& v = p_.piece->mesh->triangles[triangle];
+        return *std::max_element(v.begin(), v.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return above_ ? slabs_.height[a] < slabs_.height[b] : slabs_.height[a] > slabs_.height[b];
+        });
+    }
+
+    // An edge counts from the slab of its end nearer to the planes. Equal edges come in runs; one of a run is enough.
+    void add_edge(std::uint32_t a, std::uint32_t b) {
+        if (a == b) return;
+        const std::uint16_t slab_a = slabs_.node_slab[a];
+        const std::uint16_t slab_b = slabs_.node_slab[b];
+        std::vector<GraphEdge>& edges = edges_at_[above_ ? std::min(slab_a, slab_b) : std::max(slab_a, slab_b)];
+        if (a > b) std::swap(a, b);
+        if (!edges.empty() && edges.back().a == a && edges.back().b == b) return;
+        edges.push_back({a, b});
+    }
+
+    void take_in(std::size_t slab) {
+        live_.insert(live_.end(), nodes_at_[slab].begin(), nodes_at_[slab].end());
+        for (const GraphEdge& edge : edges_at_[slab]) {
+            const std::uint32_t a = sets_.root(edge.a);
+            const std::uint32_t b = sets_.root(edge.b);
+            if (a == b) continue;
+            add(sums_.row(std::min(a, b)), sums_.row(std::max(a, b)));
+            sets_.unite(a, b);
+        }
+        std::erase_if(live_, [&](std::uint32_t n) { return sets_.root(n) != n; });
+    }
+
+    void read_parts(std::size_t plane, const std::vector<SectionRegion>& regions, Price& price) {
+        const std::size_t first = section_.first_loop[plane];
+        const std::size_t count = section_.first_loop[plane + 1] - first;
+        // Loops are one part if they share a cap region or a merged node.
+        DisjointSets part(count);
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> roots;  // merged node, loop
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const SectionLoop& loop = section_.loops[first + i];
+            roots.emplace_back(sets_.root(above_ ? loop.node_above : loop.node_below), i);
+        }
+        std::sort(roots.begin(), roots.end());
+        for (std::size_t i = 1; i < roots.size(); ++i) {
+            if (roots[i].first == roots[i - 1].first) part.unite(roots[i].second, roots[i - 1].second);
+        }
+        for (const SectionRegion& region : regions) {
+            for (const std::size_t loop : region.loops) {
+                part.unite(static_cast<std::uint32_t>(region.loops.front() - first),
+                           static_cast<std::uint32_t>(loop - first));
+            }
+        }
+        SumTable sums(count, sums_.width);
+        std::vector<bool> has_cap(count, false);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            add(sums.row(part.root(i)), (above_ ? section_.above : section_.below).row(first + i));
+        }
+        for (std::size_t i = 0; i < roots.size(); ++i) {
+            if (i > 0 && roots[i].first == roots[i - 1].first) continue;
+            add(sums.row(part.root(roots[i].second)), sums_.row(roots[i].first));
+        }
+        for (const SectionRegion& region : regions) {
+            const std::uint32_t owner = part.root(static_cast<std::uint32_t>(region.loops.front() - first));
+            add_cap(sums.row(owner), region, plane);
+            if (region.triangles > 0) has_cap[owner] = true;
+        }
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if (part.root(i) == i) price.solids.push_back(solid(sums.row(i), has_cap[i]));
+        }
+        for (const std::uint32_t n : live_) {  // shells that the plane does not touch and nothing ties
+            const auto at = std::lower_bound(roots.begin(), roots.end(), std::pair{n, 0U});
+            if (at == roots.end() || at->first != n) price.solids.push_back(solid(sums_.row(n), false));
+        }
+    }
+
+    void add_cap(std::span<double> row, const SectionRegion& region, std::size_t plane) const {
+        const Vec3 outward = above_ ? -normal_ : normal_;
+        const double distance = (offsets_[plane] - height(normal_, p_.origin)) * (above_ ? -1 : 1);
+        row[sum_faces] += region.triangles;
+        row[sum_volume] += distance * region.area_mm2 / 3;
+        const double weight = p_.unit.empty() ? region.area_mm2 : region.triangles;
+        for (std::size_t b = 0; b < p_.piece->bounds.size(); ++b) {
+            const double upwards = weight * dot(outward, p_.piece->bounds[b].up());
+            row[sum_base + 3 * b + (upwards > 0 ? 0 : 1)] += std::abs(upwards);
+        }
+    }
+
+    SolidPrice solid(std::span<const double> row, bool has_cap) const {
+        SolidPrice s;
+        s.faces = static_cast<std::size_t>(row[sum_faces]);
+        s.volume_mm3 = row[sum_volume];
+        s.above = above_;
+        for (std::size_t b = 0; b < p_.piece->bounds.size(); ++b) {
+            const double* cell = row.data() + sum_base + 3 * b;
+            if (cell[2] > 0) s.bases.push_back(share(p_.piece->bounds[b].cut, cell[0], cell[1]));
+        }
+        if (has_cap) {  // up is the normal above, its opposite below
+            s.bases.push_back(share(new_cut, row[above_ ? sum_up : sum_down], row[above_ ? sum_down : sum_up]));
+        }
+        return s;
+    }
+
+    BaseShare share(std::int32_t cut, double up, double down) const {
+        if (p_.unit.empty()) return {cut, down, up + down, 0, 0};
+        return {cut, 0, 0, down, up + down};
+    }
+
+    const PreparedPiece& p_;
+    const Slabs& slabs_;
+    const Section& section_;
+    Vec3 normal_;
+    std::span<const double> offsets_;
+    bool above_;
+    std::size_t planes_;
+    DisjointSets sets_;
+    SumTable sums_;
+    std::vector<std::vector<GraphEdge>> edges_at_;      // per slab
+    std::vector<std::vector<std::uint32_t>> nodes_at_;  // per slab
+    std::vector<std::uint32_t> live_;                   // roots of what was taken in
+};
+
+}  // namespace
+
+std::vector<std::optional<Price>> sweep_solids(const PreparedPiece& prepared, Vec3 normal,
+                                               std::span<const double> offsets) {
+    std::vector<std::optional<Price>> prices(offsets.size());
+    if (offsets.empty()) return prices;
+    const Slabs all_slabs = slabs(prepared, normal, offsets);
+    const Section section = find_section(prepared, all_slabs, normal, offsets);
+    std::vector<std::vector<SectionRegion>> all_regions(offsets.size());
+    for (std::size_t plane = 0; plane < offsets.size(); ++plane) {
+        if (section.first_loop[plane] == section.first_loop[plane + 1]) continue;
+        prices[plane].emplace();
+        for (std::size_t i = section.first_loop[plane]; i < section.first_loop[plane + 1]; ++i) {
+            prices[plane]->cap_area_mm2 += section.loops[i].area_mm2;
+        }
+        all_regions[plane] = regions(section, plane);
+    }
+    for (const bool above : {true, false}) {
+        Side(prepared, all_slabs, section, normal, offsets, above).run(prices, all_regions);
+    }
+    return prices;
+}
+
+std::vector<std::optional<Price>> sweep(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
+                                        const Objectives& objectives, const RayTree& scan_rays) {
+    std::vector<std::optional<Price>> prices = sweep_solids(prepared, normal, offsets);
+    const bool by_rays = objectives.fragility_form == FragilityForm::thinness;
+    const double d = objectives.fragility_distance;
+    const std::vector<double> sums = by_rays ? sweep_thinness(prepared, normal, offsets, d, scan_rays)
+                                             : sweep_thesis_fragility(prepared, normal, offsets, d);
+    for (std::size_t j = 0; j < prices.size(); ++j) {
+        if (!prices[j] || prices[j]->cap_area_mm2 <= 0) continue;
+        prices[j]->fragility = by_rays ? sums[j] / prices[j]->cap_area_mm2 : sums[j];
+    }
+    return prices;
+}
+
+}  // namespace qchopper

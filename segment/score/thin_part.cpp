@@ -1,0 +1,49 @@
+#include "segment/score/thin_part.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace qchopper {
+
+Part part_of(const TriangleMesh& mesh, std::size_t triangle, const Plane& plane, bool above) {
+    Part part;
+    const Triangle& v = mesh.triangles[triangle];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 a = mesh.points[v[k]];
+        const Vec3 b = mesh.points[v[(k + 1) % 3]];
+        const double ha = height(plane.normal, a);
+        const double hb = height(plane.normal, b);
+        if ((ha >= plane.offset) == above) part.add(a);
+        if ((ha >= plane.offset) != (hb >= plane.offset)) part.add(a + ((plane.offset - ha) / (hb - ha)) * (b - a));
+    }
+    return part;
+}
+
+Centroid centroid(const Part& part) {
+    Centroid c;
+    const Vec3 a = part.corner[0];
+    for (std::size_t k = 2; k < static_cast<std::size_t>(part.corners); ++k) {
+        const Vec3 b = part.corner[k - 1];
+        const Vec3 d = part.corner[k];
+        const double area = 0.5 * norm(cross(b - a, d - a));
+        c.area += area;
+        c.at = c.at + (area / 3) * (a + b + d);
+    }
+    if (c.area > 0) c.at = (1 / c.area) * c.at;
+    return c;
+}
+
+double free_way(const Piece& piece, const RayTree& scan_rays, Vec3 from, Vec3 direction) {
+    const auto hit = scan_rays.first_exit(from, direction);
+    double way = hit ? hit->distance : std::numeric_limits<double>::infinity();
+    for (const Bound& bound : piece.bounds) {
+        const double towards = dot(bound.up(), direction);
+        if (towards >= 0) continue;
+        const double above_bound = (height(bound.plane.normal, from) - bound.plane.offset) * (bound.above ? 1 : -1);
+        way = std::min(way, above_bound / -towards);
+    }
+    return way;
+}
+
+}  // namespace qchopper

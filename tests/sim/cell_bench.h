@@ -1,0 +1,52 @@
+// A controller on the bench: commands go straight into the machine, time is what the test says.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/machine.h"
+
+namespace qchopper::bench {
+
+constexpr std::uint32_t owner = 0x11111111;
+constexpr std::uint32_t secret = 0x22222222;
+constexpr Uuid job_a{0xA, 1, 2, 3};
+constexpr Uuid job_b{0xB, 1, 2, 3};
+constexpr Uuid any_job{0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF};
+
+// A ticket that this cell takes: 100 s, stored as piece-1.qjob.
+TicketWords good_ticket(const Uuid& id = job_a);
+Sha256 good_digest();
+
+struct Bench {
+    explicit Bench(CellLimits limits = {}, CellMemory memory = {});
+    Bench(const Bench&) = delete;
+    Bench& operator=(const Bench&) = delete;
+
+    // Sends a command of `owner` under the present epoch; returns its acknowledgement.
+    AckResult send(CellCommand command, const Uuid& job = {}, std::uint32_t token = 0, std::uint32_t arg0 = 0);
+    AckResult send(Command command);
+    AckResult claim(std::uint32_t who = owner, std::uint32_t whose_secret = secret, std::uint32_t code = 0);
+    void write_ticket(const TicketWords& ticket);
+    void beat();
+    void pass(std::int64_t ms);  // in steps of 10 ms, without heartbeats
+
+    // The ways to a stored, verified, prepared, running job.
+    void to_idle();
+    void to_stored(const TicketWords& ticket = good_ticket());
+    void to_verified(const TicketWords& ticket = good_ticket());
+    void to_prepared(const TicketWords& ticket = good_ticket());
+    void to_running(const TicketWords& ticket = good_ticket());
+    Status status() const { return status_of(cell, now); }
+
+    CellTime now{1000000, 1700000000000};
+    CellHooks hooks;
+    std::vector<CellMemory> saved;
+    bool can_save = true;
+    CellState cell;
+    std::uint32_t seq = 0;
+    std::uint16_t counter = 0;
+};
+
+}  // namespace qchopper::bench
