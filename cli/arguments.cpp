@@ -9,8 +9,8 @@
 #include <numeric>
 #include <sstream>
 
-#include "cli/exit_code.h"
 #include "cli/version.h"
+#include "segment/error.h"
 
 namespace qchopper {
 namespace {
@@ -226,16 +226,18 @@ struct Parser {
 
 }  // namespace
 
-std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) {
+std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
     Parser parser;
     try {
         parser.app.parse(argc, argv);
         return parser.result();
     } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() == 0) return parser.app.exit(e, std::cout, std::cerr);  // help, version
+        if (e.get_exit_code() == 0) {  // help, version
+            parser.app.exit(e, std::cout, std::cerr);
+            return std::nullopt;
+        }
         const std::string near = hint(parser.app, argc, argv);
-        std::cerr << "qchopper: " << (near.empty() ? e.what() : near) << ". Nothing was done. See qchopper --help.\n";
-        return static_cast<int>(exit_use);
+        throw InputError(InputFault::use, near.empty() ? e.what() : near, "see qchopper --help");
     }
 }
 

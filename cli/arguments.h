@@ -64,14 +64,14 @@ struct DispatchArguments {
 };
 
 struct Arguments {
-    bool json = false;
+    bool json = false;  // for the option parser; run.cpp knows it earlier
     bool quiet = false;
     std::variant<SampleArguments, InspectArguments, PrepareArguments, DryRunArguments, CellSimArguments,
                  DispatchArguments>
         command;
 };
 
-// Help and version print to stdout; a wrong use prints one line to stderr. Both give the exit code instead.
-std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv);
+// Nothing if help or version was asked for: it is on stdout then. Throws InputError (use).
+std::optional<Arguments> parse_arguments(int argc, const char* const* argv);
 
 }  // namespace qchopper

@@ -31,11 +31,19 @@ bool ask_on_terminal(const std::string& question) {
     return line == "y" || line == "Y" || line == "yes";
 }
 
+// As an address to connect to, but for port 0: any that is free.
+TcpAddress listen_address(const std::string& text) {
+    if (!text.ends_with(":0")) return parse_tcp_address(text);
+    TcpAddress address = parse_tcp_address(text.substr(0, text.size() - 2));
+    address.port = 0;
+    return address;
+}
+
 }  // namespace
 
 int run(const CellSimArguments& arguments, Terminal& terminal) {
     terminal.unchanged = "No cell was started.";
-    const TcpAddress address = parse_tcp_address(arguments.listen);
+    const TcpAddress address = listen_address(arguments.listen);
     CellSimOptions options;
     if (arguments.cell) options.limits = simulated_limits(read_cell(*arguments.cell));
     options.listen_host = address.host;
@@ -54,7 +62,8 @@ int run(const CellSimArguments& arguments, Terminal& terminal) {
     };
     CellSim sim(options);
     sim.start();
-    const std::string where = address.host + ":" + std::to_string(sim.port());
+    const bool is_ipv6 = address.host.find(':') != std::string::npos;
+    const std::string where = (is_ipv6 ? "[" + address.host + "]" : address.host) + ":" + std::to_string(sim.port());
     terminal.show("listening " + where);
     terminal.json(nlohmann::ordered_json{{"schema", "qchopper-cell-sim-1"}, {"listening", where}}.dump());
     while (!Terminal::is_cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(100));

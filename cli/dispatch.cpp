@@ -48,7 +48,7 @@ bool is_confirmed(const std::string& question) {
 }  // namespace
 
 int run(const DispatchArguments& arguments, Terminal& terminal) {
-    terminal.unchanged = "Nothing was sent.";
+    terminal.unchanged = "The project is unchanged, and no job was started.";
     const std::vector<PieceJob> jobs = jobs_of(arguments.project, arguments.piece);
     const Cell cell = read_cell(arguments.project / "cell.toml");
     const std::optional<std::string> to = arguments.to ? arguments.to : cell.link.to;

@@ -62,9 +62,10 @@ std::vector<HandedOver> hand_over(const std::vector<PieceJob>& jobs, RegisterBus
         terminal.say("piece " + job.piece + ": " + job.file.filename().string() + ", " +
                      with_commas(job.ticket.file_size) + " bytes");
         handed.push_back({job.piece, dispatch_job(bus, job.ticket, job.file, options, terminal.context())});
-        const JobOutcome& outcome = handed.back().outcome;
-        terminal.say("piece " + job.piece + ": " + words(outcome.verdict) + ". " + outcome.why);
-        if (!outcome.is_complete()) break;
+        if (!handed.back().outcome.is_complete()) break;
+        // What an error in the next job has to say of those before it.
+        terminal.unchanged =
+            "The " + std::to_string(handed.size()) + " jobs before it ended complete; it was not started.";
     }
     return handed;
 }

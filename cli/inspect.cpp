@@ -89,7 +89,7 @@ Json document(const InspectArguments& arguments, const Inspection& i) {
 }  // namespace
 
 int run(const InspectArguments& arguments, Terminal& terminal) {
-    terminal.unchanged = "The file is unchanged.";
+    terminal.unchanged = "Nothing was changed.";
     const Inspection inspection = inspect(read_mesh(arguments.scan));
     for (const std::string& line : lines(arguments, inspection)) terminal.show(line);
     terminal.json(document(arguments, inspection).dump(1, ' ', false, Json::error_handler_t::replace));

@@ -83,6 +83,7 @@ void check_output(const fs::path& out) {
 // The folder appears whole or not at all.
 void create_project(const fs::path& folder, const Project& project, const Bytes& cell_file) {
     const fs::path aside = folder.string() + ".tmp." + std::to_string(::getpid());
+    std::error_code ignored;
     try {
         fs::create_directories(aside / "pieces");
         fs::create_directory(aside / "jobs");
@@ -91,11 +92,11 @@ void create_project(const fs::path& folder, const Project& project, const Bytes&
         save_project(aside, project);
         fs::rename(aside, folder);
     } catch (const fs::filesystem_error& e) {
-        fs::remove_all(aside);
+        fs::remove_all(aside, ignored);
         throw InputError(InputFault::create, folder.string() + " cannot be made: " + e.code().message(),
                          "choose another place");
     } catch (...) {
-        fs::remove_all(aside);
+        fs::remove_all(aside, ignored);
         throw;
     }
 }
@@ -328,9 +329,20 @@ int start(const PrepareArguments& a, Terminal& terminal) {
     return report(Preparation(out, project, std::move(intake), cell, terminal).run(), cell, terminal);
 }
 
+// A program that was killed while it wrote may have left files with names like A.ply.tmp.4711. Whoever holds the lock
+// knows that nobody writes them any more.
+void clear_leftovers(const fs::path& folder) {
+    std::vector<fs::path> left;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (entry.path().filename().string().find(".tmp.") != std::string::npos) left.push_back(entry.path());
+    }
+    for (const fs::path& file : left) fs::remove(file);
+}
+
 int go_on(const fs::path& folder, Terminal& terminal) {
     const ProjectLock lock(folder);
     Project project = load_project(folder);
+    clear_leftovers(folder);
     const Cell cell = read_cell(folder / "cell.toml");
     terminal.unchanged = "The project is unchanged.";
     Intake intake =
@@ -350,12 +362,12 @@ int go_on(const fs::path& folder, Terminal& terminal) {
 int run(const PrepareArguments& arguments, Terminal& terminal) {
     std::error_code error;
     const bool is_project = fs::is_directory(arguments.input, error);
-    check_options(arguments, is_project);
-    if (!is_project) return start(arguments, terminal);
-    if (!fs::exists(arguments.input / "project.json", error)) {
+    if (is_project && !fs::exists(arguments.input / "project.json", error)) {
         throw InputError(InputFault::missing, arguments.input.string() + " is a folder, but no project",
                          "name a scan, or a folder that prepare has made");
     }
+    check_options(arguments, is_project);
+    if (!is_project) return start(arguments, terminal);
     return go_on(arguments.input.has_filename() ? arguments.input : arguments.input.parent_path(), terminal);
 }
 

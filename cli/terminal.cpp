@@ -45,8 +45,12 @@ void catch_signals() {
     signal(SIGPIPE, SIG_IGN);
 }
 
-Terminal::Terminal(bool json, bool quiet)
-    : json_(json), quiet_(quiet), shows_progress_(!quiet && is_plain_terminal()) {}
+Terminal::Terminal(bool json) : json_(json), shows_progress_(is_plain_terminal()) {}
+
+void Terminal::be_quiet() {
+    quiet_ = true;
+    shows_progress_ = false;
+}
 
 bool Terminal::is_cancelled() {
     return cancelled;
@@ -70,6 +74,11 @@ void Terminal::say(const std::string& line) {
 void Terminal::warn(const std::string& line) {
     clear_line();
     std::cerr << "warning: " << line << std::endl;
+}
+
+void Terminal::error(const std::string& line) {
+    clear_line();
+    std::cerr << line << std::endl;
 }
 
 void Terminal::show(const std::string& text) {

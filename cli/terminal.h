@@ -12,19 +12,21 @@ namespace qchopper {
 
 class Terminal {
  public:
-    Terminal(bool json, bool quiet);
+    explicit Terminal(bool json);
     Terminal(const Terminal&) = delete;
     Terminal& operator=(const Terminal&) = delete;
 
     // A line for the operator, on stderr. Plain ones are left out when quiet.
     void say(const std::string& line);
     void warn(const std::string& line);
+    void error(const std::string& line);
     // A result for the operator, on stdout; left out with --json.
     void show(const std::string& text);
     // The one JSON document, on stdout; left out without --json.
     void json(const std::string& document);
 
     bool is_json() const { return json_; }
+    void be_quiet();
 
     // For errors: what is unchanged. Commands set it as soon as there is something to keep.
     std::string unchanged = "Nothing was written.";
@@ -40,7 +42,7 @@ class Terminal {
     void clear_line();
 
     bool json_;
-    bool quiet_;
+    bool quiet_ = false;
     bool shows_progress_;
     bool has_line_ = false;
     std::string what_;

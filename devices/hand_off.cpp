@@ -63,7 +63,7 @@ HandOffAction withdraw(TurnUnderWay& turn, const std::string& why, const std::st
     turn.h.to_do = to_do;
     turn.say(why);
     if (turn.h.is_stored) return enter(turn, HandOffStep::cancel);
-    if (turn.h.is_owner) return enter(turn, HandOffStep::release);
+    if (turn.h.claim_sent) return enter(turn, HandOffStep::release);
     return finish(turn, StartVerdict::not_started, why, to_do);
 }
 
@@ -247,7 +247,7 @@ HandOffAction next_action(TurnUnderWay& turn) {
     const std::uint32_t boots = h.status ? h.status->boot_count : 0;
     const bool was_lost = h.lost_since_s >= 0;
     if (turn.in.status) note_status(turn);
-    if (h.last.kind != Kind::wait) h.busy_times = 0;
+    if (h.last.kind != Kind::wait && h.last.kind != Kind::heartbeat) h.busy_times = 0;
     if (h.deferred && (h.last.kind == Kind::heartbeat || h.last.kind == Kind::wait)) {
         const HandOffAction action = *h.deferred;
         h.deferred.reset();

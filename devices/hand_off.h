@@ -112,7 +112,8 @@ struct HandOff {
     int fences = 0;    // repeated CLAIMs
     int attempts = 0;  // STARTs that turned out not to have arrived
 
-    bool is_owner = false;  // CLAIM was granted
+    bool claim_sent = false;  // and not refused: the cell may hold a lease of ours
+    bool is_owner = false;    // CLAIM was granted
     bool file_is_staged = false;
     bool is_stored = false;    // STORE was sent: the cell may hold our job
     bool start_sent = false;   // under the present epoch; the start may have happened
@@ -120,7 +121,7 @@ struct HandOff {
     bool has_pending = false;  // PENDING was told
     bool is_frozen = false;    // was told
     bool is_cancelled = false;
-    bool reset_sent = false;   // at the end
+    bool reset_sent = false;  // at the end
 
     double elapsed_s = 0;               // of the job, as the cell said last
     std::optional<ResultWords> result;  // of the query at the end

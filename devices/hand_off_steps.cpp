@@ -61,6 +61,7 @@ HandOffAction send_step(TurnUnderWay& turn, const StepRow& row) {
         case claim:
             h.epoch = std::max(h.epoch, turn.status().epoch_held) + 1;
             h.command.arg1 = turn.plan.secret;
+            h.claim_sent = true;
             break;
         case store:
             h.is_stored = true;
@@ -92,7 +93,7 @@ HandOffAction wind_up(TurnUnderWay& turn) {
             }
             return enter(turn, release);
         case release:
-            if (turn.h.is_owner) return send_step(turn, *row_of(release));
+            if (turn.h.claim_sent) return send_step(turn, *row_of(release));
             [[fallthrough]];
         default:
             return give_up(turn, "the hand-off is over");
@@ -268,7 +269,7 @@ HandOffAction watch(TurnUnderWay& turn) {
         return send(turn, CellCommand::stop, "STOP job=" + to_text(turn.job_id()));
     }
     if (h.is_owner && status.owner_held == 0) {
-        h.is_owner = false;
+        h.is_owner = h.claim_sent = false;
         turn.say("the lease of the cell has run out; the job runs on");
     }
     return pause(turn);
@@ -360,7 +361,7 @@ HandOffAction refused(TurnUnderWay& turn, AckResult result) {
         h.step == release) {
         turn.say(std::string("the cell refused ") + name(h.command.command) + ": " + answer);
         if (h.step == run) return pause(turn);
-        if (h.step == release) h.is_owner = false;  // somebody else's by now
+        if (h.step == release) h.is_owner = h.claim_sent = false;  // somebody else's by now
         if (h.step == release) return wind_up(turn);
         if (h.step != make_ready) return enter(turn, row_of(h.step)->next);
     }
@@ -371,7 +372,7 @@ HandOffAction refused(TurnUnderWay& turn, AckResult result) {
                     "the cell cannot be claimed: " + answer + "; nothing was started",
                     result == AckResult::lease_busy ? "Try again when the other one has finished." : "");
     }
-    if (h.step == claim) h.is_owner = false;
+    if (h.step == claim) h.is_owner = h.claim_sent = false;
     if (h.step == claim) return give_up(turn, "the cell was taken over by another dispatcher: " + answer);
     if (result == AckResult::not_owner) return fence(turn, "the lease of the cell has run out");
     std::string why = "the cell refused the job at " + std::string(name(h.command.command)) + ": " + answer;

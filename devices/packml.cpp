@@ -89,6 +89,7 @@ bool has_active_job(PackState state) {
 }
 
 Transition transition(PackState from, CellCommand command) {
+    if (from == undefined || static_cast<std::uint16_t>(from) > last_pack_state) return {};
     for (const Row& row : moves) {
         if (row.from == from && row.command == command) return {Meeting::moves, row.to};
     }
@@ -98,8 +99,8 @@ Transition transition(PackState from, CellCommand command) {
     // Start again, while the job runs: it has started, and once is enough.
     if (command == Command::start && has_active_job(from)) return {Meeting::already, from};
     if (command == Command::stop && has_active_job(from)) return {Meeting::moves, stopping};
-    if (command == Command::abort && from != undefined) return {Meeting::moves, aborting};
-    if (from != undefined && job_command_allowed(from, command)) return {Meeting::allowed, from};
+    if (command == Command::abort) return {Meeting::moves, aborting};
+    if (job_command_allowed(from, command)) return {Meeting::allowed, from};
     return {};
 }
 

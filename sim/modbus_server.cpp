@@ -97,7 +97,7 @@ Listener listen_on(const ModbusServerOptions& options) {
     setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     sockaddr_storage bound{};
     socklen_t size = sizeof bound;
-    if (bind(fd, found->ai_addr, found->ai_addrlen) != 0 || listen(fd, 64) != 0 ||
+    if (bind(fd, found->ai_addr, found->ai_addrlen) != 0 || listen(fd, SOMAXCONN) != 0 ||
         getsockname(fd, reinterpret_cast<sockaddr*>(&bound), &size) != 0) {
         const int error = errno;
         close(fd);
@@ -173,27 +173,49 @@ struct ModbusServer::Loop {
 
     // Answers every complete frame for whose answer there is room. False: the connection is to be closed.
     bool work(Connection& connection) {
-        while (connection.input.size() >= head_bytes && !connection.is_full()) {
-            const Bytes& in = connection.input;
-            const std::size_t length = (std::size_t{in[4]} << 8U) | in[5];
-            if (in[2] != 0 || in[3] != 0 || length < least_length || length > most_length) {
+        for (bool more = true; more;) {
+            while (has_frame(connection) && !connection.is_full()) answer_frame(connection);
+            if (!is_modbus(connection)) {
                 say(connection.peer + " does not speak Modbus TCP; closed");
                 return false;
             }
-            const std::size_t whole = 6 + length;
-            if (in.size() < whole) break;
-            const Bytes pdu = answer(in[6], std::span(in).subspan(head_bytes, length - 1));
-            const std::size_t out_length = pdu.size() + 1;
-            if (connection.output.empty()) connection.output_moved = Clock::now();
-            connection.output.insert(connection.output.end(),
-                                     {in[0], in[1], 0, 0, static_cast<std::uint8_t>(out_length >> 8U),
-                                      static_cast<std::uint8_t>(out_length & 0xFFU), in[6]});
-            connection.output.insert(connection.output.end(), pdu.begin(), pdu.end());
-            connection.input.erase(connection.input.begin(),
-                                   connection.input.begin() + static_cast<std::ptrdiff_t>(whole));
-            connection.frame_began = Clock::now();
+            if (!flush(connection)) return false;
+            // What was sent has made room for frames that are here already: poll would not tell of them again.
+            more = has_frame(connection) && !connection.is_full();
         }
-        return flush(connection);
+        return true;
+    }
+
+    static std::size_t length_of(const Connection& connection) {
+        return (std::size_t{connection.input[4]} << 8U) | connection.input[5];
+    }
+
+    // As far as can be told from what has come so far.
+    static bool is_modbus(const Connection& connection) {
+        const Bytes& in = connection.input;
+        if (in.size() < head_bytes) return true;
+        const std::size_t length = length_of(connection);
+        return in[2] == 0 && in[3] == 0 && length >= least_length && length <= most_length;
+    }
+
+    static bool has_frame(const Connection& connection) {
+        return connection.input.size() >= head_bytes && is_modbus(connection) &&
+               connection.input.size() >= 6 + length_of(connection);
+    }
+
+    void answer_frame(Connection& connection) const {
+        const Bytes& in = connection.input;
+        const std::size_t length = length_of(connection);
+        const Bytes pdu = answer(in[6], std::span(in).subspan(head_bytes, length - 1));
+        const std::size_t out_length = pdu.size() + 1;
+        Bytes& out = connection.output;
+        if (out.empty()) connection.output_moved = Clock::now();
+        out.insert(out.end(), {in[0], in[1], 0, 0, static_cast<std::uint8_t>(out_length >> 8U),
+                               static_cast<std::uint8_t>(out_length & 0xFFU), in[6]});
+        out.insert(out.end(), pdu.begin(), pdu.end());
+        connection.input.erase(connection.input.begin(),
+                               connection.input.begin() + static_cast<std::ptrdiff_t>(6 + length));
+        connection.frame_began = Clock::now();
     }
 
     bool flush(Connection& connection) {

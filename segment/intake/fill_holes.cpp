@@ -11,7 +11,6 @@
 #include <CGAL/boost/graph/graph_traits_TriMesh_ArrayKernelT.h>
 
 #include <iterator>
-#include <optional>
 
 #include "segment/intake/manifold.h"
 
@@ -27,17 +26,16 @@ using Surface = OpenMesh::TriMesh_ArrayKernelT<Doubles>;
 // Beyond this many edges only triangles of the Delaunay tetrahedra are tried: the search over all grows with n^3.
 constexpr std::size_t most_edges_for_full_search = 400;
 
-// Nothing where the surface folds onto itself in a way that half-edges cannot tell.
-std::optional<Surface> surface_of(const TriangleMesh& mesh) {
+// False where the surface folds onto itself in a way that half-edges cannot tell.
+bool build(const TriangleMesh& mesh, Surface& surface) {
     omerr().disable();  // it would print what the caller reports
-    Surface surface;
     surface.reserve(mesh.points.size(), 3 * mesh.triangles.size() / 2 + 1, mesh.triangles.size());
     for (const Vec3& p : mesh.points) surface.add_vertex({p.x, p.y, p.z});
     for (const Triangle& t : mesh.triangles) {
         const auto corner = [&](std::size_t i) { return surface.vertex_handle(t[i]); };
-        if (!surface.add_face(corner(0), corner(1), corner(2)).is_valid()) return {};
+        if (!surface.add_face(corner(0), corner(1), corner(2)).is_valid()) return false;
     }
-    return surface;
+    return true;
 }
 
 // The half-edge of the border that runs along this open edge, outside of the surface.
@@ -60,11 +58,12 @@ FilledHoles fill_holes(TriangleMesh& mesh) {
     FilledHoles result;
     const std::vector<std::vector<std::uint32_t>> loops = border_loops(mesh, unpaired(mesh, edges(mesh)).open);
     if (loops.empty()) return result;
-    std::optional<Surface> surface = surface_of(mesh);
+    Surface surface;
+    const bool is_built = build(mesh, surface);
     std::vector<Triangle> added;
     for (const std::vector<std::uint32_t>& loop : loops) {
         std::vector<Surface::FaceHandle> faces;
-        if (surface) faces = fill(*surface, border_half_edge(*surface, mesh, loop.front()), loop.size());
+        if (is_built) faces = fill(surface, border_half_edge(surface, mesh, loop.front()), loop.size());
         if (faces.empty()) {
             result.left.push_back({centre_of(mesh, loop), loop.size()});
             continue;
@@ -73,7 +72,7 @@ FilledHoles fill_holes(TriangleMesh& mesh) {
         for (const Surface::FaceHandle face : faces) {
             Triangle triangle{};
             std::size_t i = 0;
-            for (const Surface::VertexHandle corner : surface->fv_range(face)) {
+            for (const Surface::VertexHandle corner : surface.fv_range(face)) {
                 triangle[i++] = static_cast<std::uint32_t>(corner.idx());
             }
             added.push_back(triangle);

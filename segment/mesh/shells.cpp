@@ -12,10 +12,9 @@ namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-// Where the surface meets the line of constant height h and side s, as its coordinate t along the line.
-// The rule ">= is above" makes every closed surface cross the line an even number of times, also through vertices.
+// A frame whose lines run along `along` at constant height and side. The rule ">= is above" makes every closed surface
+// cross a line an even number of times, also through vertices.
 struct LineFrame {
-    Vec3 up;
     Vec3 side;
     Vec3 along;
 };
@@ -26,7 +25,7 @@ LineFrame line_frame(Vec3 axis) {
                        : std::abs(up.y) <= std::abs(up.z)                                   ? Vec3{0, 1, 0}
                                                                                             : Vec3{0, 0, 1};
     const Vec3 along = normalized(cross(up, least));
-    return {up, cross(up, along), along};
+    return {cross(up, along), along};
 }
 
 struct Coordinates {
@@ -57,89 +56,97 @@ std::optional<double> crossing(const Coordinates (&corner)[3], double h, double 
     return right.t + (right.s - s) / (right.s - left.s) * (left.t - right.t);
 }
 
-// Looks for what surrounds a cavity; keeps the triangles sorted by shell so that far shells are passed over whole.
-class Surroundings {
- public:
-    Surroundings(const TriangleMesh& mesh, const Shells& shells, Vec3 axis)
-        : mesh_(mesh), shells_(shells), frame_(line_frame(axis)), first_(shells.count() + 1, 0) {
-        for (const std::uint32_t shell : shells.shell_of) ++first_[shell + 1];
-        std::partial_sum(first_.begin(), first_.end(), first_.begin());
-        triangles_.resize(mesh.triangles.size());
-        std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) triangles_[next[shells.shell_of[t]]++] = t;
-    }
-
-    // Nothing if the line meets nothing, or does not leave material there.
-    std::optional<Tether> tether(std::uint32_t cavity) const {
-        const std::uint32_t from = farthest_vertex(cavity);
-        const Coordinates start = coordinates(mesh_.points[from]);
-        double nearest = std::numeric_limits<double>::infinity();
-        std::uint32_t hit = none;
-        for (std::uint32_t shell = 0; shell < shells_.count(); ++shell) {
-            if (shell == cavity || !may_meet(shells_.box[shell], start)) continue;
-            for (std::size_t i = first_[shell]; i < first_[shell + 1]; ++i) {
-                const std::uint32_t t = triangles_[i];
-                const std::optional<double> at = crossing_of(t, start);
-                if (at && *at > start.t && *at < nearest) {
-                    nearest = *at;
-                    hit = t;
-                }
-            }
-        }
-        if (hit == none || dot(area_vector(mesh_, hit), frame_.along) <= 0) return std::nullopt;
-        return Tether{cavity, from, hit};
-    }
-
- private:
-    Coordinates coordinates(Vec3 p) const { return {dot(frame_.up, p), dot(frame_.side, p), dot(frame_.along, p)}; }
-
-    std::optional<double> crossing_of(std::uint32_t triangle, const Coordinates& start) const {
-        const Triangle& t = mesh_.triangles[triangle];
-        const double h[3] = {dot(frame_.up, mesh_.points[t[0]]), dot(frame_.up, mesh_.points[t[1]]),
-                             dot(frame_.up, mesh_.points[t[2]])};
-        const int above = (h[0] >= start.h) + (h[1] >= start.h) + (h[2] >= start.h);
-        if (above == 0 || above == 3) return std::nullopt;
-        const Coordinates corner[3] = {coordinates(mesh_.points[t[0]]), coordinates(mesh_.points[t[1]]),
-                                       coordinates(mesh_.points[t[2]])};
-        return crossing(corner, start.h, start.s);
-    }
-
-    std::uint32_t farthest_vertex(std::uint32_t shell) const {
-        double best = -std::numeric_limits<double>::infinity();
-        std::uint32_t vertex = none;
-        for (std::size_t i = first_[shell]; i < first_[shell + 1]; ++i) {
-            for (const std::uint32_t v : mesh_.triangles[triangles_[i]]) {
-                const double along = dot(frame_.along, mesh_.points[v]);
-                if (along <= best) continue;
-                best = along;
-                vertex = v;
-            }
-        }
-        return vertex;
-    }
-
-    // Conservative: could the half-line from `start` pass the box?
-    bool may_meet(const Box& box, const Coordinates& start) const {
-        const Vec3 centre = box.centre();
-        const Vec3 half = 0.5 * box.size();
-        const auto reach = [&](Vec3 d) {
-            return std::abs(d.x) * half.x + std::abs(d.y) * half.y + std::abs(d.z) * half.z + 1e-9 * norm(half);
-        };
-        const Coordinates c = coordinates(centre);
-        return std::abs(c.h - start.h) <= reach(frame_.up) && std::abs(c.s - start.s) <= reach(frame_.side) &&
-               c.t + reach(frame_.along) >= start.t;
-    }
-
-    const TriangleMesh& mesh_;
-    const Shells& shells_;
-    LineFrame frame_;
-    std::vector<std::size_t> first_;
-    std::vector<std::uint32_t> triangles_;
+// The line that looks for what is around one cavity.
+struct Search {
+    Coordinates start;
+    Tether tether;
+    double nearest = std::numeric_limits<double>::infinity();
+    bool is_hit = false;
 };
+
+// From each cavity's farthest vertex, in the order of their heights.
+std::vector<Search> searches(const TriangleMesh& mesh, const Shells& shells, const LineFrame& frame,
+                             std::span<const double> heights) {
+    std::vector<std::uint32_t> farthest(shells.count(), none);
+    std::vector<double> best(shells.count(), -std::numeric_limits<double>::infinity());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const std::uint32_t shell = shells.shell_of[t];
+        if (shells.volume[shell] >= 0) continue;
+        for (const std::uint32_t v : mesh.triangles[t]) {
+            const double along = dot(frame.along, mesh.points[v]);
+            if (along <= best[shell]) continue;
+            best[shell] = along;
+            farthest[shell] = v;
+        }
+    }
+    std::vector<Search> result;
+    for (std::uint32_t shell = 0; shell < shells.count(); ++shell) {
+        const std::uint32_t v = farthest[shell];
+        if (v == none) continue;
+        result.push_back({{heights[v], dot(frame.side, mesh.points[v]), best[shell]}, {shell, v, none}});
+    }
+    std::stable_sort(result.begin(), result.end(),
+                     [](const Search& a, const Search& b) { return a.start.h < b.start.h; });
+    return result;
+}
+
+// Half the extent of a box along a direction, with room for rounding.
+double reach(const Box& box, Vec3 d) {
+    const Vec3 half = 0.5 * box.size();
+    const Vec3 far{std::max(std::abs(box.min.x), std::abs(box.max.x)),
+                   std::max(std::abs(box.min.y), std::abs(box.max.y)),
+                   std::max(std::abs(box.min.z), std::abs(box.max.z))};
+    return std::abs(d.x) * (half.x + 1e-12 * far.x) + std::abs(d.y) * (half.y + 1e-12 * far.y) +
+           std::abs(d.z) * (half.z + 1e-12 * far.z);
+}
+
+using SearchRange = std::pair<std::vector<Search>::iterator, std::vector<Search>::iterator>;
+
+// The searches at whose heights a box lies.
+SearchRange searches_at(std::vector<Search>& all, const Box& box, Vec3 axis) {
+    const double middle = dot(axis, box.centre());
+    const double half = reach(box, axis);
+    const auto begin = std::lower_bound(all.begin(), all.end(), middle - half,
+                                        [](const Search& s, double h) { return s.start.h < h; });
+    const auto end =
+        std::upper_bound(begin, all.end(), middle + half, [](double h, const Search& s) { return h < s.start.h; });
+    return {begin, end};
+}
+
+// Could the line of this search still find something nearer in the box?
+bool may_meet(const Search& search, const Box& box, const LineFrame& frame) {
+    const Vec3 centre = box.centre();
+    const double along = dot(frame.along, centre);
+    const double half = reach(box, frame.along);
+    return std::abs(dot(frame.side, centre) - search.start.s) <= reach(box, frame.side) &&
+           along + half >= search.start.t && along - half <= search.nearest;
+}
+
+void try_triangle(Search& search, const TriangleMesh& mesh, const LineFrame& frame, std::span<const double> heights,
+                  std::size_t triangle) {
+    const Triangle& v = mesh.triangles[triangle];
+    const double h[3] = {heights[v[0]], heights[v[1]], heights[v[2]]};
+    const int above = (h[0] >= search.start.h) + (h[1] >= search.start.h) + (h[2] >= search.start.h);
+    if (above == 0 || above == 3) return;
+    Coordinates corner[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 p = mesh.points[v[k]];
+        corner[k] = {h[k], dot(frame.side, p), dot(frame.along, p)};
+    }
+    const std::optional<double> at = crossing(corner, search.start.h, search.start.s);
+    if (!at || *at <= search.start.t || *at >= search.nearest) return;
+    search.nearest = *at;
+    search.tether.triangle = static_cast<std::uint32_t>(triangle);
+    search.is_hit = true;
+}
 
 }  // namespace
 
 Shells shells(const TriangleMesh& mesh) {
+    const auto grow = [](Box& box, Vec3 p) {
+        box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y), std::min(box.min.z, p.z)};
+        box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y), std::max(box.max.z, p.z)};
+    };
     DisjointSets sets(mesh.points.size());
     for (const Triangle& t : mesh.triangles) {
         sets.unite(t[0], t[1]);
@@ -164,25 +171,35 @@ Shells shells(const TriangleMesh& mesh) {
         const Vec3 b = mesh.points[triangle[1]];
         const Vec3 c = mesh.points[triangle[2]];
         result.volume[shell] += dot(a - o, cross(b - o, c - o)) / 6;
-        Box& box = result.box[shell];
+        if (t % triangles_per_block == 0) result.block.push_back({a, a});
         for (const Vec3& p : {a, b, c}) {
-            for (int axis = 0; axis < 3; ++axis) {
-                box.min[axis] = std::min(box.min[axis], p[axis]);
-                box.max[axis] = std::max(box.max[axis], p[axis]);
-            }
+            grow(result.box[shell], p);
+            grow(result.block.back(), p);
         }
     }
     return result;
 }
 
-std::vector<Tether> tethers(const TriangleMesh& mesh, const Shells& shells, Vec3 axis) {
+std::vector<Tether> tethers(const TriangleMesh& mesh, const Shells& shells, Vec3 axis,
+                            std::span<const double> heights) {
     std::vector<Tether> result;
     const bool has_cavity = std::any_of(shells.volume.begin(), shells.volume.end(), [](double v) { return v < 0; });
     if (!has_cavity || shells.count() == 1) return result;
-    const Surroundings surroundings(mesh, shells, axis);
-    for (std::uint32_t shell = 0; shell < shells.count(); ++shell) {
-        if (shells.volume[shell] >= 0) continue;
-        if (const auto tether = surroundings.tether(shell)) result.push_back(*tether);
+    const LineFrame frame = line_frame(axis);
+    std::vector<Search> all = searches(mesh, shells, frame, heights);
+    for (std::size_t b = 0; b < shells.block.size(); ++b) {
+        const std::size_t last = std::min(mesh.triangles.size(), (b + 1) * triangles_per_block);
+        const auto [begin, end] = searches_at(all, shells.block[b], axis);
+        for (auto it = begin; it != end; ++it) {
+            if (!may_meet(*it, shells.block[b], frame)) continue;
+            for (std::size_t t = b * triangles_per_block; t < last; ++t) {
+                if (shells.shell_of[t] != it->tether.cavity) try_triangle(*it, mesh, frame, heights, t);
+            }
+        }
+    }
+    for (const Search& s : all) {
+        // The line must leave material where it meets the surface; else the shell is inside out, not a cavity.
+        if (s.is_hit && dot(area_vector(mesh, s.tether.triangle), frame.along) > 0) result.push_back(s.tether);
     }
     return result;
 }
@@ -191,7 +208,10 @@ Solids solids(const TriangleMesh& mesh, const Shells& shells, Vec3 axis) {
     Solids result;
     result.solid_of_shell.assign(shells.count(), none);
     DisjointSets sets(shells.count());
-    const std::vector<Tether> ties = tethers(mesh, shells, axis);
+    std::vector<double> heights;
+    heights.reserve(mesh.points.size());
+    for (const Vec3& p : mesh.points) heights.push_back(dot(axis, p));
+    const std::vector<Tether> ties = tethers(mesh, shells, axis, heights);
     for (const Tether& tie : ties) sets.unite(tie.cavity, shells.shell_of[tie.triangle]);
     const auto cavities = std::count_if(shells.volume.begin(), shells.volume.end(), [](double v) { return v < 0; });
     result.loose_cavities = static_cast<std::size_t>(cavities) - ties.size();

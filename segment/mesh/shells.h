@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "segment/mesh/measure.h"
@@ -14,11 +15,14 @@
 
 namespace qchopper {
 
+constexpr std::size_t triangles_per_block = 128;
+
 // Triangles that share a vertex belong to one shell. Shells are numbered by their first triangle.
 struct Shells {
     std::vector<std::uint32_t> shell_of;  // per triangle
     std::vector<double> volume;           // per shell, signed mm3; negative: a cavity, or turned inside out
     std::vector<Box> box;                 // per shell
+    std::vector<Box> block;               // per triangles_per_block consecutive triangles: to pass over many at once
     std::size_t count() const { return volume.size(); }
 };
 Shells shells(const TriangleMesh& mesh);
@@ -32,8 +36,9 @@ struct Tether {
     std::uint32_t triangle = 0;  // where the line leaves the material
 };
 
-// One tether for every negative shell; those with nothing around them have none: they are loose.
-std::vector<Tether> tethers(const TriangleMesh& mesh, const Shells& shells, Vec3 axis);
+// One tether for every negative shell; those with nothing around them have none: they are loose. `heights` are those of
+// the points along `axis` (plane.h). One pass over the triangles, however many cavities there are.
+std::vector<Tether> tethers(const TriangleMesh& mesh, const Shells& shells, Vec3 axis, std::span<const double> heights);
 
 // Groups the shells of a closed mesh into solids, each cavity by its tether.
 struct Solids {

@@ -107,7 +107,8 @@ class March {
     Vec3 at(LatticePoint p) const { return origin_ + Vec3{half_ * p.x, half_ * p.y, half_ * p.z}; }
 
     static std::size_t index(int x, int y, int z) {
-        return static_cast<std::size_t>((z * leaf_points + y) * leaf_points + x);
+        constexpr std::size_t row = leaf_points;
+        return (static_cast<std::size_t>(z) * row + static_cast<std::size_t>(y)) * row + static_cast<std::size_t>(x);
     }
     double value(LatticePoint p) const {
         const LatticePoint local{p.x - 2 * x0_, p.y - 2 * y0_, p.z - 2 * z0_};

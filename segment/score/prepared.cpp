@@ -49,6 +49,7 @@ PreparedPiece prepare(const Piece& piece, const Objectives& objectives) {
     p.shells = shells(mesh);
     p.neighbour = earlier_neighbours(mesh);
     p.base = bases(piece);
+    for (const Bound& bound : piece.bounds) p.up.push_back(bound.up());
     p.sums.resize(mesh.triangles.size());
     for (std::size_t t = 0; t < p.sums.size(); ++t) {
         const Vec3 area = area_vector(mesh, t);

@@ -28,6 +28,7 @@ struct PreparedPiece {
     std::vector<std::uint32_t> neighbour;  // per point: the nearest in memory of its earlier neighbours, or itself
     std::vector<TriangleSums> sums;
     std::vector<Vec3> unit;            // per triangle, unit normals; only if undercut counts triangles
+    std::vector<Vec3> up;              // per bound of the piece, Bound::up()
     std::vector<std::uint16_t> base;   // per triangle: index in piece->bounds of its cap, or no_base; empty: no caps
     std::vector<Vec3> vertex_normals;  // only for the thesis' fragility
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <memory>
 
 namespace qchopper {
 namespace {
@@ -37,7 +38,7 @@ double lone_share(const Straddler& s, const Crossing& c, double offset) {
 class Finder {
  public:
     Finder(const PreparedPiece& prepared, const Slabs& slabs, Vec3 normal, std::span<const double> offsets)
-        : p_(prepared), mesh_(*prepared.piece->mesh), slabs_(slabs), normal_(normal), offsets_(offsets) {
+        : p_(prepared), mesh_(*prepared.piece->mesh), slabs_(slabs), offsets_(offsets) {
         const Vec3 least = std::abs(normal.x) <= std::abs(normal.y) && std::abs(normal.x) <= std::abs(normal.z)
                                ? Vec3{1, 0, 0}
                            : std::abs(normal.y) <= std::abs(normal.z) ? Vec3{0, 1, 0}
@@ -55,7 +56,8 @@ class Finder {
 
  private:
     void link_records() {
-        std::vector<std::uint32_t> straddler_of(mesh_.triangles.size());
+        // Only straddlers are ever looked up: what the rest holds does not matter.
+        const auto straddler_of = std::make_unique_for_overwrite<std::uint32_t[]>(mesh_.triangles.size());
         for (std::uint32_t i = 0; i < slabs_.straddlers.size(); ++i) straddler_of[slabs_.straddlers[i].triangle] = i;
         out_.next.resize(slabs_.records);
         out_.point.resize(slabs_.records);
@@ -115,8 +117,8 @@ class Finder {
     void add_parts(const Straddler& s, SectionLoop& loop, std::span<double> above, std::span<double> below) const {
         const Crossing c = crossing(s, loop.plane);
         const double share = lone_share(s, c, offsets_[loop.plane]);
-        add_triangle(c.lone_is_above ? above : below, p_, s.triangle, normal_, share, 1);
-        add_triangle(c.lone_is_above ? below : above, p_, s.triangle, normal_, 1 - share, 2);
+        add_part(c.lone_is_above ? above : below, p_, s, share, 1);
+        add_part(c.lone_is_above ? below : above, p_, s, 1 - share, 2);
         loop.node_above = s.node[c.upper];
         loop.node_below = s.node[c.lower];
     }
@@ -145,7 +147,6 @@ class Finder {
     const PreparedPiece& p_;
     const TriangleMesh& mesh_;
     const Slabs& slabs_;
-    Vec3 normal_;
     std::span<const double> offsets_;
     Vec3 u_;
     Vec3 v_;

@@ -59,7 +59,7 @@ class Pass {
           offsets_(offsets),
           packing_(offsets.size() + 1),
           word_(mesh_.points.size()) {
-        out_.layout.bases = prepared.piece->bounds.size();
+        out_.layout.bases = prepared.up.size();
         out_.height.resize(mesh_.points.size());
     }
 
@@ -67,10 +67,11 @@ class Pass {
         label_vertices();
         assert(label_slab_.size() <= packing_.most_labels());
         sums_ = SumTable(label_slab_.size(), out_.layout.width());
-        if (out_.layout.bases == 0 && p_.unit.empty())
+        if (out_.layout.bases > 0) {
             sum_triangles<true>();
-        else
+        } else {
             sum_triangles<false>();
+        }
         number_nodes();
         return std::move(out_);
     }
@@ -93,7 +94,10 @@ class Pass {
         }
     }
 
-    template <bool is_plain>  // plain: by area, no old bases - four numbers, kept in registers over a run
+    // What a triangle looks like along the normal: its area, or 1, times the cosine.
+    double along(std::uint32_t t) const { return dot(p_.unit.empty() ? p_.sums[t].area : p_.unit[t], normal_); }
+
+    template <bool has_bases>  // the four sums along the normal stay in registers over a run of one label
     void sum_triangles() {
         std::uint32_t run = std::numeric_limits<std::uint32_t>::max();
         double faces = 0;
@@ -118,23 +122,19 @@ class Pass {
             const std::uint32_t label = packing_.label(word[0]);
             if (word[0] != word[1]) sets_.unite(label, packing_.label(word[1]));
             if (word[0] != word[2]) sets_.unite(label, packing_.label(word[2]));
-            if constexpr (is_plain) {
-                if (label != run) {
-                    flush();
-                    run = label;
-                    faces = volume = up = down = 0;
-                }
-                const TriangleSums& s = p_.sums[t];
-                const double along = dot(s.area, normal_);
-                faces += 1;
-                volume += s.volume;
-                up += along > 0 ? along : 0;
-                down += along < 0 ? -along : 0;
-            } else {
-                add_triangle(sums_.row(label), p_, t, normal_, 1, 1);
+            if (label != run) {
+                flush();
+                run = label;
+                faces = volume = up = down = 0;
             }
+            const double look = along(t);
+            faces += 1;
+            volume += p_.sums[t].volume;
+            up += look > 0 ? look : 0;
+            down += look < 0 ? -look : 0;
+            if constexpr (has_bases) add_to_bases(sums_.row(label), p_, t, 1, 1);
         }
-        if constexpr (is_plain) flush();
+        flush();
     }
 
     void keep_straddler(std::uint32_t t, const std::array<std::uint32_t, 3>& word) {
@@ -153,6 +153,8 @@ class Pass {
         s.low = std::min({s.slab[0], s.slab[1], s.slab[2]});
         s.high = std::max({s.slab[0], s.slab[1], s.slab[2]});
         s.first_record = out_.records;
+        s.along = along(t);
+        s.volume = p_.sums[t].volume;
         out_.records += static_cast<std::uint32_t>(s.high - s.low);
         out_.straddlers.push_back(s);
     }
@@ -191,26 +193,21 @@ class Pass {
 
 }  // namespace
 
-void add_triangle(std::span<double> row, const PreparedPiece& prepared, std::uint32_t triangle, Vec3 normal,
-                  double share, double faces) {
-    const TriangleSums& s = prepared.sums[triangle];
+void add_to_bases(std::span<double> row, const PreparedPiece& prepared, std::uint32_t triangle, double share,
+                  double faces) {
     const bool by_area = prepared.unit.empty();
-    const Vec3 look = by_area ? s.area : prepared.unit[triangle];
+    const Vec3 look = by_area ? prepared.sums[triangle].area : prepared.unit[triangle];
     const double weight = by_area ? share : faces;
-    const double along = weight * dot(look, normal);
-    row[sum_faces] += faces;
-    row[sum_volume] += share * s.volume;
-    row[along > 0 ? sum_up : sum_down] += std::abs(along);
-    if (prepared.piece->bounds.empty()) return;
     const std::uint16_t own = prepared.base.empty() ? no_base : prepared.base[triangle];
-    for (std::size_t b = 0; b < prepared.piece->bounds.size(); ++b) {
-        double* cell = row.data() + sum_base + 3 * b;
+    double* cell = row.data() + sum_base;
+    for (std::size_t b = 0; b < prepared.up.size(); ++b, cell += 3) {
         if (b == own) {
             cell[2] += faces;
             continue;
         }
-        const double upwards = weight * dot(look, prepared.piece->bounds[b].up());
-        cell[upwards > 0 ? 0 : 1] += std::abs(upwards);
+        const double upwards = weight * dot(look, prepared.up[b]);
+        cell[0] += upwards > 0 ? upwards : 0;
+        cell[1] += upwards < 0 ? -upwards : 0;
     }
 }
 

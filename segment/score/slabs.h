@@ -50,6 +50,8 @@ struct Straddler {
     std::uint16_t high;
     std::uint32_t first_record;  // number of its first crossing (section.h)
     std::array<double, 3> height;
+    double along;  // its share in the undercut along the normal: signed area, or 1 times the unit normal's cosine
+    double volume;
 };
 
 struct Slabs {
@@ -66,8 +68,19 @@ struct Slabs {
 // `offsets` ascending, none at a vertex's height.
 Slabs slabs(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets);
 
-// Adds share * triangle to a row: `share` of its area, counted as `faces` triangles.
-void add_triangle(std::span<double> row, const PreparedPiece& prepared, std::uint32_t triangle, Vec3 normal,
-                  double share, double faces);
+// Adds a triangle to the old bases of a row: `share` of its area, counted as `faces` triangles.
+void add_to_bases(std::span<double> row, const PreparedPiece& prepared, std::uint32_t triangle, double share,
+                  double faces);
+
+// Adds a straddler, or its part on one side, to a row.
+inline void add_part(std::span<double> row, const PreparedPiece& prepared, const Straddler& s, double share,
+                     double faces) {
+    const double along = (prepared.unit.empty() ? share : faces) * s.along;
+    row[sum_faces] += faces;
+    row[sum_volume] += share * s.volume;
+    row[sum_up] += along > 0 ? along : 0;
+    row[sum_down] += along < 0 ? -along : 0;
+    if (row.size() > sum_base) add_to_bases(row, prepared, s.triangle, share, faces);
+}
 
 }  // namespace qchopper

@@ -23,7 +23,7 @@ struct GraphEdge {
 class Side {
  public:
     Side(const PreparedPiece& prepared, const Slabs& slabs, const Section& section, Vec3 normal,
-         std::span<const double> offsets, bool above)
+         std::span<const double> offsets, std::span<const Tether> ties, bool above)
         : p_(prepared),
           slabs_(slabs),
           section_(section),
@@ -40,10 +40,10 @@ class Side {
             // Whole on this side as soon as its corner nearest to the planes is taken in.
             const std::uint16_t last = above ? s.low : s.high;
             const std::size_t k = s.slab[0] == last ? 0 : s.slab[1] == last ? 1 : 2;
-            add_triangle(sums_.row(s.node[k]), p_, s.triangle, normal, 1, 1);
+            add_part(sums_.row(s.node[k]), p_, s, 1, 1);
             for (std::size_t i = 0; i < 3; ++i) add_edge(s.node[i], s.node[(i + 1) % 3]);
         }
-        for (const Tether& t : tethers(*p_.piece->mesh, p_.shells, normal)) {
+        for (const Tether& t : ties) {
             add_edge(slabs.node_of[t.vertex], slabs.node_of[far_corner(t.triangle)]);
         }
     }
@@ -196,8 +196,9 @@ std::vector<std::optional<Price>> sweep_solids(const PreparedPiece& prepared, Ve
         }
         all_regions[plane] = regions(section, plane);
     }
+    const std::vector<Tether> ties = tethers(*prepared.piece->mesh, prepared.shells, normal, all_slabs.height);
     for (const bool above : {true, false}) {
-        Side(prepared, all_slabs, section, normal, offsets, above).run(prices, all_regions);
+        Side(prepared, all_slabs, section, normal, offsets, ties, above).run(prices, all_regions);
     }
     return prices;
 }

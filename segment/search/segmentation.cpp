@@ -4,6 +4,7 @@
 
 #include "segment/cut/cut_piece.h"
 #include "segment/mesh/measure.h"
+#include "segment/mesh/order.h"
 #include "segment/mesh/shells.h"
 
 namespace qchopper {
@@ -39,7 +40,7 @@ std::string piece_name(std::size_t index) {
 Segmentation uncut(const TriangleMesh& scan, double crumb_volume_mm3) {
     Segmentation segmentation;
     std::vector<Piece> solids;
-    for (TriangleMesh& mesh : split_solids(scan, {0, 0, 1})) {
+    for (TriangleMesh& mesh : split_solids(in_memory_order(scan), {0, 0, 1})) {
         Piece piece;
         piece.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
         solids.push_back(std::move(piece));

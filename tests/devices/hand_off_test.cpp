@@ -37,6 +37,10 @@ struct PaperCell {
 
     // One action and its answer; false when it is finished.
     bool step() {
+        if (++steps > 100000) {
+            ADD_FAILURE() << "no end in sight at " << name(state.step);
+            return false;
+        }
         HandOffTurn turn = advance(plan, state, input, now_s);
         state = turn.state;
         action = turn.action;
@@ -63,10 +67,9 @@ struct PaperCell {
         return true;
     }
 
-    void run(int most = 5000) {
-        while (most-- > 0 && step()) {
+    void run() {
+        while (step()) {
         }
-        EXPECT_EQ(action.kind, Kind::finish) << "no end in sight at " << name(state.step);
     }
 
     void take(const Command& command) {
@@ -131,6 +134,7 @@ struct PaperCell {
     HandOffAction action;
     double now_s = 100;
     double freeze_s = 0;
+    int steps = 0;
     bool cancelled = false;
     Status status;
     ResultWords result;
@@ -312,7 +316,7 @@ TEST(HandOff, AFrozenCellGetsNoCommand) {
     cell.freeze_s = cell.now_s;
     const auto before = cell.commands.size();
     cell.run();
-    EXPECT_EQ(cell.commands.size(), before + 1);  // PREPARE itself
+    EXPECT_EQ(cell.commands.size(), before);
     EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
     EXPECT_NE(cell.state.why.find("frozen"), std::string::npos) << cell.state.why;
 }

@@ -215,7 +215,7 @@ TEST(HandOffFaults, WithALossyLinkTheReportIsTrue) {
 }
 
 TEST(HandOffFaults, WithAVeryBadLinkTheReportIsStillTrue) {
-    const Tally tally = try_many(1500, {200, 200, 800, 200, 0});
+    const Tally tally = try_many(1500, {80, 80, 800, 200, 0});
     EXPECT_GT(tally.not_started + tally.unknown, 50);
     EXPECT_GT(tally.started, 50);
 }

@@ -38,16 +38,16 @@ TEST(Server, AFrameSplitAtAnyByteGetsTheSameAnswer) {
     const RawSocket socket(cell.sim.port());
     const Bytes whole = frame(0x0A0B, read_request(4, 0, 3));
     socket.send(whole);
-    const Bytes expected = socket.receive(13);
+    const Bytes expected = socket.receive(15);
     // STATUS begins with magic and version; the third word is the snapshot, which moves on.
-    ASSERT_EQ(expected.size(), 13U);
+    ASSERT_EQ(expected.size(), 15U);
     for (std::size_t at = 1; at < whole.size(); ++at) {
         socket.send(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(at)));
         std::this_thread::sleep_for(std::chrono::milliseconds(3));
         socket.send(Bytes(whole.begin() + static_cast<std::ptrdiff_t>(at), whole.end()));
-        const Bytes bytes = socket.receive(13);
-        ASSERT_EQ(bytes.size(), 13U) << at;
-        EXPECT_TRUE(std::equal(bytes.begin(), bytes.begin() + 11, expected.begin())) << at;
+        const Bytes bytes = socket.receive(15);
+        ASSERT_EQ(bytes.size(), 15U) << at;
+        EXPECT_TRUE(std::equal(bytes.begin(), bytes.begin() + 13, expected.begin())) << at;
     }
 }
 
@@ -172,7 +172,10 @@ TEST(Server, ManyConnectionsLeaveNoDescriptorBehind) {
     }
     for (int n = 0; n < 100 && open_files() != before; ++n) std::this_thread::sleep_for(std::chrono::milliseconds(20));
     EXPECT_EQ(open_files(), before);
-    EXPECT_TRUE(is_served(RawSocket(cell.sim.port())));
+    // Those that hung up before they were accepted may still take the places for a moment.
+    bool served = false;
+    for (int n = 0; n < 50 && !served; ++n) served = is_served(RawSocket(cell.sim.port()));
+    EXPECT_TRUE(served);
 }
 
 TEST(Server, RandomStreamsDoNotHurtTheCell) {

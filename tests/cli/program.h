@@ -1,0 +1,81 @@
+// Runs the real program in a process of its own, and what the tests of it share.
+
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace qchopper::program {
+
+// A folder of its own, removed at the end.
+class Folder {
+ public:
+    Folder();
+    ~Folder();
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    const std::filesystem::path path;
+};
+
+using Arguments = std::vector<std::string>;
+
+struct Surroundings {
+    std::filesystem::path folder;                 // where it runs
+    std::string input = {};                       // what stdin holds; then it ends
+    bool one_core = false;                        // may use one core only
+    std::filesystem::path temporary_folder = {};  // TMPDIR; empty: as here
+};
+
+struct Ended {
+    int code = -1;        // exit code
+    int killed_by = 0;    // signal that ended it; 0: it ended by itself
+    bool in_time = true;  // false: it was killed because it took too long
+    std::string out;
+    std::string err;
+};
+
+class Process {
+ public:
+    Process(const Arguments& arguments, const Surroundings& surroundings);
+    ~Process();  // kills it
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+
+    void signal(int number) const;
+    // Until the text is on stdout or stderr; false if the program ends before or it takes too long.
+    bool waits_until_out(const std::string& text, double seconds = 120);
+    bool waits_until_err(const std::string& text, double seconds = 120);
+    bool waits_until_there(const std::filesystem::path& file, double seconds = 120);
+    Ended wait(double seconds = 240);
+    std::string out() const;
+    std::string err() const;
+
+ private:
+    bool has_ended();
+
+    Folder streams_;
+    pid_t pid_ = -1;
+    int status_ = 0;
+    bool ended_ = false;
+};
+
+Ended run(const Arguments& arguments, const Surroundings& surroundings);
+
+// Every file and folder in a folder with its bytes.
+using Contents = std::map<std::string, std::string>;
+Contents contents(const std::filesystem::path& folder);
+std::string bytes_in(const std::filesystem::path& file);
+void put(const std::filesystem::path& file, const std::string& bytes);
+
+// The cell file that comes with the project.
+std::filesystem::path foam_cell();
+// Made once per process: a folder with scan.ply (vertebra, 3,000 faces) and scan.qch, prepared with two cuts.
+const std::filesystem::path& prepared();
+// What prepare was told for it, but for the output.
+Arguments prepare_arguments(const std::string& scan);
+
+}  // namespace qchopper::program

@@ -1,0 +1,50 @@
+#include "segment/mesh/order.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/shapes.h"
+
+namespace qchopper {
+namespace {
+
+// The corners of all triangles in space, whatever their numbers.
+std::vector<std::array<std::array<double, 3>, 3>> soup(const TriangleMesh& mesh) {
+    std::vector<std::array<std::array<double, 3>, 3>> result;
+    for (const Triangle& t : mesh.triangles) {
+        std::array<std::array<double, 3>, 3> corners;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 p = mesh.points[t[k]];
+            corners[k] = {p.x, p.y, p.z};
+        }
+        std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+        result.push_back(corners);
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+TEST(Order, OnlyTheNumbersChange) {
+    for (const auto& [name, mesh, solids] : shapes::all_closed()) {
+        const TriangleMesh ordered = in_memory_order(mesh);
+        EXPECT_EQ(soup(ordered), soup(mesh)) << name;
+        EXPECT_EQ(in_memory_order(ordered), ordered) << name;  // twice is as good as once
+    }
+}
+
+TEST(Order, CapsStayWithTheirTriangles) {
+    TriangleMesh mesh = shapes::box({0, 0, 0}, {1, 1, 1}, 3);
+    const auto is_top = [](const TriangleMesh& m, const Triangle& t) {
+        return m.points[t[0]].z + m.points[t[1]].z + m.points[t[2]].z == 3;
+    };
+    for (const Triangle& t : mesh.triangles) mesh.cap_of.push_back(is_top(mesh, t) ? 4 : no_cap);
+    const TriangleMesh ordered = in_memory_order(mesh);
+    for (std::size_t t = 0; t < ordered.triangles.size(); ++t) {
+        EXPECT_EQ(ordered.cap_of[t], is_top(ordered, ordered.triangles[t]) ? 4 : no_cap);
+    }
+    EXPECT_EQ(in_memory_order({}), TriangleMesh{});
+}
+
+}  // namespace
+}  // namespace qchopper
