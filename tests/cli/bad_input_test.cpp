@@ -85,6 +85,10 @@ std::string ascii_ply(const std::string& points, int faces = 4) {
            (faces == 4 ? "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n" : "");
 }
 
+std::string cut_short(const std::string& text) {
+    return text.substr(0, text.size() - 20);
+}
+
 // The cell file of the project with one text in it replaced.
 Arrange cell_with(const std::string& old_text, const std::string& new_text) {
     return [=](const fs::path& folder) {
@@ -154,7 +158,7 @@ std::vector<Case> scans() {
          exit_mesh,
          prepare("bad.ply"),
          {"bad.ply"},
-         file("bad.ply", ascii_ply(zero + "0 0 1\n").substr(0, 260))},
+         file("bad.ply", cut_short(ascii_ply(zero + "0 0 1\n")))},
         {"NanCoordinates",
          exit_mesh,
          prepare("bad.ply"),
@@ -363,7 +367,7 @@ TEST_P(BadInput, IsToldInOneLineAndLeavesNothingBehind) {
     const std::size_t unchanged = ended.err.find(" " + c.unchanged + " To do: ");
     EXPECT_NE(unchanged, std::string::npos) << ended.err;
     EXPECT_EQ(ended.err.find(".."), std::string::npos) << ended.err;
-    EXPECT_EQ(program::contents(folder.path), before);
+    EXPECT_EQ(program::difference(before, program::contents(folder.path)), "");
 
     Arguments with_json = c.arguments;
     with_json.emplace_back("--json");
@@ -376,7 +380,7 @@ TEST_P(BadInput, IsToldInOneLineAndLeavesNothingBehind) {
     EXPECT_EQ(document["unchanged"], c.unchanged);
     EXPECT_NE(document["error"], "");
     EXPECT_NE(document["to_do"], "");
-    EXPECT_EQ(program::contents(folder.path), before);
+    EXPECT_EQ(program::difference(before, program::contents(folder.path)), "");
 }
 
 std::string name_of(const ::testing::TestParamInfo<Case>& info) {

@@ -155,6 +155,19 @@ Contents contents(const fs::path& folder) {
     return found;
 }
 
+std::string difference(const Contents& before, const Contents& after) {
+    std::string names;
+    for (const auto& [name, bytes] : before) {
+        const auto there = after.find(name);
+        if (there == after.end()) names += " -" + name;
+        if (there != after.end() && there->second != bytes) names += " !" + name;
+    }
+    for (const auto& [name, bytes] : after) {
+        if (!before.contains(name)) names += " +" + name;
+    }
+    return names;
+}
+
 fs::path foam_cell() {
     return fs::path(QCHOPPER_SOURCE_DIR) / "cells" / "foam-1.toml";
 }

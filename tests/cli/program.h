@@ -68,6 +68,8 @@ Ended run(const Arguments& arguments, const Surroundings& surroundings);
 // Every file and folder in a folder with its bytes.
 using Contents = std::map<std::string, std::string>;
 Contents contents(const std::filesystem::path& folder);
+// The names of those that are in one only, or differ: "+new -gone !changed"; empty if there are none.
+std::string difference(const Contents& before, const Contents& after);
 std::string bytes_in(const std::filesystem::path& file);
 void put(const std::filesystem::path& file, const std::string& bytes);
 

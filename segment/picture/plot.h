@@ -1,0 +1,64 @@
+// A grid of line plots as SVG text: curves that share their x axis down a column and their y axis along a row.
+//
+// Made for print: light background, the fonts of the reader, nothing loaded from elsewhere. The text is valid XML
+// whatever the labels hold, and the same plot gives the same bytes (tests/segment/picture/plot_test.cpp).
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "segment/picture/picture.h"
+
+namespace qchopper {
+
+struct PlotPoint {
+    double x = 0;
+    double y = 0;  // not finite: a gap in the curve
+    bool operator==(const PlotPoint&) const = default;
+};
+
+struct PlotRange {
+    double low = 0;
+    double high = 1;
+    bool operator==(const PlotRange&) const = default;
+};
+
+// An upright line through all rows of a column, and a dot where it meets the curves.
+struct PlotMark {
+    double x = 0;
+    std::string label;
+    bool is_dashed = false;
+};
+
+struct PlotColumn {
+    std::string title;
+    std::string x_label;
+    std::vector<PlotMark> marks;
+};
+
+// Curves of one colour. A value above or below the range leaves the frame and leaves a small arrow at its edge.
+struct PlotRow {
+    std::string title;
+    Rgb colour;
+    double line = 1.4;                           // width of the curve
+    std::optional<PlotRange> range;              // of y; nothing: of all that is drawn
+    std::vector<std::vector<PlotPoint>> curves;  // one per column, x ascending
+};
+
+struct Plot {
+    std::string title;
+    std::vector<std::string> notes;  // lines under the title
+    std::vector<PlotColumn> columns;
+    std::vector<PlotRow> rows;
+};
+
+struct PlotOptions {
+    double panel_width = 290;
+    double panel_height = 104;
+};
+
+std::string to_svg(const Plot& plot, const PlotOptions& options = {});
+
+}  // namespace qchopper

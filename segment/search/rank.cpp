@@ -1,0 +1,62 @@
+#include "segment/search/rank.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+namespace qchopper {
+namespace {
+
+// Best first. Totals within a tie of the group's best are one group, in which the candidates' order decides.
+void sort_best_first(std::vector<Ranked>& ranked) {
+    const auto by_order = [](const Ranked& a, const Ranked& b) {
+        return std::pair(a.normal, a.offset) < std::pair(b.normal, b.offset);
+    };
+    std::stable_sort(ranked.begin(), ranked.end(),
+                     [](const Ranked& a, const Ranked& b) { return a.terms.total < b.terms.total; });
+    for (auto group = ranked.begin(); group != ranked.end();) {
+        auto end = group;
+        while (end != ranked.end() && end->terms.total <= group->terms.total + tie) ++end;
+        std::sort(group, end, by_order);
+        group = end;
+    }
+}
+
+}  // namespace
+
+std::vector<PieceShare> shares_of_others(const Segmentation& segmentation, std::size_t piece,
+                                         const Objectives& objectives, PieceBook& book) {
+    std::vector<PieceShare> shares;
+    for (std::size_t p = 0; p < segmentation.pieces.size(); ++p) {
+        if (p != piece) shares.push_back(share(book.own(segmentation.pieces[p]), objectives));
+    }
+    return shares;
+}
+
+std::vector<Ranked> rank(const PiecePrices& prices, std::span<const PieceShare> others, const Objectives& objectives) {
+    std::vector<Ranked> ranked;
+    for (std::size_t i = 0; i < prices.candidates.size(); ++i) {
+        if (!prices.prices[i]) continue;
+        const std::optional<Terms> t = terms(*prices.prices[i], others, objectives);
+        if (!t) continue;
+        const Candidate& c = prices.candidates[i];
+        ranked.push_back({c.plane, c.wanted_offset, c.normal, c.offset, *t});
+    }
+    sort_best_first(ranked);
+    return ranked;
+}
+
+std::vector<Ranked> without_near_duplicates(const std::vector<Ranked>& ranked, int offsets_per_normal, double near) {
+    // Offsets are evenly spaced: (count + 1) steps are the piece's extent.
+    const double near_steps = near * (offsets_per_normal + 1);
+    std::vector<Ranked> kept;
+    for (const Ranked& r : ranked) {
+        const bool is_near = std::any_of(kept.begin(), kept.end(), [&](const Ranked& k) {
+            return k.normal == r.normal && std::abs(k.offset - r.offset) < near_steps;
+        });
+        if (!is_near) kept.push_back(r);
+    }
+    return kept;
+}
+
+}  // namespace qchopper

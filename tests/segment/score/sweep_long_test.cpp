@@ -1,0 +1,166 @@
+// The sweep against cutting on specimens, on real scans, and on the pieces that cuts make of them.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "segment/cut/cut_piece.h"
+#include "segment/error.h"
+#include "segment/intake/intake.h"
+#include "segment/mesh/order.h"
+#include "segment/mesh/shells.h"
+#include "segment/sample/sample.h"
+#include "segment/score/candidates.h"
+#include "segment/score/pricing.h"
+#include "tests/segment/score/same_price.h"
+
+namespace qchopper {
+namespace {
+
+// The solids of a scan as pieces, most faces first, without those too small to be pieces.
+std::vector<Piece> pieces_of(const TriangleMesh& scan, std::size_t most) {
+    std::vector<Piece> pieces;
+    for (TriangleMesh& solid : split_solids(in_memory_order(scan), {0, 0, 1})) {
+        if (volume_mm3(solid) < 1e-5 * volume_mm3(scan)) continue;
+        Piece piece;
+        piece.mesh = std::make_shared<const TriangleMesh>(std::move(solid));
+        pieces.push_back(std::move(piece));
+    }
+    std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+        return a.mesh->triangles.size() > b.mesh->triangles.size();
+    });
+    if (pieces.size() > most) pieces.resize(most);
+    return pieces;
+}
+
+// The best of all candidates by both ways of pricing; the same one, or one as good to 1e-9.
+struct Winner {
+    std::size_t candidate = 0;
+    double total = std::numeric_limits<double>::infinity();
+};
+Winner winner(const std::vector<std::optional<Price>>& prices, const Objectives& objectives) {
+    Winner best;
+    for (std::size_t i = 0; i < prices.size(); ++i) {
+        const auto t = prices[i] ? terms(*prices[i], {}, objectives) : std::nullopt;
+        if (t && t->total < best.total) best = {i, t->total};
+    }
+    return best;
+}
+
+// All candidates of a piece both ways. Returns the plane of the winner.
+Plane expect_same_candidates(const Piece& piece, const RayTree& rays, const Objectives& objectives, int per_normal,
+                             const std::string& what) {
+    CandidateOptions options;
+    options.offsets_per_normal = per_normal;
+    const std::vector<Candidate> candidates = candidate_planes(piece, options);
+    const auto fast = price_all(piece, candidates, objectives, rays, {});
+    std::vector<std::optional<Price>> plain;
+    const double size = norm(bounds(*piece.mesh).size());
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        plain.push_back(price_by_cutting(piece, candidates[i].plane, objectives, rays));
+        EXPECT_EQ(fast[i].has_value(), plain[i].has_value()) << what;
+        if (!fast[i] || !plain[i]) continue;
+        expect_equal(*fast[i], *plain[i], size, objectives.undercut_by_area, what + " candidate " + std::to_string(i));
+        if (::testing::Test::HasFatalFailure()) return {};
+    }
+    const Winner a = winner(fast, objectives);
+    const Winner b = winner(plain, objectives);
+    EXPECT_NEAR(a.total, b.total, 1e-9) << what;
+    return candidates.empty() ? Plane{} : candidates[a.candidate].plane;
+}
+
+// The scan, then the pieces of three cuts along the winners.
+void expect_same_along_cuts(const TriangleMesh& scan, int per_normal, const std::string& what) {
+    const RayTree rays(scan);
+    Objectives objectives;
+    objectives.crumb_volume_mm3 = 1e-5 * volume_mm3(scan);
+    for (Piece piece : pieces_of(scan, 2)) {
+        for (std::int32_t cut_number = 1; cut_number <= 3; ++cut_number) {
+            objectives.undercut_by_area = cut_number % 2 == 1;
+            const Plane best = expect_same_candidates(piece, rays, objectives, per_normal, what);
+            if (::testing::Test::HasFailure() || piece.mesh->triangles.size() < 100) break;
+            const auto made = cut_piece(piece, best, cut_number);
+            if (!made) break;
+            for (const Piece& p : made->pieces) {
+                if (p.mesh->triangles.size() > made->pieces.front().mesh->triangles.size() / 2) piece = p;
+            }
+        }
+    }
+}
+
+TEST(SweepLong, EqualsCuttingOnTheSamplesAlongRandomNormals) {
+    std::mt19937 random(1);
+    std::normal_distribution<double> normal;
+    std::size_t planes = 0;
+    for (const Specimen specimen : {Specimen::vertebra, Specimen::femur, Specimen::skull}) {
+        SampleOptions options;
+        options.faces = 20'000;
+        const TriangleMesh scan = in_memory_order(sample(specimen, options));
+        const RayTree rays(scan);
+        Piece piece;
+        piece.mesh = std::make_shared<const TriangleMesh>(scan);
+        for (int round = 0; round < 16; ++round) {
+            const Vec3 n = canonical({normalized({normal(random), normal(random), normal(random)}), 0}).normal;
+            const Extent range = extent(scan, n);
+            std::vector<double> wanted;
+            for (int k = 1; k < 25; ++k) wanted.push_back(range.low + range.size() * k / 25);
+            planes += expect_same(piece, rays, n, wanted, {}, "sample round " + std::to_string(round));
+        }
+    }
+    EXPECT_GT(planes, 1000U);
+}
+
+TEST(SweepLong, EqualsCuttingOnTheSamplesAndTheirPieces) {
+    for (const Specimen specimen : {Specimen::vertebra, Specimen::femur, Specimen::skull}) {
+        SampleOptions options;
+        options.faces = 60'000;
+        expect_same_along_cuts(sample(specimen, options), 15, "sample");
+    }
+}
+
+struct Scan {
+    std::string file;
+    std::size_t faces;
+};
+
+// Closed, free of self-intersections, under 400,000 faces, in a format that intake reads.
+std::vector<Scan> valid_scans() {
+    std::vector<Scan> scans;
+    std::ifstream manifest(QCHOPPER_MESHES "/MANIFEST.tsv");
+    for (std::string line; std::getline(manifest, line);) {
+        std::vector<std::string> cell;
+        std::istringstream in(line);
+        for (std::string c; std::getline(in, c, '\t');) cell.push_back(c);
+        if (cell.size() < 10 || cell[8] != "1" || cell[9].find("selfint=0") == std::string::npos) continue;
+        if (cell[3].rfind("PLY", 0) != 0 && cell[3].rfind("STL", 0) != 0) continue;
+        const std::size_t faces = std::stoul(cell[5]);
+        if (faces < 400'000) scans.push_back({cell[0], faces});
+    }
+    return scans;
+}
+
+TEST(SweepLong, EqualsCuttingOnEveryValidScan) {
+    const std::vector<Scan> scans = valid_scans();
+    if (scans.empty()) GTEST_SKIP() << "skipped: the real meshes are not here";
+    std::size_t taken = 0;
+    for (const Scan& scan : scans) {
+        Intake intake;
+        try {
+            IntakeOptions options;
+            options.mm_per_unit = 100;
+            intake = take_in(std::filesystem::path(QCHOPPER_MESHES) / scan.file, options);
+        } catch (const InputError&) {
+            continue;  // what intake refuses is not a valid mesh for us
+        }
+        ++taken;
+        expect_same_along_cuts(intake.mesh, scan.faces > 100'000 ? 8 : 40, scan.file);
+        if (HasFailure()) return;
+    }
+    EXPECT_GE(taken, 5U);
+}
+
+}  // namespace
+}  // namespace qchopper
