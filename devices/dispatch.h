@@ -39,7 +39,7 @@ struct DispatchOptions {
     bool stop_when_cancelled = false;  // Ctrl-C while the job runs also stops the machine
     HandOffTimings timings;
     std::optional<Uuid> job_id;  // empty: a fresh random one (always, outside tests and replays)
-    // Called with one line before anything is sent that may change the cell; if it throws, nothing is sent.
+    // Called with one line before each command is sent; if it throws, that command is not sent and the throw goes on.
     std::function<void(const std::string& row)> journal;
 };
 

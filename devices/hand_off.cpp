@@ -249,7 +249,7 @@ HandOffAction next_action(TurnUnderWay& turn) {
     if (turn.in.status) note_status(turn);
     if (h.last.kind != Kind::wait && h.last.kind != Kind::heartbeat) h.busy_times = 0;
     if (h.deferred && (h.last.kind == Kind::heartbeat || h.last.kind == Kind::wait)) {
-        const HandOffAction action = *h.deferred;
+        HandOffAction action = *h.deferred;
         h.deferred.reset();
         return action;
     }

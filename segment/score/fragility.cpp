@@ -3,13 +3,15 @@
 #include <cmath>
 
 #include "segment/mesh/normals.h"
+#include "segment/score/straight_way.h"
 #include "segment/score/thin_part.h"
 
 namespace qchopper {
-double thinness(const Piece& piece, const Plane& plane, double cap_area_mm2, double distance,
-                const RayTree& scan_rays) {
+double thinness(const Piece& piece, const Plane& plane, double cap_area_mm2, double distance) {
     const TriangleMesh& mesh = *piece.mesh;
-    double sum = 0;
+    std::vector<WayQuery> queries;
+    std::vector<double> weight;  // per query, what it adds if its way to the plane is free
+    std::vector<double> off;     // per query, its distance to the plane
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const double along = dot(normalized(area_vector(mesh, t)), plane.normal);
         if (std::abs(along) < nearly_parallel) continue;
@@ -17,11 +19,16 @@ double thinness(const Piece& piece, const Plane& plane, double cap_area_mm2, dou
         const Part part = part_of(mesh, t, plane, above);
         if (part.corners == 0) continue;
         const Centroid c = centroid(part);
-        const double off = std::abs(height(plane.normal, c.at) - plane.offset);
-        if (c.area == 0 || off >= distance) continue;
-        const Vec3 towards = above ? -plane.normal : plane.normal;
-        if (free_way(piece, scan_rays, c.at, towards) < off) continue;
-        sum += c.area * (1 - off / distance) * std::abs(along);
+        const double distance_to_plane = std::abs(height(plane.normal, c.at) - plane.offset);
+        if (c.area == 0 || distance_to_plane >= distance) continue;
+        queries.push_back({c.at, !above});
+        weight.push_back(c.area * (1 - distance_to_plane / distance) * std::abs(along));
+        off.push_back(distance_to_plane);
+    }
+    const std::vector<double> ways = straight_ways(mesh, plane.normal, queries);
+    double sum = 0;
+    for (std::size_t q = 0; q < queries.size(); ++q) {
+        if (ways[q] >= off[q]) sum += weight[q];
     }
     return sum / cap_area_mm2;
 }

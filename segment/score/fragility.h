@@ -7,14 +7,13 @@
 #pragma once
 
 #include "segment/cut/piece.h"
-#include "segment/mesh/rays.h"
 
 namespace qchopper {
 
 // (1 / cap area) * sum of A_T (1 - dist(c_T, P)/d) (s n_T . n_P) over the faces within `distance` mm that look away
 // from the plane (at least 0.9) and from which the straight way to the plane meets no other surface. A crossed face
-// counts as its two parts. `scan_rays` is the tree of the uncut scan: what cuts add are planes, known from the bounds.
-double thinness(const Piece& piece, const Plane& plane, double cap_area_mm2, double distance, const RayTree& scan_rays);
+// counts as its two parts.
+double thinness(const Piece& piece, const Plane& plane, double cap_area_mm2, double distance);
 
 // Nicholson 2016, section 4.2.2 as printed: sum of dist(V, P) * |n_V . n_P| in mm over the vertices within `distance`
 // with |n_V . n_P| >= 0.9.

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "segment/score/straight_way.h"
 #include "segment/score/thin_part.h"
 
 namespace qchopper {
@@ -29,72 +29,76 @@ std::vector<double> sum_chunks(std::size_t count, std::size_t offsets, const Add
     return sum;
 }
 
-// One face that is nearly parallel to the planes.
-class ThinFace {
- public:
-    ThinFace(const PreparedPiece& prepared, const RayTree& rays, std::size_t triangle, Vec3 normal, double along)
-        : piece_(*prepared.piece), rays_(rays), triangle_(triangle), normal_(normal), along_(along) {}
-
-    // To all planes that see the face from behind within `distance`. Whole faces share one ray.
-    void add_to(std::span<double> sums, std::span<const double> offsets, double distance) const {
-        const Triangle& v = piece_.mesh->triangles[triangle_];
-        double low = std::numeric_limits<double>::infinity();
-        double high = -low;
-        for (const std::uint32_t p : v) {
-            const double h = height(normal_, piece_.mesh->points[p]);
-            low = std::min(low, h);
-            high = std::max(high, h);
-        }
-        const bool above = along_ > 0;
-        // Planes below `low` leave the face whole above them, planes above `high` whole below.
-        const auto from = std::upper_bound(offsets.begin(), offsets.end(), above ? low - distance - slack(low) : low);
-        const auto to = std::lower_bound(from, offsets.end(), above ? high : high + distance + slack(high));
-        Centroid whole;
-        double way = -1;
-        for (auto it = from; it != to; ++it) {
-            const Plane plane{normal_, *it};
-            const bool is_crossed = *it > low && *it <= high;
-            Centroid c = whole;
-            if (is_crossed || way < 0) c = centroid(part_of(*piece_.mesh, triangle_, plane, above));
-            if (c.area == 0) continue;
-            const double off = std::abs(height(normal_, c.at) - *it);
-            if (off >= distance) continue;
-            double free = way;
-            if (is_crossed || way < 0) free = free_way(piece_, rays_, c.at, above ? -normal_ : normal_);
-            if (!is_crossed && way < 0) {
-                whole = c;
-                way = free;
-            }
-            if (free < off) continue;
-            sums[static_cast<std::size_t>(it - offsets.begin())] += c.area * (1 - off / distance) * std::abs(along_);
-        }
-    }
-
- private:
-    static double slack(double h) { return 1e-9 * (1 + std::abs(h)); }
-
-    const Piece& piece_;
-    const RayTree& rays_;
-    std::size_t triangle_;
-    Vec3 normal_;
-    double along_;
+// One question: is the way from here to these planes free? A face that no plane crosses asks once for all of them.
+struct ThinQuery {
+    WayQuery way;
+    double area;
+    double along;
+    std::uint32_t from;  // planes [from, to)
+    std::uint32_t to;
 };
+
+// The questions of one face that is nearly parallel to the planes. Crossed by a plane it asks for its part there.
+void ask(std::vector<ThinQuery>& queries, const TriangleMesh& mesh, std::size_t triangle, Vec3 normal, double along,
+         std::span<const double> offsets, double distance) {
+    const Triangle& v = mesh.triangles[triangle];
+    const double h[3] = {height(normal, mesh.points[v[0]]), height(normal, mesh.points[v[1]]),
+                         height(normal, mesh.points[v[2]])};
+    const double low = std::min({h[0], h[1], h[2]});
+    const double high = std::max({h[0], h[1], h[2]});
+    const bool above = along > 0;
+    const double room = distance + 1e-9 * (1 + std::abs(low));
+    const auto index = [&](auto it) { return static_cast<std::uint32_t>(it - offsets.begin()); };
+    // Offsets up to `low` leave the face whole above the plane, those over `high` whole below; between, they cross it.
+    const auto crossed_from = std::upper_bound(offsets.begin(), offsets.end(), low);
+    const auto crossed_to = std::upper_bound(crossed_from, offsets.end(), high);
+    const auto whole_from = above ? std::lower_bound(offsets.begin(), crossed_from, low - room) : crossed_to;
+    const auto whole_to = above ? crossed_from : std::upper_bound(crossed_to, offsets.end(), high + room);
+    if (whole_from != whole_to) {
+        const Centroid c = centroid(part_of(mesh, triangle, {normal, *whole_from}, above));
+        if (c.area > 0) queries.push_back({{c.at, !above}, c.area, along, index(whole_from), index(whole_to)});
+    }
+    for (auto it = crossed_from; it != crossed_to; ++it) {
+        const Centroid c = centroid(part_of(mesh, triangle, {normal, *it}, above));
+        if (c.area > 0) queries.push_back({{c.at, !above}, c.area, along, index(it), index(it) + 1});
+    }
+}
 
 }  // namespace
 
 std::vector<double> sweep_thinness(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
-                                   double distance, const RayTree& scan_rays) {
-    return sum_chunks(prepared.sums.size(), offsets.size(), [&](std::size_t begin, std::size_t end, auto sums) {
-        for (std::size_t t = begin; t < end; ++t) {
+                                   double distance) {
+    const TriangleMesh& mesh = *prepared.piece->mesh;
+    const std::size_t count = prepared.sums.size();
+    std::vector<std::vector<ThinQuery>> by_chunk((count + chunk - 1) / chunk);
+    tbb::parallel_for(std::size_t{0}, by_chunk.size(), [&](std::size_t c) {
+        for (std::size_t t = c * chunk; t < std::min(count, (c + 1) * chunk); ++t) {
             const Vec3 area = prepared.sums[t].area;
             const double projected = dot(area, normal);
             // Cheap first, with room for rounding; the face itself decides by the same bits as the plain sum.
             if (projected * projected < 0.80 * dot(area, area)) continue;
             const double along = dot(normalized(area), normal);
-            if (std::abs(along) < nearly_parallel) continue;
-            ThinFace(prepared, scan_rays, t, normal, along).add_to(sums, offsets, distance);
+            if (std::abs(along) >= nearly_parallel) ask(by_chunk[c], mesh, t, normal, along, offsets, distance);
         }
     });
+    std::vector<WayQuery> queries;
+    for (const auto& some : by_chunk) {
+        for (const ThinQuery& q : some) queries.push_back(q.way);
+    }
+    const std::vector<double> ways = straight_ways(mesh, normal, queries);
+    std::vector<double> sums(offsets.size(), 0.0);
+    std::size_t next = 0;
+    for (const auto& some : by_chunk) {
+        for (const ThinQuery& q : some) {
+            const double way = ways[next++];
+            const double h = height(normal, q.way.from);
+            for (std::uint32_t j = q.from; j < q.to; ++j) {
+                const double off = std::abs(h - offsets[j]);
+                if (off < distance && way >= off) sums[j] += q.area * (1 - off / distance) * std::abs(q.along);
+            }
+        }
+    }
+    return sums;
 }
 
 std::vector<double> sweep_thesis_fragility(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,

@@ -1,21 +1,20 @@
 // Both forms of fragility for all offsets of one normal in one pass over faces or vertices.
 //
-// Equal to fragility.h for each offset (tests/segment/score/sweep_test.cpp); one ray per face serves all offsets that
-// do not cross it.
+// Equal to fragility.h for each offset (tests/segment/score/sweep_test.cpp); one way per face serves all offsets
+// that do not cross it.
 
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "segment/mesh/rays.h"
 #include "segment/score/prepared.h"
 
 namespace qchopper {
 
 // Per offset the sum of thinness before it is divided by the cap area (mm2).
 std::vector<double> sweep_thinness(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
-                                   double distance, const RayTree& scan_rays);
+                                   double distance);
 
 std::vector<double> sweep_thesis_fragility(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
                                            double distance);

@@ -84,8 +84,7 @@ std::vector<SolidPrice> measure_half(const Half& half, const Piece& piece, const
 
 }  // namespace
 
-std::optional<Price> price_by_cutting(const Piece& piece, const Plane& plane, const Objectives& objectives,
-                                      const RayTree& scan_rays) {
+std::optional<Price> price_by_cutting(const Piece& piece, const Plane& plane, const Objectives& objectives) {
     const std::optional<CutHalves> halves = cut(*piece.mesh, plane, new_cut);
     if (!halves) return std::nullopt;
     Price price;
@@ -95,7 +94,7 @@ std::optional<Price> price_by_cutting(const Piece& piece, const Plane& plane, co
     price.solids.insert(price.solids.end(), below.begin(), below.end());
     if (price.cap_area_mm2 > 0) {
         price.fragility = objectives.fragility_form == FragilityForm::thinness
-                              ? thinness(piece, plane, price.cap_area_mm2, objectives.fragility_distance, scan_rays)
+                              ? thinness(piece, plane, price.cap_area_mm2, objectives.fragility_distance)
                               : thesis_fragility(piece, plane, objectives.fragility_distance);
     }
     return price;

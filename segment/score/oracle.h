@@ -7,15 +7,13 @@
 #include <optional>
 
 #include "segment/cut/piece.h"
-#include "segment/mesh/rays.h"
 #include "segment/score/objectives.h"
 #include "segment/score/price.h"
 
 namespace qchopper {
 
 // Nothing if the plane misses the piece.
-std::optional<Price> price_by_cutting(const Piece& piece, const Plane& plane, const Objectives& objectives,
-                                      const RayTree& scan_rays);
+std::optional<Price> price_by_cutting(const Piece& piece, const Plane& plane, const Objectives& objectives);
 
 // The same ingredients of a piece as it is.
 SolidPrice measure(const Piece& piece);

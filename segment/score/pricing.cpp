@@ -29,8 +29,7 @@ std::vector<Group> groups_of(std::span<const Candidate> candidates) {
 }  // namespace
 
 std::vector<std::optional<Price>> price_all(const Piece& piece, std::span<const Candidate> candidates,
-                                            const Objectives& objectives, const RayTree& scan_rays,
-                                            const Context& context) {
+                                            const Objectives& objectives, const Context& context) {
     std::vector<std::optional<Price>> prices(candidates.size());
     context.check_cancelled();
     const PreparedPiece prepared = prepare(piece, objectives);
@@ -42,7 +41,7 @@ std::vector<std::optional<Price>> price_all(const Piece& piece, std::span<const 
         const auto [first, last] = groups[g];
         std::vector<double> offsets;
         for (std::size_t i = first; i < last; ++i) offsets.push_back(candidates[i].plane.offset);
-        auto swept = sweep(prepared, candidates[first].plane.normal, offsets, objectives, scan_rays);
+        auto swept = sweep(prepared, candidates[first].plane.normal, offsets, objectives);
         std::move(swept.begin(), swept.end(), prices.begin() + static_cast<std::ptrdiff_t>(first));
         const std::lock_guard lock(reporting);
         context.progress("planes priced", done += last - first, candidates.size());

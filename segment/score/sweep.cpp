@@ -204,12 +204,12 @@ std::vector<std::optional<Price>> sweep_solids(const PreparedPiece& prepared, Ve
 }
 
 std::vector<std::optional<Price>> sweep(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
-                                        const Objectives& objectives, const RayTree& scan_rays) {
+                                        const Objectives& objectives) {
     std::vector<std::optional<Price>> prices = sweep_solids(prepared, normal, offsets);
     const bool by_rays = objectives.fragility_form == FragilityForm::thinness;
     const double d = objectives.fragility_distance;
-    const std::vector<double> sums = by_rays ? sweep_thinness(prepared, normal, offsets, d, scan_rays)
-                                             : sweep_thesis_fragility(prepared, normal, offsets, d);
+    const std::vector<double> sums =
+        by_rays ? sweep_thinness(prepared, normal, offsets, d) : sweep_thesis_fragility(prepared, normal, offsets, d);
     for (std::size_t j = 0; j < prices.size(); ++j) {
         if (!prices[j] || prices[j]->cap_area_mm2 <= 0) continue;
         prices[j]->fragility = by_rays ? sums[j] / prices[j]->cap_area_mm2 : sums[j];

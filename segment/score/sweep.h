@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "segment/context.h"
-#include "segment/mesh/rays.h"
 #include "segment/score/prepared.h"
 #include "segment/score/price.h"
 
@@ -21,7 +20,7 @@ namespace qchopper {
 // One price per offset, nothing where the plane misses. `offsets` ascending, nudged: none at a vertex's height; the
 // normal canonical. The piece must be closed (prepared.edges.faults).
 std::vector<std::optional<Price>> sweep(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
-                                        const Objectives& objectives, const RayTree& scan_rays);
+                                        const Objectives& objectives);
 
 // The same without fragility: what the sweep itself costs.
 std::vector<std::optional<Price>> sweep_solids(const PreparedPiece& prepared, Vec3 normal,

@@ -1,9 +1,5 @@
 #include "segment/score/thin_part.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace qchopper {
 
 Part part_of(const TriangleMesh& mesh, std::size_t triangle, const Plane& plane, bool above) {
@@ -32,18 +28,6 @@ Centroid centroid(const Part& part) {
     }
     if (c.area > 0) c.at = (1 / c.area) * c.at;
     return c;
-}
-
-double free_way(const Piece& piece, const RayTree& scan_rays, Vec3 from, Vec3 direction) {
-    const auto hit = scan_rays.first_exit(from, direction);
-    double way = hit ? hit->distance : std::numeric_limits<double>::infinity();
-    for (const Bound& bound : piece.bounds) {
-        const double towards = dot(bound.up(), direction);
-        if (towards >= 0) continue;
-        const double above_bound = (height(bound.plane.normal, from) - bound.plane.offset) * (bound.above ? 1 : -1);
-        way = std::min(way, above_bound / -towards);
-    }
-    return way;
 }
 
 }  // namespace qchopper

@@ -6,7 +6,6 @@
 #include <array>
 
 #include "segment/cut/piece.h"
-#include "segment/mesh/rays.h"
 
 namespace qchopper {
 
@@ -25,8 +24,5 @@ struct Centroid {
     double area = 0;
 };
 Centroid centroid(const Part& part);
-
-// How far a ray can go inside the piece before it leaves it: through the scan's surface or through a cut.
-double free_way(const Piece& piece, const RayTree& scan_rays, Vec3 from, Vec3 direction);
 
 }  // namespace qchopper

@@ -1,87 +1,192 @@
 #include "segment/search/search.h"
 
 #include <algorithm>
+#include <chrono>
 
-#include "segment/score/pricing.h"
+#include "segment/search/beam.h"
 
 namespace qchopper {
 namespace {
 
-constexpr double tie = 1e-9;
+using Clock = std::chrono::steady_clock;
 
-std::vector<PieceShare> shares_of_others(const Segmentation& segmentation, std::size_t piece,
-                                         const Objectives& objectives) {
-    std::vector<PieceShare> shares;
-    for (std::size_t p = 0; p < segmentation.pieces.size(); ++p) {
-        if (p != piece) shares.push_back(share(measure(segmentation.pieces[p]), objectives));
-    }
-    return shares;
+constexpr std::size_t priced_together = 2;  // one piece alone does not keep two cores busy to its end
+
+std::string in_words(double seconds) {
+    std::string text = std::to_string(seconds);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text + " s";
 }
 
-// Best first. Totals within a tie of the group's best are one group, in which the candidates' order decides.
-void sort_best_first(std::vector<Ranked>& ranked) {
-    const auto by_order = [](const Ranked& a, const Ranked& b) {
-        return std::pair(a.normal, a.offset) < std::pair(b.normal, b.offset);
-    };
-    std::stable_sort(ranked.begin(), ranked.end(),
-                     [](const Ranked& a, const Ranked& b) { return a.terms.total < b.terms.total; });
-    for (auto group = ranked.begin(); group != ranked.end();) {
-        auto end = group;
-        while (end != ranked.end() && end->terms.total <= group->terms.total + tie) ++end;
-        std::sort(group, end, by_order);
-        group = end;
+// One search from its start to its end.
+class Search {
+ public:
+    Search(const SearchSettings& settings, PieceBook& book, const FitsCell& fits_cell, const Context& context)
+        : settings_(settings),
+          book_(book),
+          judge_(settings.stop, fits_cell, [&book](const Piece& p) { return book.box(p).size(); }),
+          context_(context) {}
+
+    SearchEnd run(Segmentation& segmentation, const std::function<void(const Segmentation&)>& on_round,
+                  std::optional<double> time_limit_s) {
+        const auto started = Clock::now();
+        beam_.push_back(bsp(segmentation, {}, settings_.objectives, book_));
+        while (true) {
+            context_.check_cancelled();
+            judge();
+            const bool is_late =
+                time_limit_s && std::chrono::duration<double>(Clock::now() - started).count() >= *time_limit_s;
+            const bool has_decided = rounds_ > 0 || (time_limit_s && *time_limit_s <= 0);
+            if (is_late && has_decided && is_any_live()) return end(segmentation, time_limit_s);
+            rank_children();
+            if (!is_any_live()) return end(segmentation, std::nullopt);
+            beam_ = next_round(std::move(beam_), settings_, book_);
+            ++rounds_;
+            if (beam_.empty()) {  // no child could be cut as it was priced
+                beam_.push_back(bsp(segmentation, {}, settings_.objectives, book_));
+                for (const Piece& piece : segmentation.pieces) beam_.front().passed_over.push_back(piece.name);
+            }
+            forget_the_rest();
+            tell(segmentation, on_round);
+        }
     }
-}
+
+ private:
+    void judge() {
+        for (Bsp& b : beam_) b.next = judge_.next(b.segmentation, b.passed_over);
+    }
+
+    bool is_any_live() const {
+        return std::any_of(beam_.begin(), beam_.end(), [](const Bsp& b) { return b.is_live(); });
+    }
+
+    // Prices what is not priced yet and ranks the children of every BSP that goes on; a piece without candidates is
+    // passed over. BSPs that can neither go on nor are finished leave the beam; the cheapest is remembered.
+    void rank_children() {
+        for (bool is_ready = false; !is_ready;) {
+            price_next_pieces();
+            is_ready = true;
+            for (Bsp& b : beam_) {
+                if (!b.is_live() || !b.ranked.empty()) continue;
+                b.ranked = rank(b.segmentation, *b.next.piece, settings_, book_, context_);
+                if (settings_.beam > 1) {
+                    b.ranked =
+                        without_near_duplicates(b.ranked, settings_.candidates.offsets_per_normal, settings_.near);
+                }
+                if (!b.ranked.empty()) continue;
+                b.passed_over.push_back(b.segmentation.pieces[*b.next.piece].name);
+                b.next = judge_.next(b.segmentation, b.passed_over);
+                is_ready = false;
+            }
+        }
+        for (Bsp& b : beam_) {
+            if (b.is_live() || b.next.is_finished) continue;
+            if (!stuck_ || b.cost < stuck_->cost) stuck_ = b;
+        }
+        std::erase_if(beam_, [](const Bsp& b) { return !b.is_live() && !b.next.is_finished; });
+    }
+
+    void price_next_pieces() {
+        std::vector<const Piece*> pieces;
+        for (const Bsp& b : beam_) {
+            if (!b.is_live() || !b.ranked.empty()) continue;
+            const std::size_t count = settings_.beam > 1 ? 1 : priced_together;
+            for (std::size_t i = 0; i < std::min(count, b.next.waiting.size()); ++i) {
+                const Piece& piece = b.segmentation.pieces[b.next.waiting[i]];
+                if (i > 0 && book_.is_priced(*pieces_front(b))) break;  // the next one is known: nothing to wait for
+                if (!contains(pieces, piece)) pieces.push_back(&piece);
+            }
+        }
+        book_.price(pieces, context_);
+    }
+
+    static const Piece* pieces_front(const Bsp& b) { return &b.segmentation.pieces[b.next.waiting.front()]; }
+
+    static bool contains(const std::vector<const Piece*>& pieces, const Piece& piece) {
+        return std::any_of(pieces.begin(), pieces.end(), [&](const Piece* p) { return p->mesh == piece.mesh; });
+    }
+
+    void forget_the_rest() {
+        std::vector<const Segmentation*> held;
+        for (const Bsp& b : beam_) held.push_back(&b.segmentation);
+        book_.keep_only(held);
+    }
+
+    void tell(Segmentation& segmentation, const std::function<void(const Segmentation&)>& on_round) {
+        const Segmentation& best = beam_.front().segmentation;
+        if (best.cuts == segmentation.cuts) return;
+        segmentation = best;
+        on_round(segmentation);
+    }
+
+    SearchEnd end(Segmentation& segmentation, std::optional<double> time_limit_s) {
+        const auto finished =
+            std::find_if(beam_.begin(), beam_.end(), [](const Bsp& b) { return b.next.is_finished; });
+        const Bsp& best = finished != beam_.end() ? *finished : beam_.empty() ? *stuck_ : beam_.front();
+        SearchEnd end{finished != beam_.end(), "the stop rules hold", time_limit_s.has_value(), best.cost};
+        if (time_limit_s) {
+            end.reason = (end.is_finished ? "the stop rules hold; " : "") + std::string("the time limit of ") +
+                         in_words(*time_limit_s) + " is reached";
+        } else if (!end.is_finished) {
+            const bool is_safety = static_cast<int>(best.segmentation.cuts.size()) >= settings_.stop.max_cuts;
+            end.reason = is_safety
+                             ? "the safety stop of " + std::to_string(settings_.stop.max_cuts) + " cuts is reached"
+                             : "no plane parts any of the unfinished pieces";
+        }
+        segmentation = best.segmentation;
+        return end;
+    }
+
+    const SearchSettings& settings_;
+    PieceBook& book_;
+    StopJudge judge_;
+    const Context& context_;
+    std::vector<Bsp> beam_;  // cheapest first
+    std::optional<Bsp> stuck_;
+    std::size_t rounds_ = 0;
+};
 
 }  // namespace
 
 std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
+                         PieceBook& book, const Context& context) {
+    const Piece* target = &segmentation.pieces[piece];
+    book.price(std::span(&target, 1), context);
+    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, book);
+    return rank(book.prices(*target), others, settings.objectives);
+}
+
+std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
                          const RayTree& scan_rays, const Context& context) {
-    const Piece& target = segmentation.pieces[piece];
-    const std::vector<Candidate> candidates = candidate_planes(target, settings.candidates);
-    const auto prices = price_all(target, candidates, settings.objectives, scan_rays, context);
-    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives);
-    std::vector<Ranked> ranked;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        if (!prices[i]) continue;
-        const std::optional<Terms> t = terms(*prices[i], others, settings.objectives);
-        if (!t) continue;
-        const Candidate& c = candidates[i];
-        ranked.push_back({c.plane, c.wanted_offset, c.normal, c.offset, *t});
+    PieceBook book(scan_rays, settings.objectives, settings.candidates);
+    return rank(segmentation, piece, settings, book, context);
+}
+
+Cut cut_by(const Segmentation& segmentation, std::size_t piece, const std::vector<Ranked>& ranked, std::size_t k,
+           std::size_t runners_up) {
+    Cut cut;
+    cut.number = static_cast<std::int32_t>(segmentation.cuts.size()) + 1;
+    cut.piece = segmentation.pieces[piece].name;
+    cut.candidates = ranked.size();
+    cut.chosen = ranked[k];
+    for (std::size_t i = 0; i < ranked.size() && cut.runners_up.size() < runners_up; ++i) {
+        if (i != k) cut.runners_up.push_back(ranked[i]);
     }
-    sort_best_first(ranked);
-    return ranked;
+    return cut;
+}
+
+SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, PieceBook& book, const FitsCell& fits_cell,
+                 const std::function<void(const Segmentation&)>& on_round, const Context& context,
+                 std::optional<double> time_limit_s) {
+    return Search(settings, book, fits_cell, context).run(segmentation, on_round, time_limit_s);
 }
 
 SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, const RayTree& scan_rays,
-                 const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_cut,
+                 const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
                  const Context& context) {
-    std::vector<std::string> passed_over;
-    while (true) {
-        context.check_cancelled();
-        const NextPiece next = next_piece(segmentation, settings.stop, fits_cell, passed_over);
-        if (next.is_finished) return {true, "the stop rules hold"};
-        if (static_cast<int>(segmentation.cuts.size()) >= settings.stop.max_cuts) {
-            return {false, "the safety stop of " + std::to_string(settings.stop.max_cuts) + " cuts is reached"};
-        }
-        if (!next.piece) return {false, "no plane parts any of the unfinished pieces"};
-        const std::string name = segmentation.pieces[*next.piece].name;
-        const std::vector<Ranked> ranked = rank(segmentation, *next.piece, settings, scan_rays, context);
-        Cut cut;
-        cut.number = static_cast<std::int32_t>(segmentation.cuts.size()) + 1;
-        cut.piece = name;
-        cut.candidates = ranked.size();
-        if (!ranked.empty()) {
-            cut.chosen = ranked.front();
-            const auto last = std::min(ranked.size(), settings.runners_up + 1);
-            cut.runners_up.assign(ranked.begin() + 1, ranked.begin() + static_cast<std::ptrdiff_t>(last));
-        }
-        if (ranked.empty() || !apply(segmentation, cut, settings.objectives.crumb_volume_mm3)) {
-            passed_over.push_back(name);
-            continue;
-        }
-        on_cut(segmentation);
-    }
+    PieceBook book(scan_rays, settings.objectives, settings.candidates);
+    return search(segmentation, settings, book, fits_cell, on_round, context);
 }
 
 }  // namespace qchopper

@@ -1,13 +1,22 @@
-// Chooses cuts one after the other until the stop rules hold: the greedy search (Nicholson 2016, chapters 3 and 4).
+// Chooses cuts until the stop rules hold: a beam search over BSPs (Nicholson 2016, chapters 3 and 4).
+//
+// Each round expands each of the b best BSPs by the best candidates of its next piece and keeps the b best by one
+// cost: face ratio and mean undercut of the pieces plus fragility and piece count summed over the cuts, all weighted.
+// b = 1 is the greedy search, decision by decision. What is known of a child before it is kept comes from the price
+// of its candidate; only a BSP that is kept is really cut. A wider beam keeps the cheapest it has seen, which is not
+// always cheaper at the end; one as wide as all candidates is, of two cuts (tests/segment/search/beam_test.cpp).
 
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "segment/context.h"
 #include "segment/mesh/rays.h"
+#include "segment/search/piece_book.h"
+#include "segment/search/rank.h"
 #include "segment/search/segmentation.h"
 #include "segment/search/stop_rules.h"
 
@@ -18,22 +27,37 @@ struct SearchSettings {
     CandidateOptions candidates;
     StopRules stop;
     std::size_t runners_up = 9;  // how many are kept beside the chosen one
+    std::size_t beam = 1;        // b: how many BSPs are kept per round
+    double near = 0.06;          // of two candidates of one parent with one normal and offsets nearer than this share
+                                 // of the piece's extent, the worse is culled; of no effect at b = 1
     bool operator==(const SearchSettings&) const = default;
 };
 
-// All candidates of one piece, best first; ties within 1e-9 of the total go to the lower normal, then offset.
+// All candidates of one piece, best first.
+std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
+                         PieceBook& book, const Context& context);
 std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
                          const RayTree& scan_rays, const Context& context);
 
+// The cut that takes the k-th of a ranking (from 0), with the next best beside it; its number follows the others'.
+Cut cut_by(const Segmentation& segmentation, std::size_t piece, const std::vector<Ranked>& ranked, std::size_t k,
+           std::size_t runners_up);
+
 struct SearchEnd {
-    bool is_finished = false;  // the stop rules hold
-    std::string reason;        // in words
+    bool is_finished = false;     // the stop rules hold
+    std::string reason;           // in words
+    bool is_out_of_time = false;  // and could go on
+    double cost = 0;
 };
 
-// Goes on from where the segmentation stands. `on_cut` is told after every decision, so that it can be saved.
-// Throws Cancelled when asked to stop; the cuts made until then stand.
+// Goes on from where the segmentation stands, and leaves the best BSP there. `on_round` is told the best so far after
+// every round that changes it, so that it can be saved: at b = 1 that is every decision. After `time_limit_s` it stops
+// with the round that is being made. Throws Cancelled when asked to stop; the best of the last round stands then.
+SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, PieceBook& book, const FitsCell& fits_cell,
+                 const std::function<void(const Segmentation&)>& on_round, const Context& context,
+                 std::optional<double> time_limit_s = std::nullopt);
 SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, const RayTree& scan_rays,
-                 const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_cut,
+                 const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
                  const Context& context);
 
 }  // namespace qchopper

@@ -14,21 +14,6 @@ std::array<double, 3> sorted(Vec3 a) {
     return s;
 }
 
-using Rule = std::function<bool(const Piece&)>;
-
-// The rules that speak of single pieces.
-std::vector<Rule> piece_rules(const StopRules& rules, const FitsCell& fits_cell) {
-    std::vector<Rule> set;
-    if (rules.max_faces) {
-        set.emplace_back([&](const Piece& p) { return p.mesh->triangles.size() < *rules.max_faces; });
-    }
-    if (rules.max_obb) {
-        set.emplace_back([&](const Piece& p) { return fits_in(oriented_box(p.mesh->points).size(), *rules.max_obb); });
-    }
-    if (rules.fits_cell && fits_cell) set.push_back(fits_cell);
-    return set;
-}
-
 }  // namespace
 
 bool fits_in(Vec3 size, Vec3 room) {
@@ -37,36 +22,70 @@ bool fits_in(Vec3 size, Vec3 room) {
     return a[0] <= b[0] && a[1] <= b[1] && a[2] <= b[2];
 }
 
-NextPiece next_piece(const Segmentation& segmentation, const StopRules& rules, const FitsCell& fits_cell,
-                     const std::vector<std::string>& passed_over) {
-    const std::vector<Rule> set = piece_rules(rules, fits_cell);
-    const bool has_cuts = rules.min_cuts && static_cast<int>(segmentation.cuts.size()) >= *rules.min_cuts;
-    // failing[p]: piece p breaks a rule; broken[r]: some piece breaks rule r.
-    std::vector<bool> failing(segmentation.pieces.size(), false);
-    std::vector<bool> broken(set.size(), false);
+StopJudge::StopJudge(StopRules rules, FitsCell fits_cell, std::function<Vec3(const Piece&)> box_size)
+    : rules_(rules) {
+    if (rules.max_faces) {
+        piece_rules_.emplace_back(
+            [most = *rules.max_faces](const Piece& p) { return p.mesh->triangles.size() < most; });
+    }
+    if (rules.max_obb) {
+        piece_rules_.emplace_back(
+            [room = *rules.max_obb, size = std::move(box_size)](const Piece& p) { return fits_in(size(p), room); });
+    }
+    if (rules.fits_cell && fits_cell) piece_rules_.push_back(std::move(fits_cell));
+}
+
+const std::vector<bool>& StopJudge::verdict(const Piece& piece) {
+    Verdict& v = verdicts_[piece.mesh.get()];
+    if (v.mesh.expired()) {
+        v.mesh = piece.mesh;
+        v.holds.clear();
+        for (const auto& rule : piece_rules_) v.holds.push_back(rule(piece));
+    }
+    return v.holds;
+}
+
+NextPiece StopJudge::next(const Segmentation& segmentation, const std::vector<std::string>& passed_over) {
+    const int cuts = static_cast<int>(segmentation.cuts.size());
+    const bool has_cuts = rules_.min_cuts && cuts >= *rules_.min_cuts;
+    std::vector<bool> failing(segmentation.pieces.size(), false);  // breaks a rule
+    std::vector<bool> broken(piece_rules_.size(), false);          // by some piece
     for (std::size_t p = 0; p < segmentation.pieces.size(); ++p) {
-        for (std::size_t r = 0; r < set.size(); ++r) {
-            if (set[r](segmentation.pieces[p])) continue;
+        const std::vector<bool>& holds = verdict(segmentation.pieces[p]);
+        for (std::size_t r = 0; r < holds.size(); ++r) {
+            if (holds[r]) continue;
             failing[p] = true;
             broken[r] = true;
         }
     }
-    const bool all_hold = std::count(broken.begin(), broken.end(), true) == 0 && (!rules.min_cuts || has_cuts);
+    const bool all_hold = std::count(broken.begin(), broken.end(), true) == 0 && (!rules_.min_cuts || has_cuts);
     const bool one_holds = has_cuts || std::count(broken.begin(), broken.end(), false) > 0;
     NextPiece next;
-    next.is_finished = rules.combine == Stop::all ? all_hold : one_holds || all_hold;
-    if (next.is_finished || static_cast<int>(segmentation.cuts.size()) >= rules.max_cuts) return next;
+    next.is_finished = rules_.combine == Stop::all ? all_hold : one_holds || all_hold;
+    if (next.is_finished || cuts >= rules_.max_cuts) return next;
     // Only the number of cuts is missing: any piece may be cut.
     const bool any_piece = std::count(failing.begin(), failing.end(), true) == 0;
     for (std::size_t p = 0; p < segmentation.pieces.size(); ++p) {
-        const Piece& piece = segmentation.pieces[p];
-        if (!any_piece && !failing[p]) continue;
-        if (std::find(passed_over.begin(), passed_over.end(), piece.name) != passed_over.end()) continue;
-        if (!next.piece || piece.mesh->triangles.size() > segmentation.pieces[*next.piece].mesh->triangles.size()) {
-            next.piece = p;
-        }
+        const std::string& name = segmentation.pieces[p].name;
+        const bool is_passed_over = std::find(passed_over.begin(), passed_over.end(), name) != passed_over.end();
+        if ((any_piece || failing[p]) && !is_passed_over) next.waiting.push_back(p);
+    }
+    std::stable_sort(next.waiting.begin(), next.waiting.end(), [&](std::size_t a, std::size_t b) {
+        return segmentation.pieces[a].mesh->triangles.size() > segmentation.pieces[b].mesh->triangles.size();
+    });
+    if (next.waiting.empty()) return next;
+    next.piece = next.waiting.front();
+    if (any_piece) {
+        const auto missing = static_cast<std::size_t>(std::max(rules_.min_cuts.value_or(0) - cuts, 1));
+        next.waiting.resize(std::min(next.waiting.size(), missing));
     }
     return next;
+}
+
+NextPiece next_piece(const Segmentation& segmentation, const StopRules& rules, const FitsCell& fits_cell,
+                     const std::vector<std::string>& passed_over) {
+    const auto size = [](const Piece& p) { return oriented_box(p.mesh->points).size(); };
+    return StopJudge(rules, fits_cell, size).next(segmentation, passed_over);
 }
 
 }  // namespace qchopper

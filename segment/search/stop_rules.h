@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,11 +32,37 @@ struct StopRules {
 using FitsCell = std::function<bool(const Piece&)>;
 
 // Is the segmentation finished, and if not, which piece is cut next: among those that do not satisfy the rules the one
-// with most faces, ties to the earlier name. `passed_over` are pieces for which no candidate was found.
+// with most faces, ties to the earlier name.
 struct NextPiece {
     bool is_finished = false;
     std::optional<std::size_t> piece;  // index; nothing and not finished: no piece is left to try
+    std::vector<std::size_t> waiting;  // those that will be cut as far as can be seen, the next one first
 };
+
+// Looks at every piece once, however often it is asked (tests/segment/search/stop_rules_test.cpp).
+class StopJudge {
+ public:
+    // `box_size` gives the size of a piece's oriented box; asked only if max_obb is set.
+    StopJudge(StopRules rules, FitsCell fits_cell, std::function<Vec3(const Piece&)> box_size);
+
+    // `passed_over` are pieces for which no candidate was found.
+    NextPiece next(const Segmentation& segmentation, const std::vector<std::string>& passed_over);
+
+    const StopRules& rules() const { return rules_; }
+
+ private:
+    struct Verdict {
+        std::weak_ptr<const TriangleMesh> mesh;  // expired: the address may be another piece's by now
+        std::vector<bool> holds;                 // per rule
+    };
+    const std::vector<bool>& verdict(const Piece& piece);
+
+    StopRules rules_;
+    std::vector<std::function<bool(const Piece&)>> piece_rules_;  // those that speak of single pieces
+    std::map<const TriangleMesh*, Verdict> verdicts_;
+};
+
+// The same, asked once.
 NextPiece next_piece(const Segmentation& segmentation, const StopRules& rules, const FitsCell& fits_cell,
                      const std::vector<std::string>& passed_over);
 

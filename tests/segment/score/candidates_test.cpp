@@ -30,11 +30,10 @@ TEST(Candidates, FortyOffsetsEvenlyInsideTheExtentOfThreeNormals) {
 TEST(Candidates, PricesComeInTheOrderOfTheCandidates) {
     const TriangleMesh mesh = shapes::linked_tori();
     const Piece piece = piece_of(mesh);
-    const RayTree rays(mesh);
     const std::vector<Candidate> some = candidates_along(piece, {0, 0, 1}, 0, 9);
-    const auto prices = price_all(piece, some, {}, rays, {});
+    const auto prices = price_all(piece, some, {}, {});
     for (std::size_t i = 0; i < some.size(); ++i) {
-        const auto alone = price_by_cutting(piece, some[i].plane, {}, rays);
+        const auto alone = price_by_cutting(piece, some[i].plane, {});
         ASSERT_EQ(prices[i].has_value(), alone.has_value());
         EXPECT_NEAR(prices[i]->fragility, alone->fragility, 1e-9);
         EXPECT_NEAR(prices[i]->cap_area_mm2, alone->cap_area_mm2, 1e-6);
@@ -47,7 +46,7 @@ TEST(Candidates, PricingStopsWhenAsked) {
     Context context;
     context.cancelled = &stop;
     const Piece piece = piece_of(mesh);
-    EXPECT_THROW(price_all(piece, candidates_along(piece, {0, 0, 1}, 0, 9), {}, RayTree(mesh), context), Cancelled);
+    EXPECT_THROW(price_all(piece, candidates_along(piece, {0, 0, 1}, 0, 9), {}, context), Cancelled);
 }
 
 }  // namespace

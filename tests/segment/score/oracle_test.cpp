@@ -20,7 +20,7 @@ Piece piece_of(TriangleMesh mesh) {
 
 TEST(Oracle, AHalvedBoxHasNoUndercut) {
     const TriangleMesh box = shapes::box({0, 0, 0}, {10, 10, 10}, 2);
-    const auto price = price_by_cutting(piece_of(box), {{0, 0, 1}, 4.0 + 1e-7}, {}, RayTree(box));
+    const auto price = price_by_cutting(piece_of(box), {{0, 0, 1}, 4.0 + 1e-7}, {});
     ASSERT_TRUE(price);
     ASSERT_EQ(price->solids.size(), 2U);
     EXPECT_NEAR(price->cap_area_mm2, 100, 1e-9);
@@ -29,13 +29,13 @@ TEST(Oracle, AHalvedBoxHasNoUndercut) {
         EXPECT_NEAR(undercut(solid, true), 0, 1e-12);
         EXPECT_NEAR(undercut(solid, false), 0, 1e-12);
     }
-    EXPECT_FALSE(price_by_cutting(piece_of(box), {{0, 0, 1}, 40}, {}, RayTree(box)));
+    EXPECT_FALSE(price_by_cutting(piece_of(box), {{0, 0, 1}, 40}, {}));
 }
 
 TEST(Oracle, AFullBallOnASmallBaseIsHalfUndercut) {
     // Cut below the middle, the upper part overhangs: downward surface is the ring between equator and cut.
     const TriangleMesh ball = shapes::ball({0, 0, 0}, 10, 64);
-    const auto price = price_by_cutting(piece_of(ball), {{0, 0, 1}, -6.001}, {}, RayTree(ball));
+    const auto price = price_by_cutting(piece_of(ball), {{0, 0, 1}, -6.001}, {});
     const SolidPrice& upper = price->solids[0];
     // Projected: up-facing disc pi r^2, down-facing pi (r^2 - cap radius^2) with cap radius^2 = 64.
     EXPECT_NEAR(undercut(upper, true), 36.0 / (100 + 36), 2e-3);
@@ -47,7 +47,6 @@ TEST(Oracle, PricesAgreeWithThePiecesThatTheCutMakes) {
     std::mt19937 random(4);
     std::normal_distribution<double> normal;
     for (const auto& [name, mesh, count] : shapes::all_closed()) {
-        const RayTree rays(mesh);
         std::vector<Piece> pieces{piece_of(mesh)};
         for (std::int32_t number = 1; number <= 4; ++number) {
             const Piece piece = pieces[random() % pieces.size()];
@@ -56,7 +55,7 @@ TEST(Oracle, PricesAgreeWithThePiecesThatTheCutMakes) {
             const auto nudged = nudge(piece, n, std::array{range.low + 0.4 * range.size()});
             ASSERT_TRUE(nudged[0]);
             const Plane plane{n, nudged[0]->offset};
-            const auto price = price_by_cutting(piece, plane, {}, rays);
+            const auto price = price_by_cutting(piece, plane, {});
             const auto made = cut_piece(piece, plane, number);
             ASSERT_EQ(price->solids.size(), made->pieces.size()) << name;
             for (std::size_t i = 0; i < made->pieces.size(); ++i) {
@@ -75,7 +74,7 @@ TEST(Oracle, ByAreaTheUndercutOfAnyClosedSolidIsBelowOneHalf) {
     for (const auto& [name, mesh, count] : shapes::all_closed()) {
         const Extent range = extent(mesh, {1, 0, 0});
         const auto nudged = nudge(piece_of(mesh), {1, 0, 0}, std::array{range.low + 0.3 * range.size()});
-        const auto price = price_by_cutting(piece_of(mesh), {{1, 0, 0}, nudged[0]->offset}, {}, RayTree(mesh));
+        const auto price = price_by_cutting(piece_of(mesh), {{1, 0, 0}, nudged[0]->offset}, {});
         for (const SolidPrice& solid : price->solids) {
             for (const BaseShare& base : solid.bases) EXPECT_LT(undercut(base, true), 0.5) << name;
         }

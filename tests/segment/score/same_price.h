@@ -50,7 +50,7 @@ inline void expect_equal(const Price& fast, const Price& plain, double size, boo
 }
 
 // Every offset of a normal, priced by the sweep and by cutting.
-inline std::size_t expect_same(const Piece& piece, const RayTree& rays, Vec3 normal, std::vector<double> wanted,
+inline std::size_t expect_same(const Piece& piece, Vec3 normal, std::vector<double> wanted,
                                const Objectives& objectives, const std::string& what) {
     std::sort(wanted.begin(), wanted.end());
     std::vector<double> offsets;
@@ -58,10 +58,10 @@ inline std::size_t expect_same(const Piece& piece, const RayTree& rays, Vec3 nor
         if (n && (offsets.empty() || n->offset > offsets.back())) offsets.push_back(n->offset);
     }
     if (offsets.empty()) return 0;
-    const auto fast = sweep(prepare(piece, objectives), normal, offsets, objectives, rays);
+    const auto fast = sweep(prepare(piece, objectives), normal, offsets, objectives);
     const double size = norm(bounds(*piece.mesh).size());
     for (std::size_t j = 0; j < offsets.size(); ++j) {
-        const auto plain = price_by_cutting(piece, {normal, offsets[j]}, objectives, rays);
+        const auto plain = price_by_cutting(piece, {normal, offsets[j]}, objectives);
         EXPECT_EQ(fast[j].has_value(), plain.has_value()) << what;
         if (!plain || !fast[j]) continue;
         expect_equal(*fast[j], *plain, size, objectives.undercut_by_area, what + " offset " + std::to_string(j));

@@ -51,16 +51,16 @@ Winner winner(const std::vector<std::optional<Price>>& prices, const Objectives&
 }
 
 // All candidates of a piece both ways. Returns the plane of the winner.
-Plane expect_same_candidates(const Piece& piece, const RayTree& rays, const Objectives& objectives, int per_normal,
+Plane expect_same_candidates(const Piece& piece, const Objectives& objectives, int per_normal,
                              const std::string& what) {
     CandidateOptions options;
     options.offsets_per_normal = per_normal;
     const std::vector<Candidate> candidates = candidate_planes(piece, options);
-    const auto fast = price_all(piece, candidates, objectives, rays, {});
+    const auto fast = price_all(piece, candidates, objectives, {});
     std::vector<std::optional<Price>> plain;
     const double size = norm(bounds(*piece.mesh).size());
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-        plain.push_back(price_by_cutting(piece, candidates[i].plane, objectives, rays));
+        plain.push_back(price_by_cutting(piece, candidates[i].plane, objectives));
         EXPECT_EQ(fast[i].has_value(), plain[i].has_value()) << what;
         if (!fast[i] || !plain[i]) continue;
         expect_equal(*fast[i], *plain[i], size, objectives.undercut_by_area, what + " candidate " + std::to_string(i));
@@ -74,13 +74,12 @@ Plane expect_same_candidates(const Piece& piece, const RayTree& rays, const Obje
 
 // The scan, then the pieces of three cuts along the winners.
 void expect_same_along_cuts(const TriangleMesh& scan, int per_normal, const std::string& what) {
-    const RayTree rays(scan);
     Objectives objectives;
     objectives.crumb_volume_mm3 = 1e-5 * volume_mm3(scan);
     for (Piece piece : pieces_of(scan, 2)) {
         for (std::int32_t cut_number = 1; cut_number <= 3; ++cut_number) {
             objectives.undercut_by_area = cut_number % 2 == 1;
-            const Plane best = expect_same_candidates(piece, rays, objectives, per_normal, what);
+            const Plane best = expect_same_candidates(piece, objectives, per_normal, what);
             if (::testing::Test::HasFailure() || piece.mesh->triangles.size() < 100) break;
             const auto made = cut_piece(piece, best, cut_number);
             if (!made) break;
@@ -99,7 +98,6 @@ TEST(SweepLong, EqualsCuttingOnTheSamplesAlongRandomNormals) {
         SampleOptions options;
         options.faces = 20'000;
         const TriangleMesh scan = in_memory_order(sample(specimen, options));
-        const RayTree rays(scan);
         Piece piece;
         piece.mesh = std::make_shared<const TriangleMesh>(scan);
         for (int round = 0; round < 16; ++round) {
@@ -107,7 +105,7 @@ TEST(SweepLong, EqualsCuttingOnTheSamplesAlongRandomNormals) {
             const Extent range = extent(scan, n);
             std::vector<double> wanted;
             for (int k = 1; k < 25; ++k) wanted.push_back(range.low + range.size() * k / 25);
-            planes += expect_same(piece, rays, n, wanted, {}, "sample round " + std::to_string(round));
+            planes += expect_same(piece, n, wanted, {}, "sample round " + std::to_string(round));
         }
     }
     EXPECT_GT(planes, 1000U);

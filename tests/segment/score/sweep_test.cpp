@@ -47,11 +47,10 @@ TEST(Sweep, EqualsCuttingOnEveryShapeAlongRandomNormals) {
     std::size_t planes = 0;
     for (const auto& [name, mesh, count] : shapes::all_closed()) {
         const Piece piece = piece_of(mesh);
-        const RayTree rays(mesh);
         for (int round = 0; round < 6; ++round) {
             const Vec3 n = random_normal(random);
             const Objectives o = form(round % 2 == 0, round % 3 == 0 ? FragilityForm::thesis : FragilityForm::thinness);
-            planes += expect_same(piece, rays, n, even(piece, n, 17), o, name + " round " + std::to_string(round));
+            planes += expect_same(piece, n, even(piece, n, 17), o, name + " round " + std::to_string(round));
         }
     }
     EXPECT_GT(planes, 900U);
@@ -61,7 +60,6 @@ TEST(Sweep, EqualsCuttingAtOffsetsAskedThroughVerticesEdgesAndFlatRegions) {
     std::mt19937 random(22);
     for (const auto& [name, mesh, count] : shapes::all_closed()) {
         const Piece piece = piece_of(mesh);
-        const RayTree rays(mesh);
         for (int round = 0; round < 8; ++round) {
             Vec3 n{round == 0 ? 1.0 : 0.0, round == 1 ? 1.0 : 0.0, round == 2 ? 1.0 : 0.0};
             if (round > 2) {
@@ -75,7 +73,7 @@ TEST(Sweep, EqualsCuttingAtOffsetsAskedThroughVerticesEdgesAndFlatRegions) {
                 const Vec3 a = mesh.points[t[0]];
                 wanted.push_back(height(n, k % 2 == 0 ? a : 0.5 * (a + mesh.points[t[1]])));
             }
-            expect_same(piece, rays, n, wanted, form(round % 2 == 0, FragilityForm::thinness),
+            expect_same(piece, n, wanted, form(round % 2 == 0, FragilityForm::thinness),
                         name + " round " + std::to_string(round));
         }
     }
@@ -84,7 +82,6 @@ TEST(Sweep, EqualsCuttingAtOffsetsAskedThroughVerticesEdgesAndFlatRegions) {
 TEST(Sweep, EqualsCuttingOnPiecesThatOwnCaps) {
     std::mt19937 random(23);
     for (const auto& [name, mesh, count] : shapes::all_closed()) {
-        const RayTree rays(mesh);
         std::vector<Piece> pieces{piece_of(mesh)};
         for (std::int32_t cut_number = 1; cut_number <= 6; ++cut_number) {
             const std::size_t which = random() % pieces.size();
@@ -100,7 +97,7 @@ TEST(Sweep, EqualsCuttingOnPiecesThatOwnCaps) {
         for (const Piece& piece : pieces) {
             for (int round = 0; round < 2; ++round) {
                 const Vec3 n = round == 0 ? Vec3{0, 0, 1} : random_normal(random);
-                expect_same(piece, rays, n, even(piece, n, 9), form(round == 0, FragilityForm::thinness), name);
+                expect_same(piece, n, even(piece, n, 9), form(round == 0, FragilityForm::thinness), name);
             }
         }
     }
@@ -109,10 +106,9 @@ TEST(Sweep, EqualsCuttingOnPiecesThatOwnCaps) {
 TEST(Sweep, ManyOffsetsAndOneOffsetAgree) {
     const TriangleMesh mesh = shapes::linked_tori();
     const Piece piece = piece_of(mesh);
-    const RayTree rays(mesh);
     const Vec3 n = canonical({normalized({1, 2, -3}), 0}).normal;
-    expect_same(piece, rays, n, even(piece, n, 400), {}, "400 offsets");
-    for (const double wanted : even(piece, n, 7)) expect_same(piece, rays, n, {wanted}, {}, "one offset");
+    expect_same(piece, n, even(piece, n, 400), {}, "400 offsets");
+    for (const double wanted : even(piece, n, 7)) expect_same(piece, n, {wanted}, {}, "one offset");
 }
 
 TEST(Sweep, UnevenOffsetsAreNoTrouble) {
@@ -120,7 +116,7 @@ TEST(Sweep, UnevenOffsetsAreNoTrouble) {
     const Piece piece = piece_of(mesh);
     std::vector<double> wanted;
     for (int i = 0; i < 30; ++i) wanted.push_back(100 * std::pow(0.7, i));
-    expect_same(piece, RayTree(mesh), {0, 0, 1}, wanted, {}, "geometric offsets");
+    expect_same(piece, {0, 0, 1}, wanted, {}, "geometric offsets");
 }
 
 TEST(Sweep, FortyShellsAndCavitiesInsideOneAnother) {
@@ -133,10 +129,9 @@ TEST(Sweep, FortyShellsAndCavitiesInsideOneAnother) {
     }
     const TriangleMesh mesh = shapes::joined(parts);
     const Piece piece = piece_of(mesh);
-    const RayTree rays(mesh);
     for (int round = 0; round < 6; ++round) {
         const Vec3 n = round == 0 ? Vec3{0, 0, 1} : random_normal(random);
-        expect_same(piece, rays, n, even(piece, n, 21), form(round % 2 == 0, FragilityForm::thinness), "cavities");
+        expect_same(piece, n, even(piece, n, 21), form(round % 2 == 0, FragilityForm::thinness), "cavities");
     }
 }
 

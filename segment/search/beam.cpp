@@ -1,0 +1,96 @@
+#include "segment/search/beam.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace qchopper {
+namespace {
+
+double of_cuts(const Segmentation& segmentation, const Weights& w) {
+    double sum = 0;
+    for (const Cut& cut : segmentation.cuts) {
+        sum += w.fragility * cut.chosen.terms.fragility + w.piece_count * cut.chosen.terms.piece_count;
+    }
+    return sum;
+}
+
+double of_pieces(const Segmentation& segmentation, const Objectives& objectives, PieceBook& book) {
+    if (segmentation.pieces.empty()) return 0;
+    std::size_t most = 0;
+    std::size_t fewest = segmentation.pieces.front().mesh->triangles.size();
+    double undercuts = 0;
+    for (const Piece& piece : segmentation.pieces) {
+        const PieceShare s = share(book.own(piece), objectives);
+        most = std::max(most, s.faces);
+        fewest = std::min(fewest, s.faces);
+        undercuts += s.undercut;
+    }
+    const double ratio = static_cast<double>(most) / static_cast<double>(fewest);
+    return objectives.weights.face_ratio * std::max(ratio - objectives.face_ratio_threshold, 0.0) +
+           objectives.weights.undercut * undercuts / static_cast<double>(segmentation.pieces.size());
+}
+
+// Where the merge stands in one BSP: at itself if it ended, else at one of its children.
+struct Head {
+    std::size_t bsp = 0;
+    std::size_t child = 0;
+    double cost = 0;
+    int normal = -1;
+    int offset = -1;
+};
+
+bool is_before(const Head& a, const Head& b) {
+    if (a.cost + tie < b.cost) return true;
+    if (b.cost + tie < a.cost) return false;
+    return std::tie(a.normal, a.offset, a.bsp) < std::tie(b.normal, b.offset, b.bsp);
+}
+
+Head head(const std::vector<Bsp>& beam, std::size_t i, std::size_t child) {
+    if (!beam[i].is_live()) return {i, child, beam[i].cost, -1, -1};
+    const Ranked& r = beam[i].ranked[child];
+    return {i, child, beam[i].of_cuts + r.terms.total, r.normal, r.offset};
+}
+
+}  // namespace
+
+double cost(const Segmentation& segmentation, const Objectives& objectives, PieceBook& book) {
+    return of_cuts(segmentation, objectives.weights) + of_pieces(segmentation, objectives, book);
+}
+
+Bsp bsp(Segmentation segmentation, std::vector<std::string> passed_over, const Objectives& objectives,
+        PieceBook& book) {
+    Bsp b;
+    b.segmentation = std::move(segmentation);
+    b.passed_over = std::move(passed_over);
+    b.of_cuts = of_cuts(b.segmentation, objectives.weights);
+    b.cost = b.of_cuts + of_pieces(b.segmentation, objectives, book);
+    return b;
+}
+
+std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& settings, PieceBook& book) {
+    std::vector<Head> heads;
+    for (std::size_t i = 0; i < beam.size(); ++i) heads.push_back(head(beam, i, 0));
+    std::vector<Bsp> kept;
+    while (kept.size() < settings.beam && !heads.empty()) {
+        const auto best = std::min_element(heads.begin(), heads.end(), is_before);
+        const Head taken = *best;
+        Bsp& parent = beam[taken.bsp];
+        if (!parent.is_live()) {
+            heads.erase(best);
+            kept.push_back(std::move(parent));
+            continue;
+        }
+        if (taken.child + 1 < parent.ranked.size())
+            *best = head(beam, taken.bsp, taken.child + 1);
+        else
+            heads.erase(best);
+        Segmentation child = parent.segmentation;
+        const Cut cut = cut_by(child, *parent.next.piece, parent.ranked, taken.child, settings.runners_up);
+        // A price may promise what a cut does not keep only where the scan intersects itself.
+        if (!apply(child, cut, settings.objectives.crumb_volume_mm3)) continue;
+        kept.push_back(bsp(std::move(child), parent.passed_over, settings.objectives, book));
+    }
+    return kept;
+}
+
+}  // namespace qchopper

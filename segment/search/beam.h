@@ -1,0 +1,32 @@
+// The beam: the BSPs that are kept from round to round, and their cost.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "segment/search/search.h"
+
+namespace qchopper {
+
+// Face ratio and mean undercut of the pieces plus the sums over the cuts of fragility and piece count, weighted.
+double cost(const Segmentation& segmentation, const Objectives& objectives, PieceBook& book);
+
+// One of the BSPs of a beam.
+struct Bsp {
+    Segmentation segmentation;
+    std::vector<std::string> passed_over;  // pieces that no candidate parts
+    double of_cuts = 0;                    // what its cuts add to its cost whatever follows
+    NextPiece next;
+    std::vector<Ranked> ranked;  // children that are to be had, best first
+    double cost = 0;
+
+    bool is_live() const { return !next.is_finished && next.piece.has_value(); }
+};
+
+Bsp bsp(Segmentation segmentation, std::vector<std::string> passed_over, const Objectives& objectives, PieceBook& book);
+
+// The next round: the cheapest of what ended and of all children, `settings.beam` at most, cheapest first.
+std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& settings, PieceBook& book);
+
+}  // namespace qchopper

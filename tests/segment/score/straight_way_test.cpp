@@ -1,0 +1,61 @@
+#include "segment/score/straight_way.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "segment/mesh/rays.h"
+#include "tests/shapes.h"
+
+namespace qchopper {
+namespace {
+
+TEST(StraightWay, AgreesWithEmbreesRaysOnEveryShape) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    std::size_t asked = 0;
+    for (const auto& [name, mesh, solids] : shapes::all_closed()) {
+        const RayTree tree(mesh);
+        for (int round = 0; round < 4; ++round) {
+            const Vec3 n = normalized({normal(random), normal(random), normal(random)});
+            std::vector<WayQuery> queries;
+            for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {  // from every face inwards
+                const Triangle& v = mesh.triangles[t];
+                const Vec3 middle = (1.0 / 3) * (mesh.points[v[0]] + mesh.points[v[1]] + mesh.points[v[2]]);
+                const double along = dot(normalized(area_vector(mesh, t)), n);
+                if (std::abs(along) > 0.5) queries.push_back({middle, along < 0});
+            }
+            const std::vector<double> ways = straight_ways(mesh, n, queries);
+            for (std::size_t q = 0; q < queries.size(); ++q) {
+                const auto hit = tree.first_exit(queries[q].from, queries[q].up ? n : -n);
+                ASSERT_TRUE(hit.has_value()) << name;
+                ASSERT_NEAR(ways[q], hit->distance, 1e-3) << name << " " << q;
+                ++asked;
+            }
+        }
+    }
+    EXPECT_GT(asked, 5000U);
+}
+
+TEST(StraightWay, ThroughEdgesAndVerticesOfAGridTheBoxIsNeverMissed) {
+    const TriangleMesh box = shapes::box({0, 0, 0}, {10, 10, 10}, 5);
+    std::vector<WayQuery> queries;
+    for (int i = 1; i < 20; ++i) {
+        for (int j = 1; j < 20; ++j) queries.push_back({{0.5 * i, 0.5 * j, 4}, (i + j) % 2 == 0});
+    }
+    const std::vector<double> ways = straight_ways(box, {0, 0, 1}, queries);
+    for (std::size_t q = 0; q < queries.size(); ++q) EXPECT_DOUBLE_EQ(ways[q], queries[q].up ? 6 : 4) << q;
+}
+
+TEST(StraightWay, StopsAtACavityAndMeetsNothingOutside) {
+    const TriangleMesh mesh = shapes::nested();
+    const std::vector<WayQuery> queries{{{50, 50, 95}, false}, {{50, 50, 110}, true}, {{150, 50, 50}, false}};
+    const std::vector<double> ways = straight_ways(mesh, {0, 0, 1}, queries);
+    EXPECT_DOUBLE_EQ(ways[0], 15);
+    EXPECT_TRUE(std::isinf(ways[1]));
+    EXPECT_TRUE(std::isinf(ways[2]));
+    EXPECT_TRUE(straight_ways(mesh, {0, 0, 1}, {}).empty());
+}
+
+}  // namespace
+}  // namespace qchopper
