@@ -16,6 +16,10 @@ Json to_json(Vec3 v) {
     return Json::array({v.x, v.y, v.z});
 }
 
+std::string counted(std::size_t count, const std::string& thing) {
+    return with_commas(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
 std::string lengths(Vec3 v) {
     return fixed(v.x, 0) + " x " + fixed(v.y, 0) + " x " + fixed(v.z, 0);
 }
@@ -75,15 +79,15 @@ std::vector<std::string> table(const PreparedProject& prepared, const Cell& cell
         double volume = 0;
         for (const SolidRecord& c : prepared.project.crumb_list) volume += c.volume_mm3;
         lines.push_back(
-            with_commas(crumbs) + " crumbs (" + fixed(volume, 1) + " mm3 in all), listed in project.json" +
+            counted(crumbs, "crumb") + " (" + fixed(volume, 1) + " mm3 in all), listed in project.json" +
             (prepared.project.crumbs == CrumbChoice::keep ? " and kept in pieces/crumbs.ply" : ", dropped"));
     }
     const auto jobs = std::count_if(prepared.pieces.begin(), prepared.pieces.end(),
                                     [](const PreparedPiece& p) { return !p.job.empty(); });
     const std::string folder = prepared.folder.string();
-    lines.push_back(std::to_string(prepared.pieces.size()) + " pieces by " +
-                    std::to_string(prepared.project.cuts.size()) + " cuts, " + std::to_string(jobs) + " jobs in " +
-                    folder + "/jobs, pictures in " + folder + "/pictures.");
+    lines.push_back(counted(prepared.pieces.size(), "piece") + " by " + counted(prepared.project.cuts.size(), "cut") +
+                    ", " + counted(static_cast<std::size_t>(jobs), "job") + " in " + folder + "/jobs, pictures in " +
+                    folder + "/pictures.");
     lines.push_back("Next: qchopper dry-run " + folder + "   or   qchopper dispatch " + folder);
     return lines;
 }

@@ -25,7 +25,7 @@ double thinness(const Piece& piece, const Plane& plane, double cap_area_mm2, dou
         weight.push_back(c.area * (1 - distance_to_plane / distance) * std::abs(along));
         off.push_back(distance_to_plane);
     }
-    const std::vector<double> ways = straight_ways(mesh, plane.normal, queries);
+    const std::vector<double> ways = straight_ways(mesh, plane.normal, queries, distance);
     double sum = 0;
     for (std::size_t q = 0; q < queries.size(); ++q) {
         if (ways[q] >= off[q]) sum += weight[q];

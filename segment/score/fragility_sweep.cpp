@@ -85,7 +85,7 @@ std::vector<double> sweep_thinness(const PreparedPiece& prepared, Vec3 normal, s
     for (const auto& some : by_chunk) {
         for (const ThinQuery& q : some) queries.push_back(q.way);
     }
-    const std::vector<double> ways = straight_ways(mesh, normal, queries);
+    const std::vector<double> ways = straight_ways(mesh, normal, queries, distance);
     std::vector<double> sums(offsets.size(), 0.0);
     std::size_t next = 0;
     for (const auto& some : by_chunk) {

@@ -12,6 +12,7 @@ namespace qchopper {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double cells_per_point = 2;
 constexpr std::size_t shares = 8;  // of the triangles, each with ways of its own: the least of them does not depend on
                                    // how many threads there are
 
@@ -45,7 +46,7 @@ struct GridPoint {
     std::uint32_t query;
 };
 
-// The queries of one direction, sorted by cell: about one to a cell.
+// The queries of one direction, sorted by cell. Few to a cell: a scan's triangles are small beside it.
 class Grid {
  public:
     Grid(const Frame& frame, std::span<const WayQuery> queries, bool up) {
@@ -65,7 +66,7 @@ class Grid {
         }
         const double wide = std::max(high_u - low_u_, 1e-9);
         const double tall = std::max(high_v - low_v_, 1e-9);
-        const double cell = std::sqrt(wide * tall / static_cast<double>(points.size()));
+        const double cell = std::sqrt(wide * tall / (cells_per_point * static_cast<double>(points.size())));
         columns_ = std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(wide / cell) + 1, 1, 8192);
         rows_ = std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(tall / cell) + 1, 1, 8192);
         per_u_ = static_cast<double>(columns_) / wide;
@@ -133,13 +134,18 @@ double side_beside(const Seen& a, const Seen& b) {
 }
 
 // One triangle over the grid: points under or over it that lie nearer than before.
-void pass_over(const Grid& grid, bool up, const Triangle& v, const Seen (&corner)[3], std::span<double> ways) {
+void pass_over(const Grid& grid, bool up, const Triangle& v, const Seen (&corner)[3], double most,
+               std::span<double> ways) {
     const double low_u = std::min({corner[0].u, corner[1].u, corner[2].u});
     const double high_u = std::max({corner[0].u, corner[1].u, corner[2].u});
     const double low_v = std::min({corner[0].v, corner[1].v, corner[2].v});
     const double high_v = std::max({corner[0].v, corner[1].v, corner[2].v});
+    const double low_h = std::min({corner[0].h, corner[1].h, corner[2].h}) - (up ? most : 0);
+    const double high_h = std::max({corner[0].h, corner[1].h, corner[2].h}) + (up ? 0 : most);
     const double sign = up ? 1 : -1;  // seen along the normal, what looks up runs counter-clockwise
     grid.each_in(low_u, low_v, high_u, high_v, [&](const GridPoint& p) {
+        if (p.at.u < low_u || p.at.u > high_u || p.at.v < low_v || p.at.v > high_v) return;
+        if (p.at.h < low_h || p.at.h > high_h) return;
         double weight[3];
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t next = (k + 1) % 3;
@@ -151,13 +157,14 @@ void pass_over(const Grid& grid, bool up, const Triangle& v, const Seen (&corner
         if (sum <= 0) return;
         const double h = (weight[1] * corner[0].h + weight[2] * corner[1].h + weight[0] * corner[2].h) / sum;
         const double way = sign * (h - p.at.h);
-        if (way >= 0 && way < ways[p.query]) ways[p.query] = way;
+        if (way >= 0 && way <= most && way < ways[p.query]) ways[p.query] = way;
     });
 }
 
 }  // namespace
 
-std::vector<double> straight_ways(const TriangleMesh& mesh, Vec3 normal, std::span<const WayQuery> queries) {
+std::vector<double> straight_ways(const TriangleMesh& mesh, Vec3 normal, std::span<const WayQuery> queries,
+                                  double most) {
     std::vector<double> least(queries.size(), infinite);
     if (queries.empty()) return least;
     const Frame frame(normal);
@@ -177,8 +184,8 @@ std::vector<double> straight_ways(const TriangleMesh& mesh, Vec3 normal, std::sp
             const Seen corner[3] = {seen[v[0]], seen[v[1]], seen[v[2]]};
             // A way along the normal leaves through what looks up, one against it through what looks down.
             const double looks_up = turn(corner[0], corner[1], corner[2]);
-            if (looks_up > 0 && !grid_up.is_empty()) pass_over(grid_up, true, v, corner, ways[s]);
-            if (looks_up < 0 && !grid_down.is_empty()) pass_over(grid_down, false, v, corner, ways[s]);
+            if (looks_up > 0 && !grid_up.is_empty()) pass_over(grid_up, true, v, corner, most, ways[s]);
+            if (looks_up < 0 && !grid_down.is_empty()) pass_over(grid_down, false, v, corner, most, ways[s]);
         }
     });
     for (const std::vector<double>& share : ways) {

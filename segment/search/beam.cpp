@@ -47,7 +47,7 @@ bool is_before(const Head& a, const Head& b) {
 
 Head head(const std::vector<Bsp>& beam, std::size_t i, std::size_t child) {
     if (!beam[i].is_live()) return {i, child, beam[i].cost, -1, -1};
-    const Ranked& r = beam[i].ranked[child];
+    const Ranked& r = beam[i].ranked[beam[i].children[child]];
     return {i, child, beam[i].of_cuts + r.terms.total, r.normal, r.offset};
 }
 
@@ -71,6 +71,7 @@ std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& setting
     std::vector<Head> heads;
     for (std::size_t i = 0; i < beam.size(); ++i) heads.push_back(head(beam, i, 0));
     std::vector<Bsp> kept;
+    std::vector<bool> has_child(beam.size(), false);
     while (kept.size() < settings.beam && !heads.empty()) {
         const auto best = std::min_element(heads.begin(), heads.end(), is_before);
         const Head taken = *best;
@@ -80,15 +81,23 @@ std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& setting
             kept.push_back(std::move(parent));
             continue;
         }
-        if (taken.child + 1 < parent.ranked.size())
-            *best = head(beam, taken.bsp, taken.child + 1);
-        else
-            heads.erase(best);
         Segmentation child = parent.segmentation;
-        const Cut cut = cut_by(child, *parent.next.piece, parent.ranked, taken.child, settings.runners_up);
-        // A price may promise what a cut does not keep only where the scan intersects itself.
-        if (!apply(child, cut, settings.objectives.crumb_volume_mm3)) continue;
-        kept.push_back(bsp(std::move(child), parent.passed_over, settings.objectives, book));
+        const Cut cut =
+            cut_by(child, *parent.next.piece, parent.ranked, parent.children[taken.child], settings.runners_up);
+        // A price promises what the cut does not keep only where the scan intersects itself.
+        if (apply(child, cut, settings.objectives.crumb_volume_mm3)) {
+            kept.push_back(bsp(std::move(child), parent.passed_over, settings.objectives, book));
+            has_child[taken.bsp] = true;
+        }
+        if (taken.child + 1 < parent.children.size()) {
+            *best = head(beam, taken.bsp, taken.child + 1);
+            continue;
+        }
+        heads.erase(best);
+        if (has_child[taken.bsp]) continue;
+        parent.passed_over.push_back(parent.segmentation.pieces[*parent.next.piece].name);
+        parent.ranked.clear();
+        kept.push_back(std::move(parent));
     }
     return kept;
 }

@@ -18,7 +18,8 @@ struct Bsp {
     std::vector<std::string> passed_over;  // pieces that no candidate parts
     double of_cuts = 0;                    // what its cuts add to its cost whatever follows
     NextPiece next;
-    std::vector<Ranked> ranked;  // children that are to be had, best first
+    std::vector<Ranked> ranked;         // the candidates of its next piece, best first
+    std::vector<std::size_t> children;  // those of them that it may be expanded by
     double cost = 0;
 
     bool is_live() const { return !next.is_finished && next.piece.has_value(); }

@@ -19,6 +19,7 @@ std::int32_t made_by(const Piece& piece) {
 }  // namespace
 
 void record(Project& project, const Segmentation& segmentation) {
+    follow(project.history, segmentation.cuts);
     project.cuts = segmentation.cuts;
     project.pieces.clear();
     for (const Piece& piece : segmentation.pieces) {
@@ -29,6 +30,8 @@ void record(Project& project, const Segmentation& segmentation) {
     for (const Crumb& crumb : segmentation.crumbs) {
         project.crumb_list.push_back({"", crumb.cut, crumb.mesh->triangles.size(), crumb.volume_mm3, crumb.centre});
     }
+    project.warnings = project.scan.warnings;
+    project.warnings.insert(project.warnings.end(), segmentation.warnings.begin(), segmentation.warnings.end());
 }
 
 void save_project(const std::filesystem::path& folder, const Project& project) {

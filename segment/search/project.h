@@ -1,15 +1,17 @@
 // The project folder NAME.qch: the operator's decisions, saved when they are made.
 //
 //   NAME.qch/
-//     project.json      scan, settings, cuts with their terms and runners-up, pieces, crumbs
-//     cell.toml         the cell file as it was when the project was made
+//     project.json      scan, settings, decisions with their terms and runners-up, pieces, crumbs
+//     cell.toml         the cell file as it was when it was named; none: the project knows no cell yet
 //     pieces/A.ply ...  the pieces (binary PLY, double, face property cap = number of the cut)
 //     jobs/A.qjob ...   one job file per piece
 //     pictures/*.png
+//     cache/            prices that are known already; may be deleted at any time
 //     lock              held while a program writes
 //
-// project.json alone decides: scan and cuts give the same pieces again, bit for bit
-// (tests/segment/search/project_test.cpp).
+// project.json alone decides: scan and decisions give the same pieces again, bit for bit
+// (tests/segment/search/project_test.cpp). Pieces, jobs and pictures are never stale: they are taken away before a
+// decision changes and written when the cutting is over (products.h). docs/project-folder.md is the grammar.
 
 #pragma once
 
@@ -18,6 +20,7 @@
 #include <vector>
 
 #include "segment/intake/intake.h"
+#include "segment/search/decisions.h"
 #include "segment/search/search.h"
 
 namespace qchopper {
@@ -33,6 +36,7 @@ struct ScanSource {
     Vec3 centre;  // mm, subtracted from all points
     std::size_t faces = 0;
     double volume_mm3 = 0;
+    std::vector<std::string> warnings = {};  // what intake said
     bool operator==(const ScanSource&) const = default;
 };
 
@@ -55,18 +59,21 @@ enum class Stage {
 struct Project {
     ScanSource scan;
     std::string preset;  // empty: none
-    SearchSettings settings;
+    SearchSettings settings;  // their weights are those that stand now
     CrumbChoice crumbs = CrumbChoice::keep;
     Stage stage = Stage::cutting;
     std::string ended_because;
-    std::vector<Cut> cuts;
+    History history;
+    // What follows from the above; kept for whoever reads the file.
+    std::vector<Cut> cuts;  // those that stand
     std::vector<SolidRecord> pieces;
     std::vector<SolidRecord> crumb_list;
     std::vector<std::string> warnings;
     bool operator==(const Project&) const = default;
 };
 
-// Copies what the segmentation says now into the project.
+// Copies what the segmentation says now into the project: cuts that the history does not have yet are decided, cuts
+// at its end that the segmentation has no more are given up (decisions.h, follow).
 void record(Project& project, const Segmentation& segmentation);
 
 // Written aside and renamed: a crash leaves the decisions before or after, never half of them.
@@ -75,7 +82,7 @@ void save_project(const std::filesystem::path& folder, const Project& project);
 // Throws InputError: (missing) no project there, (config) a project file that this version cannot read.
 Project load_project(const std::filesystem::path& folder);
 
-// Applies the project's cuts to the scan exactly as they were made. Throws InputError (config) if one misses.
+// Applies the cuts that stand to the scan exactly as they were made. Throws InputError (config) if one misses.
 Segmentation replay(const Project& project, const TriangleMesh& scan);
 
 // Keeps a second writer out while it lives. Throws InputError (busy) if somebody else holds it.

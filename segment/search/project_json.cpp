@@ -102,11 +102,7 @@ Json to_json(const SearchSettings& s) {
     if (s.stop.max_faces) stop["max_faces"] = *s.stop.max_faces;
     if (s.stop.min_cuts) stop["min_cuts"] = *s.stop.min_cuts;
     if (s.stop.max_obb) stop["max_obb_mm"] = to_json(*s.stop.max_obb);
-    return {{"weights",
-             {{"face_ratio", o.weights.face_ratio},
-              {"fragility", o.weights.fragility},
-              {"piece_count", o.weights.piece_count},
-              {"undercut", o.weights.undercut}}},
+    return {{"weights", to_json(o.weights)},
             {"face_ratio_threshold", o.face_ratio_threshold},
             {"fragility_form", word_of(fragility_words, o.fragility_form)},
             {"fragility_distance_mm", o.fragility_distance},
@@ -114,14 +110,14 @@ Json to_json(const SearchSettings& s) {
             {"crumb_volume_mm3", o.crumb_volume_mm3},
             {"offsets_per_normal", s.candidates.offsets_per_normal},
             {"runners_up", s.runners_up},
+            {"beam", s.beam},
+            {"near", s.near},
             {"stop", stop}};
 }
 
 SearchSettings settings_from(const Json& json) {
     SearchSettings s;
-    const Json& weights = json.at("weights");
-    s.objectives.weights = {weights.at("face_ratio").get<double>(), weights.at("fragility").get<double>(),
-                            weights.at("piece_count").get<double>(), weights.at("undercut").get<double>()};
+    s.objectives.weights = weights_from(json.at("weights"));
     s.objectives.face_ratio_threshold = json.at("face_ratio_threshold").get<double>();
     s.objectives.fragility_form = value_of(fragility_words, json.at("fragility_form"));
     s.objectives.fragility_distance = json.at("fragility_distance_mm").get<double>();
@@ -129,6 +125,8 @@ SearchSettings settings_from(const Json& json) {
     s.objectives.crumb_volume_mm3 = json.at("crumb_volume_mm3").get<double>();
     s.candidates.offsets_per_normal = json.at("offsets_per_normal").get<int>();
     s.runners_up = json.at("runners_up").get<std::size_t>();
+    s.beam = json.at("beam").get<std::size_t>();
+    s.near = json.at("near").get<double>();
     const Json& stop = json.at("stop");
     s.stop.combine = value_of(stop_words, stop.at("combine"));
     s.stop.fits_cell = stop.at("fits_cell").get<bool>();
@@ -137,6 +135,18 @@ SearchSettings settings_from(const Json& json) {
     if (stop.contains("min_cuts")) s.stop.min_cuts = stop.at("min_cuts").get<int>();
     if (stop.contains("max_obb_mm")) s.stop.max_obb = vec3(stop.at("max_obb_mm"));
     return s;
+}
+
+Json to_json(const Weights& w) {
+    return {{"face_ratio", w.face_ratio},
+            {"fragility", w.fragility},
+            {"piece_count", w.piece_count},
+            {"undercut", w.undercut}};
+}
+
+Weights weights_from(const Json& json) {
+    return {json.at("face_ratio").get<double>(), json.at("fragility").get<double>(),
+            json.at("piece_count").get<double>(), json.at("undercut").get<double>()};
 }
 
 Json to_json(const SolidRecord& solid) {
@@ -162,7 +172,7 @@ Json to_json(const ScanSource& scan) {
     return {{"path", scan.path.string()},        {"sha256", scan.sha256},
             {"units", name_of(scan.unit)},       {"scale", scan.scale},
             {"centre_mm", to_json(scan.centre)}, {"faces", scan.faces},
-            {"volume_mm3", scan.volume_mm3}};
+            {"volume_mm3", scan.volume_mm3},     {"warnings", scan.warnings}};
 }
 
 ScanSource scan_from(const Json& json) {
@@ -174,7 +184,40 @@ ScanSource scan_from(const Json& json) {
     scan.centre = vec3(json.at("centre_mm"));
     scan.faces = json.at("faces").get<std::size_t>();
     scan.volume_mm3 = json.at("volume_mm3").get<double>();
+    scan.warnings = json.at("warnings").get<std::vector<std::string>>();
     return scan;
+}
+
+Json to_json(const Decision& decision) {
+    if (const Cut* cut = std::get_if<Cut>(&decision)) return {{"cut", to_json(*cut)}};
+    if (const auto* change = std::get_if<WeightsChange>(&decision)) return {{"weights", to_json(change->weights)}};
+    return {{"reset", true}};
+}
+
+Decision decision_from(const Json& json) {
+    if (json.contains("cut")) return cut_from(json.at("cut"));
+    if (json.contains("weights")) return WeightsChange{weights_from(json.at("weights"))};
+    if (json.contains("reset")) return Reset{};
+    throw InputError(InputFault::config, "a decision is neither a cut nor weights nor a reset");
+}
+
+Json to_json(const History& history) {
+    Json decisions = Json::array();
+    for (const Decision& decision : history.decisions) decisions.push_back(to_json(decision));
+    return {{"weights_at_start", to_json(history.weights_at_start)},
+            {"standing", history.standing},
+            {"decisions", decisions}};
+}
+
+History history_from(const Json& json) {
+    History history;
+    history.weights_at_start = weights_from(json.at("weights_at_start"));
+    for (const Json& decision : json.at("decisions")) history.decisions.push_back(decision_from(decision));
+    history.standing = json.at("standing").get<std::size_t>();
+    if (history.standing > history.decisions.size()) {
+        throw InputError(InputFault::config, "more decisions stand than there are");
+    }
+    return history;
 }
 
 Project from_json(const Json& json) {
@@ -186,7 +229,8 @@ Project from_json(const Json& json) {
     project.crumbs = value_of(crumb_words, json.at("crumb_choice"));
     project.stage = value_of(stage_words, json.at("stage"));
     project.ended_because = json.at("ended_because").get<std::string>();
-    for (const Json& cut : json.at("cuts")) project.cuts.push_back(cut_from(cut));
+    project.history = history_from(json.at("history"));
+    project.cuts = standing_cuts(project.history);
     project.pieces = solids_from(json.at("pieces"));
     project.crumb_list = solids_from(json.at("crumbs"));
     project.warnings = json.at("warnings").get<std::vector<std::string>>();
@@ -196,8 +240,6 @@ Project from_json(const Json& json) {
 }  // namespace
 
 std::string to_json(const Project& project) {
-    Json cuts = Json::array();
-    for (const Cut& cut : project.cuts) cuts.push_back(to_json(cut));
     Json pieces = Json::array();
     for (const SolidRecord& piece : project.pieces) pieces.push_back(to_json(piece));
     Json crumbs = Json::array();
@@ -209,7 +251,7 @@ std::string to_json(const Project& project) {
                     {"crumb_choice", word_of(crumb_words, project.crumbs)},
                     {"stage", word_of(stage_words, project.stage)},
                     {"ended_because", project.ended_because},
-                    {"cuts", cuts},
+                    {"history", to_json(project.history)},
                     {"pieces", pieces},
                     {"crumbs", crumbs},
                     {"warnings", project.warnings}};

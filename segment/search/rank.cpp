@@ -46,15 +46,16 @@ std::vector<Ranked> rank(const PiecePrices& prices, std::span<const PieceShare> 
     return ranked;
 }
 
-std::vector<Ranked> without_near_duplicates(const std::vector<Ranked>& ranked, int offsets_per_normal, double near) {
+std::vector<std::size_t> without_near_duplicates(const std::vector<Ranked>& ranked, int offsets_per_normal,
+                                                 double near) {
     // Offsets are evenly spaced: (count + 1) steps are the piece's extent.
     const double near_steps = near * (offsets_per_normal + 1);
-    std::vector<Ranked> kept;
-    for (const Ranked& r : ranked) {
-        const bool is_near = std::any_of(kept.begin(), kept.end(), [&](const Ranked& k) {
-            return k.normal == r.normal && std::abs(k.offset - r.offset) < near_steps;
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < ranked.size(); ++i) {
+        const bool is_near = std::any_of(kept.begin(), kept.end(), [&](std::size_t k) {
+            return ranked[k].normal == ranked[i].normal && std::abs(ranked[k].offset - ranked[i].offset) < near_steps;
         });
-        if (!is_near) kept.push_back(r);
+        if (!is_near) kept.push_back(i);
     }
     return kept;
 }

@@ -22,7 +22,9 @@ std::vector<PieceShare> shares_of_others(const Segmentation& segmentation, std::
 
 std::vector<Ranked> rank(const PiecePrices& prices, std::span<const PieceShare> others, const Objectives& objectives);
 
-// Drops every candidate that has a better one of the same normal less than `near` of the piece's extent away.
-std::vector<Ranked> without_near_duplicates(const std::vector<Ranked>& ranked, int offsets_per_normal, double near);
+// Which of a ranking stay when every candidate is dropped that has a better one of the same normal less than `near` of
+// the piece's extent away. Indices, best first.
+std::vector<std::size_t> without_near_duplicates(const std::vector<Ranked>& ranked, int offsets_per_normal,
+                                                 double near);
 
 }  // namespace qchopper

@@ -43,10 +43,6 @@ class Search {
             if (!is_any_live()) return end(segmentation, std::nullopt);
             beam_ = next_round(std::move(beam_), settings_, book_);
             ++rounds_;
-            if (beam_.empty()) {  // no child could be cut as it was priced
-                beam_.push_back(bsp(segmentation, {}, settings_.objectives, book_));
-                for (const Piece& piece : segmentation.pieces) beam_.front().passed_over.push_back(piece.name);
-            }
             forget_the_rest();
             tell(segmentation, on_round);
         }
@@ -70,10 +66,8 @@ class Search {
             for (Bsp& b : beam_) {
                 if (!b.is_live() || !b.ranked.empty()) continue;
                 b.ranked = rank(b.segmentation, *b.next.piece, settings_, book_, context_);
-                if (settings_.beam > 1) {
-                    b.ranked =
-                        without_near_duplicates(b.ranked, settings_.candidates.offsets_per_normal, settings_.near);
-                }
+                b.children =
+                    without_near_duplicates(b.ranked, settings_.candidates.offsets_per_normal, settings_.near);
                 if (!b.ranked.empty()) continue;
                 b.passed_over.push_back(b.segmentation.pieces[*b.next.piece].name);
                 b.next = judge_.next(b.segmentation, b.passed_over);

@@ -25,7 +25,7 @@ TEST(StraightWay, AgreesWithEmbreesRaysOnEveryShape) {
                 const double along = dot(normalized(area_vector(mesh, t)), n);
                 if (std::abs(along) > 0.5) queries.push_back({middle, along < 0});
             }
-            const std::vector<double> ways = straight_ways(mesh, n, queries);
+            const std::vector<double> ways = straight_ways(mesh, n, queries, 1e9);
             for (std::size_t q = 0; q < queries.size(); ++q) {
                 const auto hit = tree.first_exit(queries[q].from, queries[q].up ? n : -n);
                 ASSERT_TRUE(hit.has_value()) << name;
@@ -43,18 +43,19 @@ TEST(StraightWay, ThroughEdgesAndVerticesOfAGridTheBoxIsNeverMissed) {
     for (int i = 1; i < 20; ++i) {
         for (int j = 1; j < 20; ++j) queries.push_back({{0.5 * i, 0.5 * j, 4}, (i + j) % 2 == 0});
     }
-    const std::vector<double> ways = straight_ways(box, {0, 0, 1}, queries);
+    const std::vector<double> ways = straight_ways(box, {0, 0, 1}, queries, 6);
     for (std::size_t q = 0; q < queries.size(); ++q) EXPECT_DOUBLE_EQ(ways[q], queries[q].up ? 6 : 4) << q;
 }
 
 TEST(StraightWay, StopsAtACavityAndMeetsNothingOutside) {
     const TriangleMesh mesh = shapes::nested();
     const std::vector<WayQuery> queries{{{50, 50, 95}, false}, {{50, 50, 110}, true}, {{150, 50, 50}, false}};
-    const std::vector<double> ways = straight_ways(mesh, {0, 0, 1}, queries);
+    const std::vector<double> ways = straight_ways(mesh, {0, 0, 1}, queries, 20);
     EXPECT_DOUBLE_EQ(ways[0], 15);
     EXPECT_TRUE(std::isinf(ways[1]));
     EXPECT_TRUE(std::isinf(ways[2]));
-    EXPECT_TRUE(straight_ways(mesh, {0, 0, 1}, {}).empty());
+    EXPECT_TRUE(std::isinf(straight_ways(mesh, {0, 0, 1}, queries, 14.9)[0]));
+    EXPECT_TRUE(straight_ways(mesh, {0, 0, 1}, {}, 20).empty());
 }
 
 }  // namespace
