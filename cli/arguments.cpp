@@ -9,6 +9,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "cli/segment_values.h"
 #include "cli/version.h"
 #include "segment/error.h"
 
@@ -19,6 +20,10 @@ constexpr const char* examples = R"(Examples:
   qchopper sample vertebra --faces 50000 -o vertebra.ply
   qchopper inspect vertebra.ply --units mm
   qchopper prepare vertebra.ply --units mm --cell cells/foam-1.toml --min-cuts 3 -o vertebra.qch
+  qchopper segment vertebra.ply --units mm -o by-hand.qch
+  qchopper segment by-hand.qch --step
+  qchopper segment by-hand.qch --accept 1
+  qchopper explain vertebra.qch --cut 1
   qchopper dry-run vertebra.qch
   qchopper cell-sim --listen 127.0.0.1:15020 --drop drop --consent ask
   qchopper dispatch vertebra.qch --to 127.0.0.1:15020 --drop drop
@@ -102,6 +107,8 @@ struct Parser {
     SampleArguments sample;
     InspectArguments inspect;
     PrepareArguments prepare;
+    SegmentArguments segment;
+    ExplainArguments explain;
     DryRunArguments dry_run;
     CellSimArguments cell_sim;
     DispatchArguments dispatch;
@@ -114,6 +121,8 @@ struct Parser {
         add_sample();
         add_inspect();
         add_prepare();
+        add_segment();
+        add_explain();
         add_dry_run();
         add_cell_sim();
         add_dispatch();
@@ -140,20 +149,17 @@ struct Parser {
         add_common(c, common);
     }
 
-    void add_prepare() {
-        CLI::App* c = app.add_subcommand("prepare", "the whole way: from a scan to job files");
-        c->add_option("SCAN", prepare.input, "PLY or STL; or the folder NAME.qch of a project to go on with")
-            ->required();
-        c->add_option("--units", prepare.units, "what one unit of the scan is: mm, cm, m, in")
+    void add_project_options(CLI::App* c, ProjectArguments& a) {
+        c->add_option("--units", a.units, "what one unit of the scan is: mm, cm, m, in")
             ->check(one_of({"mm", "cm", "m", "in"}));
-        c->add_option("--scale", prepare.scale, "enlarge by this factor; recorded, and shown as a warning")
+        c->add_option("--scale", a.scale, "enlarge by this factor; recorded, and shown as a warning")
             ->check(number_between(1e-6, 1e6, "a factor above 0"));
-        c->add_option("--cell", prepare.cell, "the cell file (docs/cell-file.md)");
-        c->add_option("--preset", prepare.preset, "weights and stop rule by name: bunny, femur, vertebrae, skull")
+        c->add_option("--cell", a.cell, "the cell file (docs/cell-file.md)");
+        c->add_option("--preset", a.preset, "weights and stop rule by name: bunny, femur, vertebrae, skull")
             ->check(one_of({"bunny", "femur", "vertebrae", "skull"}));
-        c->add_option("--min-cuts", prepare.min_cuts, "stop rule: make at least N cuts")
+        c->add_option("--min-cuts", a.min_cuts, "stop rule: make at least N cuts")
             ->check(number_between(0, 1e6, "a count of cuts"));
-        c->add_option("--max-faces", prepare.max_faces, "stop rule: every piece has fewer than N faces")
+        c->add_option("--max-faces", a.max_faces, "stop rule: every piece has fewer than N faces")
             ->check(number_between(1, many, "a count of faces"));
         c->add_option("--max-obb", max_obb, "stop rule: every piece fits in a box of X,Y,Z mm, in some orientation")
             ->check(CLI::Validator(
@@ -161,15 +167,82 @@ struct Parser {
                     return three_lengths(text) ? std::string() : "\"" + text + "\" is not X,Y,Z in mm";
                 },
                 ""));
-        c->add_flag("--fits-cell", prepare.fits_cell,
+        c->add_flag("--fits-cell", a.fits_cell,
                     "stop rule: every piece fits the cell (the default if no other is set)");
-        c->add_option("--stop", prepare.stop, "stop when any or all of the rules hold (all)")
-            ->check(one_of({"any", "all"}));
-        c->add_option("--fragility", prepare.fragility, "form of that objective: thinness or thesis (thinness)")
+        c->add_option("--stop", a.stop, "stop when any or all of the rules hold (all)")->check(one_of({"any", "all"}));
+        c->add_option("--fragility", a.fragility, "form of that objective: thinness or thesis (thinness)")
             ->check(one_of({"thinness", "thesis"}));
-        c->add_option("--crumbs", prepare.crumbs, "solids too small to be pieces: keep or drop (keep)")
+        c->add_option("--crumbs", a.crumbs, "solids too small to be pieces: keep or drop (keep)")
             ->check(one_of({"keep", "drop"}));
+        c->add_option("--weights", a.weights,
+                      "of the four terms: face_ratio=10,fragility=5,piece_count=50,undercut=10 (any of them)")
+            ->check(CLI::Validator(
+                [](const std::string& text) {
+                    return weights_from(text) ? std::string()
+                                              : "\"" + text +
+                                                    "\" is not like face_ratio=10,fragility=5,piece_count=50,"
+                                                    "undercut=10, nor four numbers";
+                },
+                ""));
+        c->add_option("--beam", a.beam, "how many segmentations the search keeps (1: greedy)")
+            ->check(number_between(1, 1000, "a count from 1 to 1000"));
+        c->add_option("--time-limit", a.time_limit_s, "stop after so many seconds, with the decision being made")
+            ->check(number_between(0, 1e9, "a number of seconds"));
+    }
+
+    void add_prepare() {
+        CLI::App* c = app.add_subcommand("prepare", "the whole way: from a scan to job files");
+        c->add_option("SCAN", prepare.input, "PLY or STL; or the folder NAME.qch of a project to go on with")
+            ->required();
+        add_project_options(c, prepare);
         c->add_option("-o,--out", prepare.out, "the project folder to make: NAME.qch");
+        add_common(c, common);
+    }
+
+    void add_segment() {
+        CLI::App* c = app.add_subcommand("segment", "cut a scan one decision at a time; --help lists the decisions");
+        c->add_option("SCAN", segment.input, "PLY or STL to make a project of; or the folder NAME.qch of one")
+            ->required();
+        add_project_options(c, segment);
+        c->add_flag("--step", segment.step, "propose the best planes for the next piece; cut nothing");
+        c->add_option("--top", segment.top, "how many planes to show (10)")
+            ->check(number_between(1, 1e6, "a count of planes"));
+        c->add_option("--accept", segment.accept, "cut by the K-th plane of that ranking")
+            ->check(number_between(1, 1e6, "a place in the ranking"));
+        const CLI::Validator plane(
+            [](const std::string& text) {
+                return plane_from(text) ? std::string() : "\"" + text + "\" is not nx,ny,nz,d";
+            },
+            "");
+        c->add_option("--plane", segment.plane,
+                      "cut by nx,ny,nz,d: a direction of any length, and the distance along it in mm, as --step shows")
+            ->check(plane);
+        c->add_option("--preview", segment.preview, "what K or nx,ny,nz,d would make; cuts nothing")
+            ->check(CLI::Validator(
+                [](const std::string& text) {
+                    return plane_from(text) || place_from(text)
+                               ? std::string()
+                               : "\"" + text + "\" is neither a place in the ranking nor nx,ny,nz,d";
+                },
+                ""));
+        c->add_option("--piece", segment.piece, "the piece to be cut next (the one that the rules choose)");
+        c->add_flag("--undo", segment.undo, "take the last decision back");
+        c->add_flag("--redo", segment.redo, "put the decision that was taken back in force again");
+        c->add_flag("--reset", segment.reset, "take all cuts back; --undo brings them again");
+        c->add_flag("--auto", segment.goes_on, "let the search go on to the stop rules, given now or before");
+        c->add_option("--plan", segment.plan, "write the cuts as a plan (docs/plan-file.md)");
+        c->add_option("--replay", segment.replayed, "make the cuts of a plan on this scan");
+        c->add_option("-o,--out", segment.out, "the project folder to make: NAME.qch");
+        add_common(c, common);
+    }
+
+    void add_explain() {
+        CLI::App* c =
+            app.add_subcommand("explain", "say why a cut lies where it lies, with a plot of what all planes cost");
+        c->add_option("PROJECT", explain.project, "the folder NAME.qch")->required();
+        c->add_option("--cut", explain.cut, "the number of the cut (the last)")
+            ->check(number_between(1, 1e6, "the number of a cut"));
+        c->add_option("-o,--out", explain.out, "the plot to write, .svg (PROJECT/pictures/cut-K.svg)");
         add_common(c, common);
     }
 
@@ -206,7 +279,7 @@ struct Parser {
     }
 
     Arguments result() {
-        if (!max_obb.empty()) prepare.max_obb = three_lengths(max_obb);
+        if (!max_obb.empty()) prepare.max_obb = segment.max_obb = three_lengths(max_obb);
         const std::string name = app.get_subcommands().front()->get_name();
         if (name == "sample")
             common.command = sample;
@@ -214,6 +287,10 @@ struct Parser {
             common.command = inspect;
         else if (name == "prepare")
             common.command = prepare;
+        else if (name == "segment")
+            common.command = segment;
+        else if (name == "explain")
+            common.command = explain;
         else if (name == "dry-run")
             common.command = dry_run;
         else if (name == "cell-sim")

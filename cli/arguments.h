@@ -24,8 +24,8 @@ struct InspectArguments {
     std::optional<std::string> units;
 };
 
-struct PrepareArguments {
-    std::filesystem::path input;  // a scan, or a project folder to go on with
+// What a new project is told; a stop rule also tells a search how to go on.
+struct ProjectArguments {
     std::optional<std::string> units;
     std::optional<double> scale;
     std::optional<std::filesystem::path> cell;
@@ -36,8 +36,39 @@ struct PrepareArguments {
     bool fits_cell = false;
     std::optional<std::string> stop;       // any | all
     std::optional<std::string> fragility;  // thinness | thesis
-    std::optional<std::string> crumbs;     // keep | drop
+    std::optional<std::string> weights;    // segment_values.h reads it
+    std::optional<int> beam;
+    std::optional<double> time_limit_s;
+    std::optional<std::string> crumbs;  // keep | drop
     std::optional<std::filesystem::path> out;
+};
+
+struct PrepareArguments : ProjectArguments {
+    std::filesystem::path input;  // a scan, or a project folder to go on with
+};
+
+struct SegmentArguments : ProjectArguments {
+    std::filesystem::path input;  // a scan, or a project folder
+    // What to do; one of these, or none to see how the project stands.
+    bool step = false;
+    std::optional<std::size_t> accept;   // a place in the ranking, from 1
+    std::optional<std::string> plane;    // nx,ny,nz,d
+    std::optional<std::string> preview;  // a place, or nx,ny,nz,d
+    bool undo = false;
+    bool redo = false;
+    bool reset = false;
+    bool goes_on = false;                           // --auto
+    std::optional<std::filesystem::path> plan;      // to write
+    std::optional<std::filesystem::path> replayed;  // a plan to replay
+    // How.
+    std::optional<std::string> piece;
+    std::optional<std::size_t> top;
+};
+
+struct ExplainArguments {
+    std::filesystem::path project;
+    std::optional<int> cut;                    // the last one
+    std::optional<std::filesystem::path> out;  // of the plot
 };
 
 struct DryRunArguments {
@@ -66,8 +97,8 @@ struct DispatchArguments {
 struct Arguments {
     bool json = false;  // for the option parser; run.cpp knows it earlier
     bool quiet = false;
-    std::variant<SampleArguments, InspectArguments, PrepareArguments, DryRunArguments, CellSimArguments,
-                 DispatchArguments>
+    std::variant<SampleArguments, InspectArguments, PrepareArguments, SegmentArguments, ExplainArguments,
+                 DryRunArguments, CellSimArguments, DispatchArguments>
         command;
 };
 

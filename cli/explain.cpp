@@ -1,6 +1,7 @@
 // Why this plane: replays the project up to before a cut, prices the piece again, and shows the candidates.
 
 #include <algorithm>
+#include <cmath>
 
 #include "cli/columns.h"
 #include "cli/commands.h"
@@ -10,6 +11,7 @@
 #include "segment/intake/intake.h"
 #include "segment/score/pricing.h"
 #include "segment/search/project.h"
+#include "segment/search/search.h"
 
 namespace qchopper {
 namespace {
@@ -41,60 +43,76 @@ Intake intake_of(const Project& project, const Context& context) {
     return intake;
 }
 
-// The candidates along a normal of the operator's own, and the plane itself.
-void price_own(Explanation& e, const Segmentation& before, std::size_t piece, const SearchSettings& settings,
-               const RayTree& rays, const Context& context) {
-    const Piece& target = before.pieces[piece];
-    const int number =
-        1 + (e.ranked.empty()
-                 ? 0
-                 : std::max_element(e.ranked.begin(), e.ranked.end(), [](const Ranked& a, const Ranked& b) {
-                       return a.normal < b.normal;
-                   })->normal);
-    std::vector<Candidate> planes =
-        candidates_along(target, e.chosen.plane.normal, number, settings.candidates.offsets_per_normal);
-    planes.push_back({e.chosen.plane, e.chosen.wanted_offset, number, 0});
-    std::vector<PieceShare> others;
-    for (std::size_t p = 0; p < before.pieces.size(); ++p) {
-        if (p != piece) others.push_back(share(measure(before.pieces[p]), settings.objectives));
-    }
-    const auto prices = price_all(target, planes, settings.objectives, rays, context);
-    for (std::size_t i = 0; i < planes.size(); ++i) {
-        const std::optional<Terms> t = prices[i] ? terms(*prices[i], others, settings.objectives) : std::nullopt;
-        const bool is_own = i + 1 == planes.size();
-        if (t && !is_own) {
-            const Candidate& c = planes[i];
-            e.beside.push_back({c.plane, c.wanted_offset, c.normal, c.offset, *t});
+// The settings as they stood when a cut that stands was decided: weights may have changed since.
+SearchSettings settings_at(const Project& project, const Cut& cut) {
+    SearchSettings settings = project.settings;
+    Weights weights = project.history.weights_at_start;
+    for (std::size_t i = 0; i < project.history.standing; ++i) {
+        const Decision& decision = project.history.decisions[i];
+        if (const auto* change = std::get_if<WeightsChange>(&decision)) weights = change->weights;
+        // A cut before a reset may be the same; the last one is meant.
+        if (const auto* made = std::get_if<Cut>(&decision); made != nullptr && *made == cut) {
+            settings.objectives.weights = weights;
         }
-        if (t && is_own) e.chosen.terms = *t;
     }
+    return settings;
 }
 
-Explanation explain(Project project, const Cut& cut, const TriangleMesh& scan, const Context& context) {
-    Explanation e;
-    e.cut = cut;
-    e.chosen = cut.chosen;
-    e.objectives = project.settings.objectives;
-    const auto at = std::find(project.cuts.begin(), project.cuts.end(), cut);
-    project.cuts.erase(at, project.cuts.end());
-    const Segmentation before = replay(project, scan);
-    const auto target =
-        std::find_if(before.pieces.begin(), before.pieces.end(), [&](const Piece& p) { return p.name == cut.piece; });
-    if (target == before.pieces.end()) {
+// The piece as it was before the cut, among the others.
+struct Before {
+    Segmentation segmentation;
+    std::size_t piece = 0;
+};
+
+Before before(const Project& project, const Cut& cut, const TriangleMesh& scan) {
+    Project shorter = project;
+    shorter.cuts.clear();
+    for (const Cut& earlier : project.cuts) {
+        if (earlier.number < cut.number) shorter.cuts.push_back(earlier);
+    }
+    Before b{replay(shorter, scan), 0};
+    const std::vector<Piece>& pieces = b.segmentation.pieces;
+    while (b.piece < pieces.size() && pieces[b.piece].name != cut.piece) ++b.piece;
+    if (b.piece == pieces.size()) {
         throw InputError(InputFault::config,
                          "before cut " + std::to_string(cut.number) + " there is no piece " + cut.piece,
                          "restore project.json, or prepare the scan again");
     }
-    const auto piece = static_cast<std::size_t>(target - before.pieces.begin());
-    const RayTree rays(scan);
-    e.ranked = rank(before, piece, project.settings, rays, context);
+    return b;
+}
+
+// The candidates along a normal of the operator's own.
+std::vector<Ranked> beside(const Before& b, const Plane& own, const SearchSettings& settings, PieceBook& book,
+                           const Context& context) {
+    const Piece& piece = b.segmentation.pieces[b.piece];
+    PiecePrices along{candidates_along(piece, own.normal, -1, settings.candidates.offsets_per_normal), {}};
+    along.prices = price_all(piece, along.candidates, settings.objectives, context);
+    const auto others = shares_of_others(b.segmentation, b.piece, settings.objectives, book);
+    std::vector<Ranked> planes = rank(along, others, settings.objectives);
+    std::sort(planes.begin(), planes.end(), [](const Ranked& x, const Ranked& y) { return x.offset < y.offset; });
+    return planes;
+}
+
+Explanation explain(const Project& project, const Cut& cut, const TriangleMesh& scan, const Context& context) {
+    const SearchSettings settings = settings_at(project, cut);
+    const Before b = before(project, cut, scan);
+    PieceBook book(settings.objectives, settings.candidates);
+    Explanation e;
+    e.cut = cut;
+    e.objectives = settings.objectives;
+    e.chosen = cut.chosen;
+    e.ranked = rank(b.segmentation, b.piece, settings, book, context);
     for (std::size_t i = 0; i < e.ranked.size() && !e.place; ++i) {
         if (e.ranked[i].plane == cut.chosen.plane) e.place = i;
     }
-    if (e.place)
+    if (e.place) {
         e.chosen = e.ranked[*e.place];
-    else
-        price_own(e, before, piece, project.settings, rays, context);
+        return e;
+    }
+    const Candidate own{cut.chosen.plane, cut.chosen.wanted_offset, cut.chosen.normal, cut.chosen.offset};
+    const std::optional<Ranked> priced = rank_plane(b.segmentation, b.piece, own, settings, book, context);
+    if (priced) e.chosen = *priced;
+    e.beside = beside(b, own.plane, settings, book, context);
     return e;
 }
 

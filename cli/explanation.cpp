@@ -92,8 +92,8 @@ std::vector<std::vector<std::string>> table(const Explanation& e) {
         rows[0].push_back(std::string(term.name) + " x " + short_number(w.*term.weight));
     }
     const auto add = [&](const std::string& place, const Ranked& r, bool is_chosen) {
-        std::vector<std::string> row{is_chosen ? "->" : "", place, of_normal(r.plane.normal),
-                                     fixed(r.plane.offset, 3), fixed(r.terms.total, 4)};
+        std::vector<std::string> row{is_chosen ? "->" : "", place, of_normal(r.plane.normal), fixed(r.plane.offset, 3),
+                                     fixed(r.terms.total, 4)};
         for (const Term& term : all_terms) row.push_back(fixed(r.terms.*term.value, 4));
         rows.push_back(row);
     };

@@ -41,9 +41,8 @@ std::vector<Line> lines_of(const Explanation& e) {
     std::vector<Line> lines;
     for (const Ranked& r : planes) {
         if (lines.empty() || lines.back().planes.back().normal != r.normal) {
-            lines.push_back({"Normal " + std::to_string(r.normal + 1) + "  " + of_normal(r.plane.normal),
-                             r.plane.normal,
-                             {}});
+            lines.push_back(
+                {"Normal " + std::to_string(r.normal + 1) + "  " + of_normal(r.plane.normal), r.plane.normal, {}});
         }
         lines.back().planes.push_back(r);
     }
@@ -113,10 +112,9 @@ Plot plot(const Explanation& e, const std::string& project) {
     for (const Line& line : lines) {
         PlotColumn column{line.title, "offset along the normal, mm", {}};
         if (line.normal == e.chosen.plane.normal) {
-            column.marks.push_back({e.chosen.plane.offset,
-                                    "chosen: " + fixed(e.chosen.plane.offset, 2) + " mm, total " +
-                                        fixed(e.chosen.terms.total, 3),
-                                    false});
+            column.marks.push_back(
+                {e.chosen.plane.offset,
+                 "chosen: " + fixed(e.chosen.plane.offset, 2) + " mm, total " + fixed(e.chosen.terms.total, 3), false});
         }
         if (!e.is_best() && !e.ranked.empty() && line.normal == e.ranked.front().plane.normal) {
             const Ranked& best = e.ranked.front();

@@ -1,5 +1,7 @@
 #include "segment/score/prepared.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <map>
 
@@ -38,6 +40,25 @@ std::vector<std::uint16_t> bases(const Piece& piece) {
     return result;
 }
 
+std::vector<TriangleSums> triangle_sums(const TriangleMesh& mesh, Vec3 origin) {
+    std::vector<TriangleSums> sums(mesh.triangles.size());
+    for (std::size_t t = 0; t < sums.size(); ++t) {
+        const Vec3 area = area_vector(mesh, t);
+        sums[t] = {area, dot(mesh.points[mesh.triangles[t][0]] - origin, area) / 3};
+    }
+    return sums;
+}
+
+// A cap takes its plane's normal: its triangles may be too thin to have one of their own.
+std::vector<Vec3> unit_normals(const PreparedPiece& p) {
+    std::vector<Vec3> unit(p.sums.size());
+    for (std::size_t t = 0; t < unit.size(); ++t) {
+        const bool is_cap = !p.base.empty() && p.base[t] != no_base;
+        unit[t] = is_cap ? -p.up[p.base[t]] : normalized(p.sums[t].area);
+    }
+    return unit;
+}
+
 }  // namespace
 
 PreparedPiece prepare(const Piece& piece, const Objectives& objectives) {
@@ -45,23 +66,13 @@ PreparedPiece prepare(const Piece& piece, const Objectives& objectives) {
     PreparedPiece p;
     p.piece = &piece;
     p.origin = mesh.points.empty() ? Vec3{} : mesh.points.front();
-    p.edges = edges(mesh);
-    p.shells = shells(mesh);
-    p.neighbour = earlier_neighbours(mesh);
     p.base = bases(piece);
     for (const Bound& bound : piece.bounds) p.up.push_back(bound.up());
-    p.sums.resize(mesh.triangles.size());
-    for (std::size_t t = 0; t < p.sums.size(); ++t) {
-        const Vec3 area = area_vector(mesh, t);
-        p.sums[t] = {area, dot(mesh.points[mesh.triangles[t][0]] - p.origin, area) / 3};
-    }
-    if (!objectives.undercut_by_area) {
-        p.unit.resize(p.sums.size());
-        for (std::size_t t = 0; t < p.unit.size(); ++t) {
-            const bool is_cap = !p.base.empty() && p.base[t] != no_base;
-            p.unit[t] = is_cap ? -piece.bounds[p.base[t]].up() : normalized(p.sums[t].area);
-        }
-    }
+    // Four passes that know nothing of each other.
+    tbb::parallel_invoke([&] { p.edges = edges(mesh); }, [&] { p.shells = shells(mesh); },
+                         [&] { p.neighbour = earlier_neighbours(mesh); },
+                         [&] { p.sums = triangle_sums(mesh, p.origin); });
+    if (!objectives.undercut_by_area) p.unit = unit_normals(p);
     if (objectives.fragility_form == FragilityForm::thesis) p.vertex_normals = vertex_normals(mesh);
     return p;
 }

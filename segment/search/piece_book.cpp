@@ -37,23 +37,13 @@ class SharedProgress {
 
 }  // namespace
 
-PieceBook::PieceBook(const TriangleMesh& scan, const Objectives& objectives, const CandidateOptions& options,
-                     PriceStore store)
-    : scan_(&scan), objectives_(objectives), options_(options), store_(std::move(store)) {}
-
-PieceBook::PieceBook(const RayTree& scan_rays, const Objectives& objectives, const CandidateOptions& options)
-    : given_rays_(&scan_rays), objectives_(objectives), options_(options) {}
+PieceBook::PieceBook(const Objectives& objectives, const CandidateOptions& options, PriceStore store)
+    : objectives_(objectives), options_(options), store_(std::move(store)) {}
 
 PieceBook::Entry& PieceBook::entry(const Piece& piece) {
     Entry& e = entries_[piece.mesh.get()];
     e.mesh = piece.mesh;
     return e;
-}
-
-const RayTree& PieceBook::rays() {
-    if (given_rays_ != nullptr) return *given_rays_;
-    if (!own_rays_) own_rays_ = std::make_unique<RayTree>(*scan_);
-    return *own_rays_;
 }
 
 const OrientedBox& PieceBook::box(const Piece& piece) {
@@ -113,11 +103,9 @@ void PieceBook::price(std::span<const Piece* const> pieces, const Context& conte
     std::size_t planes = 0;
     for (const Task& task : tasks) planes += task.prices.candidates.size();
     SharedProgress progress(context, planes);
-    const RayTree& tree = rays();
     tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
         Task& task = tasks[i];
-        task.prices.prices =
-            price_all(*task.piece, task.prices.candidates, objectives_, tree, progress.of_one_piece());
+        task.prices.prices = price_all(*task.piece, task.prices.candidates, objectives_, progress.of_one_piece());
     });
     for (Task& task : tasks) {
         if (store_.keep) store_.keep(*task.piece, task.prices);
@@ -137,7 +125,7 @@ const PiecePrices& PieceBook::prices(const Piece& piece) const {
 }
 
 std::optional<Price> PieceBook::price_of(const Piece& piece, const Candidate& plane, const Context& context) {
-    return price_all(piece, std::span(&plane, 1), objectives_, rays(), context).front();
+    return price_all(piece, std::span(&plane, 1), objectives_, context).front();
 }
 
 void PieceBook::keep_only(std::span<const Segmentation* const> segmentations) {

@@ -14,7 +14,6 @@
 
 #include "segment/context.h"
 #include "segment/mesh/oriented_box.h"
-#include "segment/mesh/rays.h"
 #include "segment/score/candidates.h"
 #include "segment/score/objectives.h"
 #include "segment/search/segmentation.h"
@@ -35,10 +34,7 @@ struct PriceStore {
 
 class PieceBook {
  public:
-    // `scan` is the uncut scan; both references must outlive the book. Its ray tree is built when first needed.
-    PieceBook(const TriangleMesh& scan, const Objectives& objectives, const CandidateOptions& options,
-              PriceStore store = {});
-    PieceBook(const RayTree& scan_rays, const Objectives& objectives, const CandidateOptions& options);
+    PieceBook(const Objectives& objectives, const CandidateOptions& options, PriceStore store = {});
 
     const OrientedBox& box(const Piece& piece);
     const SolidPrice& own(const Piece& piece);
@@ -67,13 +63,9 @@ class PieceBook {
     };
 
     Entry& entry(const Piece& piece);
-    const RayTree& rays();
     bool is_known(const Piece& piece, Entry& entry);
     std::vector<Candidate> candidates_of(const Piece& piece, const OrientedBox& box) const;
 
-    const TriangleMesh* scan_ = nullptr;
-    const RayTree* given_rays_ = nullptr;
-    std::unique_ptr<RayTree> own_rays_;
     Objectives objectives_;
     CandidateOptions options_;
     PriceStore store_;

@@ -20,15 +20,13 @@ class Writer {
     template <typename T>
     void put(T value) {
         static_assert(std::is_arithmetic_v<T>);
-        const auto* bytes = reinterpret_cast<const std::uint8_t*>(&value);
-        bytes_.insert(bytes_.end(), bytes, bytes + sizeof value);
+        add(&value, sizeof value);
     }
     template <typename T>
     void put_all(const std::vector<T>& values) {
         static_assert(std::is_trivially_copyable_v<T>);
         put(values.size());
-        const auto* bytes = reinterpret_cast<const std::uint8_t*>(values.data());
-        bytes_.insert(bytes_.end(), bytes, bytes + values.size() * sizeof(T));
+        add(values.data(), values.size() * sizeof(T));
     }
     void put(const Plane& p) {
         for (const double x : {p.normal.x, p.normal.y, p.normal.z, p.offset}) put(x);
@@ -37,6 +35,13 @@ class Writer {
     Bytes& bytes() { return bytes_; }
 
  private:
+    void add(const void* from, std::size_t count) {
+        if (count == 0) return;
+        const std::size_t before = bytes_.size();
+        bytes_.resize(before + count);
+        std::memcpy(bytes_.data() + before, from, count);
+    }
+
     Bytes bytes_;
 };
 
@@ -158,11 +163,9 @@ std::string name_of_file(const std::string& settings, const Piece& piece) {
 
 }  // namespace
 
-PriceStore price_cache(fs::path folder, std::string scan, const Objectives& objectives,
-                       const CandidateOptions& options) {
+PriceStore price_cache(fs::path folder, const Objectives& objectives, const CandidateOptions& options) {
     Writer w;
     w.put(version_of_prices);
-    w.put(scan);
     w.put(static_cast<int>(objectives.fragility_form));
     w.put(objectives.fragility_distance);
     w.put(static_cast<std::uint8_t>(objectives.undercut_by_area));

@@ -58,7 +58,7 @@ enum class Stage {
 
 struct Project {
     ScanSource scan;
-    std::string preset;  // empty: none
+    std::string preset;       // empty: none
     SearchSettings settings;  // their weights are those that stand now
     CrumbChoice crumbs = CrumbChoice::keep;
     Stage stage = Stage::cutting;

@@ -94,6 +94,18 @@ Cut cut_from(const Json& json) {
     return cut;
 }
 
+Json to_json(const Weights& w) {
+    return {{"face_ratio", w.face_ratio},
+            {"fragility", w.fragility},
+            {"piece_count", w.piece_count},
+            {"undercut", w.undercut}};
+}
+
+Weights weights_from(const Json& json) {
+    return {json.at("face_ratio").get<double>(), json.at("fragility").get<double>(),
+            json.at("piece_count").get<double>(), json.at("undercut").get<double>()};
+}
+
 Json to_json(const SearchSettings& s) {
     const Objectives& o = s.objectives;
     Json stop{{"combine", word_of(stop_words, s.stop.combine)},
@@ -135,18 +147,6 @@ SearchSettings settings_from(const Json& json) {
     if (stop.contains("min_cuts")) s.stop.min_cuts = stop.at("min_cuts").get<int>();
     if (stop.contains("max_obb_mm")) s.stop.max_obb = vec3(stop.at("max_obb_mm"));
     return s;
-}
-
-Json to_json(const Weights& w) {
-    return {{"face_ratio", w.face_ratio},
-            {"fragility", w.fragility},
-            {"piece_count", w.piece_count},
-            {"undercut", w.undercut}};
-}
-
-Weights weights_from(const Json& json) {
-    return {json.at("face_ratio").get<double>(), json.at("fragility").get<double>(),
-            json.at("piece_count").get<double>(), json.at("undercut").get<double>()};
 }
 
 Json to_json(const SolidRecord& solid) {

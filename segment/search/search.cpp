@@ -66,8 +66,7 @@ class Search {
             for (Bsp& b : beam_) {
                 if (!b.is_live() || !b.ranked.empty()) continue;
                 b.ranked = rank(b.segmentation, *b.next.piece, settings_, book_, context_);
-                b.children =
-                    without_near_duplicates(b.ranked, settings_.candidates.offsets_per_normal, settings_.near);
+                b.children = without_near_duplicates(b.ranked, settings_.candidates.offsets_per_normal, settings_.near);
                 if (!b.ranked.empty()) continue;
                 b.passed_over.push_back(b.segmentation.pieces[*b.next.piece].name);
                 b.next = judge_.next(b.segmentation, b.passed_over);
@@ -115,12 +114,13 @@ class Search {
     }
 
     SearchEnd end(Segmentation& segmentation, std::optional<double> time_limit_s) {
-        const auto finished =
-            std::find_if(beam_.begin(), beam_.end(), [](const Bsp& b) { return b.next.is_finished; });
+        const auto finished = std::find_if(beam_.begin(), beam_.end(), [](const Bsp& b) { return b.next.is_finished; });
         const Bsp& best = finished != beam_.end() ? *finished : beam_.empty() ? *stuck_ : beam_.front();
-        SearchEnd end{finished != beam_.end(), "the stop rules hold", time_limit_s.has_value(), best.cost};
+        SearchEnd end{finished != beam_.end(),
+                      settings_.stop.is_any_set() ? "the stop rules hold" : "no stop rule is set",
+                      time_limit_s.has_value(), best.cost};
         if (time_limit_s) {
-            end.reason = (end.is_finished ? "the stop rules hold; " : "") + std::string("the time limit of ") +
+            end.reason = (end.is_finished ? end.reason + "; " : "") + std::string("the time limit of ") +
                          in_words(*time_limit_s) + " is reached";
         } else if (!end.is_finished) {
             const bool is_safety = static_cast<int>(best.segmentation.cuts.size()) >= settings_.stop.max_cuts;
@@ -151,10 +151,12 @@ std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, co
     return rank(book.prices(*target), others, settings.objectives);
 }
 
-std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
-                         const RayTree& scan_rays, const Context& context) {
-    PieceBook book(scan_rays, settings.objectives, settings.candidates);
-    return rank(segmentation, piece, settings, book, context);
+std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t piece, const Candidate& plane,
+                                 const SearchSettings& settings, PieceBook& book, const Context& context) {
+    const PiecePrices alone{{plane}, {book.price_of(segmentation.pieces[piece], plane, context)}};
+    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, book);
+    const std::vector<Ranked> ranked = rank(alone, others, settings.objectives);
+    return ranked.empty() ? std::nullopt : std::optional(ranked.front());
 }
 
 Cut cut_by(const Segmentation& segmentation, std::size_t piece, const std::vector<Ranked>& ranked, std::size_t k,
@@ -174,13 +176,6 @@ SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, Pie
                  const std::function<void(const Segmentation&)>& on_round, const Context& context,
                  std::optional<double> time_limit_s) {
     return Search(settings, book, fits_cell, context).run(segmentation, on_round, time_limit_s);
-}
-
-SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, const RayTree& scan_rays,
-                 const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
-                 const Context& context) {
-    PieceBook book(scan_rays, settings.objectives, settings.candidates);
-    return search(segmentation, settings, book, fits_cell, on_round, context);
 }
 
 }  // namespace qchopper

@@ -36,12 +36,23 @@ struct SearchSettings {
 // All candidates of one piece, best first.
 std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
                          PieceBook& book, const Context& context);
-std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
-                         const RayTree& scan_rays, const Context& context);
+inline std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
+                                const RayTree&, const Context& context) {
+    PieceBook book(settings.objectives, settings.candidates);
+    return rank(segmentation, piece, settings, book, context);
+}
+
+// One plane that is no candidate of the piece. Nothing if it misses, or leaves fewer than two pieces that are no
+// crumbs.
+std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t piece, const Candidate& plane,
+                                 const SearchSettings& settings, PieceBook& book, const Context& context);
 
 // The cut that takes the k-th of a ranking (from 0), with the next best beside it; its number follows the others'.
 Cut cut_by(const Segmentation& segmentation, std::size_t piece, const std::vector<Ranked>& ranked, std::size_t k,
            std::size_t runners_up);
+
+// How the warning begins that stands in a project whose search ended too early.
+constexpr const char* rules_do_not_hold = "the stop rules do not hold: ";
 
 struct SearchEnd {
     bool is_finished = false;     // the stop rules hold
@@ -56,8 +67,11 @@ struct SearchEnd {
 SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, PieceBook& book, const FitsCell& fits_cell,
                  const std::function<void(const Segmentation&)>& on_round, const Context& context,
                  std::optional<double> time_limit_s = std::nullopt);
-SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, const RayTree& scan_rays,
-                 const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
-                 const Context& context);
+inline SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, const RayTree&,
+                        const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
+                        const Context& context) {
+    PieceBook book(settings.objectives, settings.candidates);
+    return search(segmentation, settings, book, fits_cell, on_round, context);
+}
 
 }  // namespace qchopper

@@ -22,8 +22,7 @@ bool fits_in(Vec3 size, Vec3 room) {
     return a[0] <= b[0] && a[1] <= b[1] && a[2] <= b[2];
 }
 
-StopJudge::StopJudge(StopRules rules, FitsCell fits_cell, std::function<Vec3(const Piece&)> box_size)
-    : rules_(rules) {
+StopJudge::StopJudge(StopRules rules, FitsCell fits_cell, std::function<Vec3(const Piece&)> box_size) : rules_(rules) {
     if (rules.max_faces) {
         piece_rules_.emplace_back(
             [most = *rules.max_faces](const Piece& p) { return p.mesh->triangles.size() < most; });

@@ -57,14 +57,14 @@ class OneWay(unittest.TestCase):
             root = Path(folder)
             for room in ROOMS:
                 shutil.copytree(ROOT / room, root / room)
-            self.assertEqual(faults(root), [])
+            already = set(faults(root))  # the first test tells of these
             for what, (name, line, words) in PLANTED.items():
                 with self.subTest(what):
                     path = root / name
                     before = path.read_text(encoding="utf-8") if path.exists() else None
                     path.parent.mkdir(exist_ok=True)
                     path.write_text(line + "\n" + (before or ""), encoding="utf-8")
-                    found = faults(root)
+                    found = set(faults(root)) - already
                     self.assertTrue(any(words in fault for fault in found), f"{words!r} not in {found}")
                     if before is None:
                         path.unlink()

@@ -1,6 +1,7 @@
 #include "segment/score/candidates.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include "segment/cut/nudge.h"
 #include "segment/score/pricing.h"
@@ -37,6 +38,36 @@ TEST(Candidates, PricesComeInTheOrderOfTheCandidates) {
         ASSERT_EQ(prices[i].has_value(), alone.has_value());
         EXPECT_NEAR(prices[i]->fragility, alone->fragility, 1e-9);
         EXPECT_NEAR(prices[i]->cap_area_mm2, alone->cap_area_mm2, 1e-6);
+    }
+}
+
+TEST(Candidates, PricesAreTheSameToTheLastBitForAnyNumberOfThreads) {
+    const TriangleMesh mesh = shapes::joined({shapes::nested(), shapes::torus({200, 0, 0}, 40, 12, 90)});
+    const Piece piece = piece_of(mesh);
+    const std::vector<Candidate> all = candidate_planes(piece, {});
+    const auto price_with = [&](std::size_t threads, FragilityForm form) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        Objectives objectives;
+        objectives.fragility_form = form;
+        return price_all(piece, all, objectives, {});
+    };
+    for (const FragilityForm form : {FragilityForm::thinness, FragilityForm::thesis}) {
+        const auto one = price_with(1, form);
+        for (const std::size_t threads : {2, 3}) {
+            const auto many = price_with(threads, form);
+            ASSERT_EQ(many.size(), one.size());
+            for (std::size_t i = 0; i < one.size(); ++i) {
+                ASSERT_EQ(many[i].has_value(), one[i].has_value());
+                if (!one[i]) continue;
+                EXPECT_EQ(many[i]->fragility, one[i]->fragility);
+                EXPECT_EQ(many[i]->cap_area_mm2, one[i]->cap_area_mm2);
+                ASSERT_EQ(many[i]->solids.size(), one[i]->solids.size());
+                for (std::size_t s = 0; s < one[i]->solids.size(); ++s) {
+                    EXPECT_EQ(many[i]->solids[s].volume_mm3, one[i]->solids[s].volume_mm3);
+                    EXPECT_EQ(undercut(many[i]->solids[s], true), undercut(one[i]->solids[s], true));
+                }
+            }
+        }
     }
 }
 

@@ -1,0 +1,22 @@
+// What a general tool takes for one cut: CGAL's clip of both sides of a plane, to compare with.
+
+#pragma once
+
+#include <cstddef>
+
+#include "segment/cut/plane.h"
+#include "segment/mesh/triangle_mesh.h"
+
+namespace qchopper::bench {
+
+struct ClipResult {
+    double cpu_s = 0;  // both sides; without copying the mesh into CGAL's
+    std::size_t faces_above = 0;
+    std::size_t faces_below = 0;
+    bool is_closed = false;
+};
+
+// Both halves capped (clip_volume).
+ClipResult cgal_clip(const TriangleMesh& mesh, const Plane& plane);
+
+}  // namespace qchopper::bench

@@ -1,0 +1,71 @@
+#include <atomic>
+
+#include "bench/clock.h"
+#include "bench/measures.h"
+#include "bench/threads.h"
+#include "segment/search/search.h"
+
+namespace qchopper::bench {
+namespace {
+
+struct Run {
+    double first_s = 0;  // to the first cut made
+    double whole_s = 0;
+    double pricing_s = 0;  // wall: boxes, offsets and prices
+    std::size_t cuts = 0;
+    std::size_t pieces = 0;
+};
+
+template <class Clock>
+Run run_to(const Measured& m, std::size_t pieces, std::size_t threads, Clock clock) {
+    const Threads limit(threads);
+    SearchSettings settings;
+    settings.objectives.crumb_volume_mm3 = m.crumb_volume_mm3;
+    settings.stop.min_cuts = 10 * static_cast<int>(pieces);
+    Run run;
+    const double started = clock();
+    Segmentation s = uncut(*m.piece.mesh, m.crumb_volume_mm3);
+    // The store is asked before the book prices and told afterwards, which is a clock for nothing.
+    double asked = 0;
+    PriceStore between;
+    between.find = [&](const Piece&) -> std::optional<PiecePrices> {
+        asked = wall_s();
+        return std::nullopt;
+    };
+    between.keep = [&](const Piece&, const PiecePrices&) {
+        run.pricing_s += asked > 0 ? wall_s() - asked : 0;
+        asked = 0;
+    };
+    PieceBook book(settings.objectives, settings.candidates, between);
+    std::atomic<bool> is_enough = false;
+    Context context;
+    context.cancelled = &is_enough;
+    const auto on_round = [&](const Segmentation& now) {
+        run.whole_s = clock() - started;
+        if (now.cuts.size() == 1) run.first_s = run.whole_s;
+        run.cuts = now.cuts.size();
+        run.pieces = now.pieces.size();
+        is_enough = now.pieces.size() >= pieces;
+    };
+    try {
+        search(s, settings, book, {}, on_round, context);
+    } catch (const Cancelled&) {  // there are enough
+    }
+    return run;
+}
+
+}  // namespace
+
+void measure_run(const Measured& m, std::size_t pieces, Figures& figures) {
+    const Run one = run_to(m, pieces, 1, cpu_s);
+    figures.tell(m.name, "whole run: " + std::to_string(one.cuts) + " cuts, " + std::to_string(one.pieces) + " pieces",
+                 time_text(one.whole_s) + ", the first cut after " + time_text(one.first_s));
+    figures.at_most(m.name, "whole run / first decision", one.whole_s / one.first_s, 6);
+    const Run alone = run_to(m, pieces, 1, wall_s);
+    const Run two = run_to(m, pieces, 2, wall_s);
+    figures.tell(m.name, "all pricing of the run, wall",
+                 time_text(alone.pricing_s) + "; two threads " + time_text(two.pricing_s));
+    figures.at_least(m.name, "that: one thread / two threads", alone.pricing_s / two.pricing_s, 1.7);
+}
+
+}  // namespace qchopper::bench

@@ -1,0 +1,150 @@
+#include "cli/segment_project.h"
+
+#include <unistd.h>
+
+#include "cam/job/text.h"
+#include "cli/segment_values.h"
+#include "segment/error.h"
+#include "segment/intake/inspect.h"
+#include "segment/mesh/measure.h"
+#include "segment/search/presets.h"
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double crumb_share = 1e-5;  // of the scan's volume
+
+SearchSettings settings_of(const ProjectArguments& a, double scan_volume_mm3) {
+    SearchSettings settings = a.preset ? *preset(*a.preset) : SearchSettings{};
+    settings.stop = given_rules(a).value_or(settings.stop);
+    if (a.stop) settings.stop.combine = *a.stop == "any" ? Stop::any : Stop::all;
+    if (a.fragility) {
+        settings.objectives.fragility_form = *a.fragility == "thesis" ? FragilityForm::thesis : FragilityForm::thinness;
+    }
+    if (a.weights) settings.objectives.weights = weights_from(*a.weights)->over(settings.objectives.weights);
+    if (a.beam) settings.beam = static_cast<std::size_t>(*a.beam);
+    settings.objectives.crumb_volume_mm3 = crumb_share * scan_volume_mm3;
+    return settings;
+}
+
+Intake take_in_as(const fs::path& scan, Unit unit, double scale, Terminal& terminal) {
+    IntakeOptions options;
+    options.mm_per_unit = mm_per(unit);
+    options.scale = scale;
+    Intake intake = take_in(scan, options, terminal.context());
+    const IntakeReport& r = intake.report;
+    std::string line = scan.filename().string() + ": " + with_commas(intake.mesh.triangles.size()) + " faces, " +
+                       size_in_words(bounds(intake.mesh).size()) + ".";
+    if (r.holes_filled > 0) line += " " + with_commas(r.holes_filled) + " holes closed.";
+    if (r.collapsed_dropped > 0) line += " " + with_commas(r.collapsed_dropped) + " collapsed faces dropped.";
+    if (r.pinched_split > 0) line += " " + with_commas(r.pinched_split) + " pinched points split.";
+    if (r.shells_turned > 0) line += " " + with_commas(r.shells_turned) + " shells turned outwards.";
+    terminal.say(line);
+    return intake;
+}
+
+}  // namespace
+
+std::optional<StopRules> given_rules(const ProjectArguments& a) {
+    if (!a.min_cuts && !a.max_faces && !a.max_obb && !a.fits_cell) return std::nullopt;
+    StopRules rules;
+    rules.min_cuts = a.min_cuts;
+    rules.max_faces = a.max_faces;
+    rules.max_obb = a.max_obb;
+    rules.fits_cell = a.fits_cell;
+    if (a.stop) rules.combine = *a.stop == "any" ? Stop::any : Stop::all;
+    return rules;
+}
+
+fs::path without_slash(const fs::path& folder) {
+    return folder.has_filename() ? folder : folder.parent_path();
+}
+
+void check_output(const fs::path& out) {
+    std::error_code error;
+    if (fs::exists(out, error)) {
+        throw InputError(InputFault::create, out.string() + " exists already",
+                         fs::exists(out / "project.json", error)
+                             ? "go on with it by: qchopper prepare " + out.string() + ", or choose another name"
+                             : "choose another name");
+    }
+    const fs::path parent = out.has_parent_path() ? out.parent_path() : fs::path(".");
+    if (!fs::is_directory(parent, error)) {
+        throw InputError(InputFault::create, out.string() + " cannot be made: there is no folder " + parent.string(),
+                         "make that folder first");
+    }
+    if (::access(parent.c_str(), W_OK) != 0) {
+        throw InputError(InputFault::create,
+                         out.string() + " cannot be made: " + parent.string() + " cannot be written",
+                         "choose another place");
+    }
+}
+
+Intake take_in_scan(const fs::path& scan, const ProjectArguments& a, Terminal& terminal) {
+    Intake intake = take_in_as(scan, unit_named(*a.units), a.scale.value_or(1), terminal);
+    for (const std::string& warning : intake.report.warnings) terminal.warn(warning);
+    return intake;
+}
+
+Intake take_in_scan(const Project& project, Terminal& terminal) {
+    const ScanSource& s = project.scan;
+    Intake intake = take_in_as(s.path, s.unit, s.scale, terminal);
+    if (to_hex(intake.sha256) != s.sha256) {
+        throw InputError(InputFault::mesh, s.path.string() + " is not the scan that the project was made from",
+                         "put that scan back, or prepare this one as a new project");
+    }
+    return intake;
+}
+
+Project new_project(const fs::path& scan, const Intake& intake, const ProjectArguments& a) {
+    Project project;
+    project.scan.path = fs::absolute(scan);
+    project.scan.unit = unit_named(*a.units);
+    project.scan.scale = a.scale.value_or(1);
+    project.scan.sha256 = to_hex(intake.sha256);
+    project.scan.centre = intake.centre;
+    project.scan.faces = intake.mesh.triangles.size();
+    project.scan.volume_mm3 = volume_mm3(intake.mesh);
+    project.scan.warnings = intake.report.warnings;
+    project.preset = a.preset.value_or("");
+    project.settings = settings_of(a, project.scan.volume_mm3);
+    project.history.weights_at_start = project.settings.objectives.weights;
+    project.crumbs = a.crumbs && *a.crumbs == "drop" ? CrumbChoice::drop : CrumbChoice::keep;
+    project.warnings = intake.report.warnings;
+    return project;
+}
+
+void create_project(const fs::path& folder, const Project& project, const std::optional<Bytes>& cell_file) {
+    const fs::path aside = folder.string() + ".tmp." + std::to_string(::getpid());
+    try {
+        fs::create_directories(aside / "pieces");
+        fs::create_directory(aside / "jobs");
+        fs::create_directory(aside / "pictures");
+        if (cell_file) write_file(aside / "cell.toml", *cell_file);
+        save_project(aside, project);
+        fs::rename(aside, folder);
+    } catch (const fs::filesystem_error& e) {
+        fs::remove_all(aside);
+        throw InputError(InputFault::create, folder.string() + " cannot be made: " + e.code().message(),
+                         "choose another place");
+    } catch (...) {
+        fs::remove_all(aside);
+        throw;
+    }
+}
+
+std::string cut_line(const Cut& cut) {
+    const Terms& t = cut.chosen.terms;
+    std::string made;
+    for (const std::string& name : cut.pieces) made += (made.empty() ? "" : ", ") + name;
+    const std::string which =
+        cut.chosen.normal < 0 ? "given plane" : "best of " + std::to_string(cut.candidates) + " planes";
+    return "cut " + std::to_string(cut.number) + " on piece " + cut.piece + ": " + which + ", total " +
+           fixed(t.total, 3) + " (face ratio " + fixed(t.face_ratio, 2) + ", fragility " + fixed(t.fragility, 3) +
+           ", piece count " + fixed(t.piece_count, 0) + ", undercut " + fixed(t.undercut, 3) + "); makes " + made +
+           (cut.crumbs > 0 ? " and " + std::to_string(cut.crumbs) + " crumbs" : "");
+}
+
+}  // namespace qchopper

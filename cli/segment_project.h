@@ -1,0 +1,41 @@
+// Makes a project folder of a scan and takes its scan in again: what prepare and segment have in common.
+
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "cam/cell/cell.h"
+#include "cli/arguments.h"
+#include "cli/terminal.h"
+#include "segment/files/file.h"
+#include "segment/intake/intake.h"
+#include "segment/search/project.h"
+
+namespace qchopper {
+
+// The stop rules that were given; they replace all that stood before. Nothing was given: nothing.
+std::optional<StopRules> given_rules(const ProjectArguments& arguments);
+
+// NAME.qch/ is NAME.qch.
+std::filesystem::path without_slash(const std::filesystem::path& folder);
+
+// Throws InputError (create) if there is something already, or nothing can be made there.
+void check_output(const std::filesystem::path& out);
+
+// The scan as the arguments say; tells what was done to it.
+Intake take_in_scan(const std::filesystem::path& scan, const ProjectArguments& arguments, Terminal& terminal);
+// The scan of a project. Throws InputError (mesh) if it is another one now.
+Intake take_in_scan(const Project& project, Terminal& terminal);
+
+// The project of a scan before its first cut.
+Project new_project(const std::filesystem::path& scan, const Intake& intake, const ProjectArguments& arguments);
+
+// The folder appears whole or not at all. `cell_file`: the bytes of the cell file, if a cell is known.
+void create_project(const std::filesystem::path& folder, const Project& project, const std::optional<Bytes>& cell_file);
+
+// "cut 2 on piece B: best of 120 planes, total 3.929 (...); makes D, E".
+std::string cut_line(const Cut& cut);
+
+}  // namespace qchopper

@@ -1,0 +1,45 @@
+// What segment answers: a few lines or a table for people, one JSON document for programs.
+
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "segment/search/outline.h"
+#include "segment/search/project.h"
+
+namespace qchopper {
+
+// The ranking of one piece.
+struct Proposal {
+    std::string piece;
+    std::size_t faces = 0;
+    bool rules_hold = false;
+    std::vector<Ranked> ranked;  // all
+    std::size_t top = 10;        // so many are shown
+};
+
+// What one plane would make.
+struct Preview {
+    std::string piece;
+    Ranked plane;
+    Outline outline;
+    std::vector<SolidPrice> solids;
+};
+
+struct SegmentAnswer {
+    std::string done;                // the decision in words; empty: none was made
+    std::vector<std::string> notes;  // whole lines
+    bool is_demand_met = true;       // false: exit 1, and the last note says why
+    std::optional<Proposal> proposal;
+    std::optional<Preview> preview;
+    std::optional<std::filesystem::path> plan;  // that was written
+};
+
+std::vector<std::string> lines(const SegmentAnswer& answer, const std::filesystem::path& folder,
+                               const Project& project);
+std::string document(const SegmentAnswer& answer, const std::filesystem::path& folder, const Project& project);
+
+}  // namespace qchopper

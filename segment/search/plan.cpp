@@ -1,0 +1,65 @@
+#include "segment/search/plan.h"
+
+#include <algorithm>
+
+#include "segment/error.h"
+#include "segment/search/inside.h"
+
+namespace qchopper {
+namespace {
+
+std::vector<Side> path_of(const Piece& piece) {
+    std::vector<Side> path;
+    for (const Bound& bound : piece.bounds) path.push_back({bound.cut, bound.above});
+    return path;
+}
+
+const Piece& piece_named(const Segmentation& segmentation, const std::string& name) {
+    return *std::find_if(segmentation.pieces.begin(), segmentation.pieces.end(),
+                         [&](const Piece& p) { return p.name == name; });
+}
+
+PlanCut plan_cut(const Cut& cut, const Piece& piece, Vec3 centre) {
+    const std::optional<Vec3> inside = deep_point(*piece.mesh);
+    if (!inside) throw InputError(InputFault::mesh, "piece " + piece.name + " has no inside", "check the scan");
+    PlanCut p;
+    p.number = cut.number;
+    p.piece = cut.piece;
+    p.path = path_of(piece);
+    p.from_centre = cut.chosen.plane.offset;
+    p.plane = {cut.chosen.plane.normal, p.from_centre + height(cut.chosen.plane.normal, centre)};
+    p.inside = *inside + centre;
+    p.volume_mm3 = volume_mm3(*piece.mesh);
+    return p;
+}
+
+}  // namespace
+
+Plan make_plan(const Project& project, const TriangleMesh& scan) {
+    const ScanSource& s = project.scan;
+    const Box box = bounds(scan);
+    Plan plan;
+    plan.scan = {s.path.filename().string(),
+                 s.sha256,
+                 s.unit,
+                 s.scale,
+                 s.centre,
+                 s.faces,
+                 s.volume_mm3,
+                 {box.min + s.centre, box.max + s.centre}};
+    plan.weights = project.settings.objectives.weights;
+    const double crumb_volume = project.settings.objectives.crumb_volume_mm3;
+    Segmentation segmentation = uncut(scan, crumb_volume);
+    for (const Cut& cut : project.cuts) {
+        PlanCut p = plan_cut(cut, piece_named(segmentation, cut.piece), s.centre);
+        apply(segmentation, cut, crumb_volume);
+        for (const std::string& name : segmentation.cuts.back().pieces) {
+            p.makes_mm3.push_back(volume_mm3(*piece_named(segmentation, name).mesh));
+        }
+        std::sort(p.makes_mm3.rbegin(), p.makes_mm3.rend());
+        plan.cuts.push_back(std::move(p));
+    }
+    return plan;
+}
+
+}  // namespace qchopper

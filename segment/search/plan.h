@@ -1,0 +1,68 @@
+// The plan: the cuts of a project as a small text file, to be made again on another version of the same specimen.
+//
+// Lengths are millimetres in the scan's own frame: the coordinates of its file, times unit and scale, not moved to any
+// centre. Written and read again a plan is the same plan (tests/segment/search/plan_test.cpp). docs/plan-file.md is the
+// grammar.
+
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "segment/mesh/measure.h"
+#include "segment/search/project.h"
+
+namespace qchopper {
+
+// On which side of an earlier cut a piece lies.
+struct Side {
+    std::int32_t cut = 0;
+    bool above = true;
+    bool operator==(const Side&) const = default;
+};
+
+struct PlanCut {
+    std::int32_t number = 0;
+    std::string piece;              // its name where the plan was made
+    std::vector<Side> path;         // where it lies in the BSP
+    Plane plane;                    // in the scan's own frame
+    double from_centre = 0;         // the same offset counted from PlanScan::centre, exact to the last bit
+    Vec3 inside;                    // a point deep in the piece before the cut
+    double volume_mm3 = 0;          // of the piece before the cut
+    std::vector<double> makes_mm3;  // volumes of the pieces that the cut made, largest first
+    bool operator==(const PlanCut&) const = default;
+};
+
+// The scan that the plan was made on.
+struct PlanScan {
+    std::string name;
+    std::string sha256;
+    Unit unit = Unit::mm;
+    double scale = 1;
+    Vec3 centre;
+    std::size_t faces = 0;
+    double volume_mm3 = 0;
+    Box box;
+    bool operator==(const PlanScan&) const = default;
+};
+
+struct Plan {
+    PlanScan scan;
+    Weights weights;  // that stood when it was written
+    std::vector<PlanCut> cuts;
+    bool operator==(const Plan&) const = default;
+};
+
+// The cuts that stand. Throws InputError (mesh) if a piece has no inside.
+Plan make_plan(const Project& project, const TriangleMesh& scan);
+
+std::string to_text(const Plan& plan);
+
+// Throws InputError (config) naming file, line, key and why.
+Plan plan_from_text(std::string_view text, const std::string& file);
+
+// Does a file begin as a plan does?
+bool looks_like_a_plan(std::string_view text);
+
+}  // namespace qchopper

@@ -1,0 +1,62 @@
+#include "tests/segment/search/greedy.h"
+
+#include <algorithm>
+
+#include "segment/score/pricing.h"
+
+namespace qchopper::greedy {
+namespace {
+
+std::vector<Ranked> ranked(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings) {
+    std::vector<PieceShare> others;
+    for (std::size_t p = 0; p < segmentation.pieces.size(); ++p) {
+        if (p != piece) others.push_back(share(measure(segmentation.pieces[p]), settings.objectives));
+    }
+    std::vector<Ranked> all;
+    for (const Candidate& c : candidate_planes(segmentation.pieces[piece], settings.candidates)) {
+        const auto price =
+            price_all(segmentation.pieces[piece], std::span(&c, 1), settings.objectives, Context{}).front();
+        const std::optional<Terms> t = price ? terms(*price, others, settings.objectives) : std::nullopt;
+        if (t) all.push_back({c.plane, c.wanted_offset, c.normal, c.offset, *t});
+    }
+    // The order of the candidates is that of ties: a plane goes before another only if it is better by more than a tie
+    // than the best of those that are left.
+    std::vector<Ranked> result;
+    while (!all.empty()) {
+        double best = all.front().terms.total;
+        for (const Ranked& r : all) best = std::min(best, r.terms.total);
+        for (auto r = all.begin(); r != all.end();) {
+            if (r->terms.total > best + tie) {
+                ++r;
+                continue;
+            }
+            result.push_back(*r);
+            r = all.erase(r);
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+bool search(Segmentation& segmentation, const SearchSettings& settings) {
+    std::vector<std::string> passed_over;
+    while (true) {
+        const NextPiece next = next_piece(segmentation, settings.stop, {}, passed_over);
+        if (next.is_finished || !next.piece) return next.is_finished;
+        const std::string name = segmentation.pieces[*next.piece].name;
+        const std::vector<Ranked> all = ranked(segmentation, *next.piece, settings);
+        Cut cut;
+        cut.number = static_cast<std::int32_t>(segmentation.cuts.size()) + 1;
+        cut.piece = name;
+        cut.candidates = all.size();
+        if (!all.empty()) {
+            cut.chosen = all.front();
+            const auto last = std::min(all.size(), settings.runners_up + 1);
+            cut.runners_up.assign(all.begin() + 1, all.begin() + static_cast<std::ptrdiff_t>(last));
+        }
+        if (all.empty() || !apply(segmentation, cut, settings.objectives.crumb_volume_mm3)) passed_over.push_back(name);
+    }
+}
+
+}  // namespace qchopper::greedy
