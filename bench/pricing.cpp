@@ -90,26 +90,27 @@ std::vector<Vec3> directions(int count) {
     return result;
 }
 
-Piece with_six_caps(const Measured& measured, const std::vector<Planes>& planes) {
-    Segmentation s;
-    s.pieces.push_back(measured.piece);
-    s.pieces.front().name = "A";
-    for (const Planes& p : planes) {
-        for (const std::size_t i : {std::size_t{2}, p.offsets.size() - 3}) {
-            const auto most = std::max_element(s.pieces.begin(), s.pieces.end(), [](const Piece& a, const Piece& b) {
-                return a.mesh->triangles.size() < b.mesh->triangles.size();
-            });
-            Cut next;
-            next.number = static_cast<std::int32_t>(s.cuts.size()) + 1;
-            next.piece = most->name;
-            next.chosen.plane = {p.normal, p.offsets[i]};
-            Segmentation one{{}, {*most}, {}, s.names_given + 1, {}};
-            if (apply(one, next, measured.crumb_volume_mm3)) s = std::move(one);
-        }
-    }
+const Piece& most_faces(const Segmentation& s) {
     return *std::max_element(s.pieces.begin(), s.pieces.end(), [](const Piece& a, const Piece& b) {
         return a.mesh->triangles.size() < b.mesh->triangles.size();
     });
+}
+
+// Slices off both ends along every normal; what stays has most of the faces.
+Piece with_six_caps(const Measured& measured, const std::vector<Planes>& planes) {
+    Segmentation s;
+    s.pieces.push_back(measured.piece);
+    s.pieces.front().name = piece_name(s.names_given++);
+    for (const Planes& p : planes) {
+        for (const std::size_t i : {std::size_t{2}, p.offsets.size() - 3}) {
+            Cut slice;
+            slice.number = static_cast<std::int32_t>(s.cuts.size()) + 1;
+            slice.piece = most_faces(s).name;
+            slice.chosen.plane = {p.normal, p.offsets[i]};
+            apply(s, slice, measured.crumb_volume_mm3);
+        }
+    }
+    return most_faces(s);
 }
 
 }  // namespace

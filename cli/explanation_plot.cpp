@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -15,11 +16,14 @@ struct TermRow {
     double Terms::*value;
     double Weights::*weight;
     std::size_t colour;  // of the pieces' palette: those that are dark enough on white
+    bool is_bounded;     // else it is drawn for the better third, because the worst are thousands of times worse
+    double step;         // the least that its axis spans
 };
-constexpr std::array<TermRow, 4> term_rows{{{"Face ratio", &Terms::face_ratio, &Weights::face_ratio, 0},
-                                            {"Fragility", &Terms::fragility, &Weights::fragility, 6},
-                                            {"Piece count", &Terms::piece_count, &Weights::piece_count, 9},
-                                            {"Undercut", &Terms::undercut, &Weights::undercut, 3}}};
+constexpr std::array<TermRow, 4> term_rows{{{"Face ratio", &Terms::face_ratio, &Weights::face_ratio, 0, false, 0.01},
+                                            {"Fragility", &Terms::fragility, &Weights::fragility, 6, true, 0.01},
+                                            {"Piece count", &Terms::piece_count, &Weights::piece_count, 9, false, 1},
+                                            {"Undercut", &Terms::undercut, &Weights::undercut, 3, true, 0.01}}};
+constexpr std::size_t contest = 12;  // planes that make up the contest for the first place
 constexpr std::size_t total_colour = 5;
 
 // The candidates of one normal, by offset.
@@ -50,7 +54,7 @@ std::vector<Line> lines_of(const Explanation& e) {
         std::any_of(lines.begin(), lines.end(), [&](const Line& l) { return l.normal == e.chosen.plane.normal; });
     if (!has_line) {
         const Vec3 n = e.chosen.plane.normal;
-        lines.push_back({"The operator's normal  " + of_normal(n), n, e.beside});
+        lines.push_back({"Own normal  " + of_normal(n), n, e.beside});
     }
     return lines;
 }
@@ -68,29 +72,37 @@ std::vector<PlotPoint> curve(const Line& line, double Terms::*value, double fact
     return points;
 }
 
-// Planes near the ends cost many times what the others do; the range serves those that compete.
-PlotRange range_of(const PlotRow& row, double chosen, bool from_zero) {
-    std::vector<double> values{chosen};
-    for (const auto& points : row.curves) {
-        for (const PlotPoint& p : points) {
-            if (std::isfinite(p.y)) values.push_back(p.y);
-        }
+// The range of a value over the best of the planes and the chosen one, at least so wide.
+PlotRange range_of(const Explanation& e, std::size_t best, double Terms::*value, double factor, double least) {
+    PlotRange range{factor * e.chosen.terms.*value, factor * e.chosen.terms.*value};
+    for (std::size_t i = 0; i < std::min(best, e.ranked.size()); ++i) {
+        range.low = std::min(range.low, factor * e.ranked[i].terms.*value);
+        range.high = std::max(range.high, factor * e.ranked[i].terms.*value);
     }
-    std::sort(values.begin(), values.end());
-    const double most = values.back();
-    const double low = from_zero ? std::min(values.front(), 0.0) : values.front();
-    const double usual = std::max(values[values.size() * 3 / 4], chosen);
-    double high = most - low <= 2.5 * (usual - low) || usual <= low ? most : low + 1.25 * (usual - low);
-    if (high <= low) high = low + 1;
-    const double room = 0.08 * (high - low);
-    return {from_zero ? low - room / 2 : low - room, high + room};
+    range.high = std::max(range.high, range.low + least);
+    const double room = 0.08 * (range.high - range.low);
+    return {range.low - room, range.high + room};
 }
 
-PlotRow row_of(const std::vector<Line>& lines, double Terms::*value, double factor, double chosen, bool from_zero) {
+PlotRow row_of(const std::vector<Line>& lines, const std::string& title, std::size_t colour, double Terms::*value,
+               double factor) {
     PlotRow row;
+    row.title = title;
+    row.colour = piece_colour(colour);
     for (const Line& line : lines) row.curves.push_back(curve(line, value, factor));
-    row.range = range_of(row, factor * chosen, from_zero);
     return row;
+}
+
+// Most planes cost many times the best: all of them on a logarithmic axis, then the contest for the first place.
+void add_totals(Plot& plot, const Explanation& e, const std::vector<Line>& lines) {
+    PlotRow all = row_of(lines, "Total of all, logarithmic", total_colour, &Terms::total, 1);
+    all.is_logarithmic = true;
+    all.line = 2;
+    plot.rows.push_back(all);
+    PlotRow best = row_of(lines, "Total of the best", total_colour, &Terms::total, 1);
+    best.range = range_of(e, contest, &Terms::total, 1, 1e-3);
+    best.line = 2;
+    plot.rows.push_back(best);
 }
 
 std::string weight_words(double weight) {
@@ -106,9 +118,9 @@ Plot plot(const Explanation& e, const std::string& project) {
     const std::vector<Line> lines = lines_of(e);
     Plot plot;
     plot.title = project + ": cut " + std::to_string(e.cut.number) + " on piece " + e.cut.piece;
-    plot.notes = {verdict(e),
-                  "Rows: the total, then what each objective adds to it (value times weight); lower is better. Arrows: "
-                  "beyond the frame."};
+    plot.notes = {
+        verdict(e),
+        "Below the totals: what each objective adds (value times weight). Lower is better. Arrows: beyond the frame."};
     for (const Line& line : lines) {
         PlotColumn column{line.title, "offset along the normal, mm", {}};
         if (line.normal == e.chosen.plane.normal) {
@@ -124,16 +136,15 @@ Plot plot(const Explanation& e, const std::string& project) {
         }
         plot.columns.push_back(std::move(column));
     }
-    PlotRow total = row_of(lines, &Terms::total, 1, e.chosen.terms.total, false);
-    total.title = "Total";
-    total.colour = piece_colour(total_colour);
-    total.line = 2;
-    plot.rows.push_back(std::move(total));
+    add_totals(plot, e, lines);
     for (const TermRow& term : term_rows) {
         const double weight = e.objectives.weights.*term.weight;
-        PlotRow row = row_of(lines, term.value, weight != 0 ? weight : 1, e.chosen.terms.*term.value, true);
-        row.title = std::string(term.name) + (weight != 0 ? " \u00d7 " : ", weight ") + weight_words(weight);
-        row.colour = piece_colour(term.colour);
+        const double factor = weight != 0 ? weight : 1;
+        const std::string title =
+            std::string(term.name) + (weight != 0 ? " \u00d7 " : ", weight ") + weight_words(weight);
+        PlotRow row = row_of(lines, title, term.colour, term.value, factor);
+        const std::size_t best = term.is_bounded ? e.ranked.size() : e.ranked.size() / 3;
+        row.range = range_of(e, best, term.value, factor, std::abs(factor) * term.step);
         plot.rows.push_back(std::move(row));
     }
     return plot;

@@ -5,6 +5,7 @@
 
 #include "segment/cut/cap.h"
 #include "segment/error.h"
+#include "segment/mesh/frame.h"
 
 namespace qchopper {
 namespace {
@@ -109,12 +110,7 @@ std::vector<Loop> trace_loops(const Section& section) {
 }
 
 std::vector<Point2> flattened(const std::vector<Vec3>& points, Vec3 normal) {
-    const Vec3 least = std::abs(normal.x) <= std::abs(normal.y) && std::abs(normal.x) <= std::abs(normal.z)
-                           ? Vec3{1, 0, 0}
-                       : std::abs(normal.y) <= std::abs(normal.z) ? Vec3{0, 1, 0}
-                                                                  : Vec3{0, 0, 1};
-    const Vec3 u = normalized(cross(least, normal));
-    const Vec3 v = cross(normal, u);
+    const auto [u, v] = frame_across(normal);
     const Vec3 origin = points.front();
     std::vector<Point2> flat;
     flat.reserve(points.size());

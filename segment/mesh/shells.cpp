@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "segment/mesh/disjoint_sets.h"
+#include "segment/mesh/frame.h"
 
 namespace qchopper {
 namespace {
@@ -20,12 +21,8 @@ struct LineFrame {
 };
 
 LineFrame line_frame(Vec3 axis) {
-    const Vec3 up = normalized(axis);
-    const Vec3 least = std::abs(up.x) <= std::abs(up.y) && std::abs(up.x) <= std::abs(up.z) ? Vec3{1, 0, 0}
-                       : std::abs(up.y) <= std::abs(up.z)                                   ? Vec3{0, 1, 0}
-                                                                                            : Vec3{0, 0, 1};
-    const Vec3 along = normalized(cross(up, least));
-    return {cross(up, along), along};
+    const PlaneFrame across = frame_across(normalized(axis));
+    return {across.v, across.u};
 }
 
 struct Coordinates {

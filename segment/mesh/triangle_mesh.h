@@ -1,7 +1,7 @@
 // The mesh that everybody shares: points and triangles that name them.
 //
 // Coordinates are doubles in millimetres. A triangle lists its corners counter-clockwise seen from outside.
-// A mesh is *closed* when every directed edge has exactly one opposite (tests/segment/mesh/closed_test.cpp).
+// A mesh is *closed* when every directed edge has exactly one opposite (tests/segment/mesh/edges_test.cpp).
 
 #pragma once
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "segment/picture/axis.h"
 #include "segment/picture/svg.h"
 
 namespace qchopper {
@@ -21,45 +22,17 @@ constexpr double column_title = 24;
 constexpr double mark_line = 14;  // labels of marks stand one below the other
 constexpr double top = 12;
 
+constexpr double letter = 6.2;   // width of one, about
 constexpr double dots_need = 4;  // room between points, below which curves are drawn without dots
 
 std::string at(double value) {
     return svg_number(value, 2);
 }
 
+// Keeps words readable where a mark passes.
+constexpr const char* halo = "paint-order=\"stroke\" stroke=\"#fdfdfb\" stroke-width=\"4\"";
 constexpr const char* ink = "#222222";
 constexpr const char* faint = "#dcdcd6";
-
-// Round numbers inside a range, about as many as asked for.
-struct Ticks {
-    std::vector<double> values;
-    int decimals = 0;
-};
-
-Ticks ticks(PlotRange range, int wanted) {
-    const double rough = (range.high - range.low) / wanted;
-    const double ten = std::pow(10.0, std::floor(std::log10(rough)));
-    double step = 10 * ten;
-    for (const double nice : {5 * ten, 2 * ten, ten}) {
-        if (nice >= rough * 0.99) step = nice;
-    }
-    Ticks result;
-    result.decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 12);
-    const double first = std::ceil(range.low / step - 1e-9);
-    for (double k = first; k * step <= range.high + 1e-9 * step && result.values.size() < 50; ++k) {
-        result.values.push_back(k * step);
-    }
-    return result;
-}
-
-// A range that can be drawn: finite, and wide enough to divide by.
-PlotRange mended(PlotRange range) {
-    if (!std::isfinite(range.low) || !std::isfinite(range.high) || range.low > range.high) return {0, 1};
-    const double least = 1e-9 * std::max({std::abs(range.low), std::abs(range.high), 1e-6});
-    if (range.high - range.low > least) return range;
-    const double room = std::max(std::abs(range.low) * 0.1, 0.5);
-    return {range.low - room, range.high + room};
-}
 
 class Spread {
  public:
@@ -93,8 +66,13 @@ std::optional<double> value_at(const std::vector<PlotPoint>& curve, double x) {
 struct Panel {
     double x0, y0, width, height;
     PlotRange x, y;
+    bool is_logarithmic;
     double to_x(double value) const { return x0 + width * (value - x.low) / (x.high - x.low); }
-    double to_y(double value) const { return y0 + height * (y.high - value) / (y.high - y.low); }
+    double to_y(double value) const {
+        if (is_logarithmic) return y0 + height * std::log(y.high / value) / std::log(y.high / y.low);
+        return y0 + height * (y.high - value) / (y.high - y.low);
+    }
+    bool is_drawn(double value) const { return std::isfinite(value) && (value > 0 || !is_logarithmic); }
     bool is_above(double value) const { return value > y.high; }
     bool is_below(double value) const { return value < y.low; }
 };
@@ -112,11 +90,7 @@ class Drawing {
             x_.push_back(spread.widened(0.02));
         }
         for (const PlotRow& row : plot.rows) {
-            Spread spread;
-            for (const auto& curve : row.curves) {
-                for (const PlotPoint& p : curve) spread.add(p.y);
-            }
-            y_.push_back(row.range ? mended(*row.range) : spread.widened(0.06));
+            y_.push_back(range_of(row));
         }
     }
 
@@ -141,6 +115,20 @@ class Drawing {
     }
 
  private:
+    static PlotRange range_of(const PlotRow& row) {
+        Spread spread;
+        for (const auto& curve : row.curves) {
+            for (const PlotPoint& p : curve) {
+                if (!row.is_logarithmic) spread.add(p.y);
+                if (row.is_logarithmic && p.y > 0) spread.add(std::log10(p.y));
+            }
+        }
+        if (!row.is_logarithmic) return row.range ? mended(*row.range) : spread.widened(0.06);
+        if (row.range && row.range->low > 0) return mended(*row.range);
+        const PlotRange powers = spread.widened(0.06);
+        return {std::pow(10.0, powers.low), std::pow(10.0, powers.high)};
+    }
+
     double column_top() const { return top + title_line + note_line * static_cast<double>(plot_.notes.size()); }
     double panels_top() const {
         std::size_t marks = 0;
@@ -154,7 +142,8 @@ class Drawing {
                 options_.panel_width,
                 options_.panel_height,
                 x_[c],
-                y_[r]};
+                y_[r],
+                plot_.rows[r].is_logarithmic};
     }
 
     void text(double x, double y, const std::string& words, const std::string& style = "") {
@@ -189,7 +178,7 @@ class Drawing {
             curve(p, row, row.curves[c], "clip" + std::to_string(r) + "-" + std::to_string(c));
             for (const PlotMark& mark : plot_.columns[c].marks) {
                 const std::optional<double> y = value_at(row.curves[c], mark.x);
-                if (!y || p.is_above(*y) || p.is_below(*y)) continue;
+                if (!y || !p.is_drawn(*y) || p.is_above(*y) || p.is_below(*y)) continue;
                 svg_ += "<circle cx=\"" + at(p.to_x(mark.x)) + "\" cy=\"" + at(p.to_y(*y)) + "\" r=\"3.6\" fill=\"" +
                         (mark.is_dashed ? "#ffffff" : svg_colour(row.colour)) + "\" stroke=\"" + ink +
                         "\" stroke-width=\"1.2\"/>\n";
@@ -203,17 +192,15 @@ class Drawing {
     void row_label(const Panel& p, const PlotRow& row) {
         svg_ += "<rect x=\"" + at(p.x0) + "\" y=\"" + at(p.y0 - 11) + "\" width=\"9\" height=\"5\" fill=\"" +
                 svg_colour(row.colour) + "\"/>\n";
-        // A white edge keeps the words readable where a mark passes.
-        text(p.x0 + 14, p.y0 - 5, row.title,
-             "font-weight=\"bold\" paint-order=\"stroke\" stroke=\"#fdfdfb\" stroke-width=\"4\"");
+        text(p.x0 + 14, p.y0 - 5, row.title, std::string("font-weight=\"bold\" ") + halo);
     }
 
     void y_axis(const Panel& p, bool has_numbers) {
-        const Ticks t = ticks(p.y, 3);
+        const Ticks t = p.is_logarithmic ? decades(p.y) : ticks(p.y, 4);
         for (const double value : t.values) {
             const double y = p.to_y(value);
             line(p.x0, y, p.x0 + p.width, y, std::string("stroke=\"") + faint + "\" stroke-width=\"0.7\"");
-            if (has_numbers) text(p.x0 - 6, y + 3.8, svg_number(value, t.decimals), "text-anchor=\"end\"");
+            if (has_numbers) text(p.x0 - 6, y + 3.8, t.text(value), "text-anchor=\"end\"");
         }
     }
 
@@ -222,7 +209,7 @@ class Drawing {
         for (const double value : t.values) {
             const double x = p.to_x(value);
             line(x, p.y0, x, p.y0 + p.height, std::string("stroke=\"") + faint + "\" stroke-width=\"0.7\"");
-            if (has_numbers) text(x, p.y0 + p.height + 14, svg_number(value, t.decimals), "text-anchor=\"middle\"");
+            if (has_numbers) text(x, p.y0 + p.height + 14, t.text(value), "text-anchor=\"middle\"");
         }
     }
 
@@ -242,10 +229,10 @@ class Drawing {
         std::string path;
         bool pen_is_down = false;
         for (const PlotPoint& point : points) {
-            if (std::isfinite(point.y)) {
+            if (p.is_drawn(point.y)) {
                 path += (pen_is_down ? "L" : "M") + at(p.to_x(point.x)) + " " + at(far_at_most(p, point.y));
             }
-            pen_is_down = std::isfinite(point.y);
+            pen_is_down = p.is_drawn(point.y);
         }
         if (!path.empty()) {
             svg_ += "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + colour + "\" stroke-width=\"" + at(row.line) +
@@ -263,7 +250,7 @@ class Drawing {
     void dots(const Panel& p, const std::vector<PlotPoint>& points, const std::string& colour, double radius) {
         if (p.width < dots_need * static_cast<double>(points.size())) return;
         for (const PlotPoint& point : points) {
-            if (!std::isfinite(point.y)) continue;
+            if (!p.is_drawn(point.y)) continue;
             const double x = p.to_x(point.x);
             if (p.is_above(point.y) || p.is_below(point.y)) {
                 const double y = p.is_above(point.y) ? p.y0 + 1 : p.y0 + p.height - 1;
@@ -287,10 +274,10 @@ class Drawing {
              "text-anchor=\"middle\"");
         for (std::size_t m = 0; m < plot_.columns[c].marks.size(); ++m) {
             const PlotMark& mark = plot_.columns[c].marks[m];
-            const double x = first.to_x(mark.x);
-            const bool is_right = x > first.x0 + first.width / 2;  // then the words stand to the left
-            text(is_right ? x - 4 : x + 4, mark_y(m), mark.label,
-                 std::string("font-style=\"italic\" text-anchor=\"") + (is_right ? "end\"" : "start\""));
+            const double wide = letter * static_cast<double>(mark.label.size());
+            const double last_x = std::max(first.x0 + first.width - wide / 2, first.x0 + wide / 2);
+            text(std::clamp(first.to_x(mark.x), first.x0 + wide / 2, last_x), mark_y(m), mark.label,
+                 std::string("text-anchor=\"middle\" font-style=\"italic\" ") + halo);
         }
     }
 

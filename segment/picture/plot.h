@@ -43,6 +43,7 @@ struct PlotRow {
     std::string title;
     Rgb colour;
     double line = 1.4;                           // width of the curve
+    bool is_logarithmic = false;                 // then values that are not positive are gaps
     std::optional<PlotRange> range;              // of y; nothing: of all that is drawn
     std::vector<std::vector<PlotPoint>> curves;  // one per column, x ascending
 };

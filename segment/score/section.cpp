@@ -4,6 +4,8 @@
 #include <cassert>
 #include <memory>
 
+#include "segment/mesh/frame.h"
+
 namespace qchopper {
 namespace {
 
@@ -38,14 +40,7 @@ double lone_share(const Straddler& s, const Crossing& c, double offset) {
 class Finder {
  public:
     Finder(const PreparedPiece& prepared, const Slabs& slabs, Vec3 normal, std::span<const double> offsets)
-        : p_(prepared), mesh_(*prepared.piece->mesh), slabs_(slabs), offsets_(offsets) {
-        const Vec3 least = std::abs(normal.x) <= std::abs(normal.y) && std::abs(normal.x) <= std::abs(normal.z)
-                               ? Vec3{1, 0, 0}
-                           : std::abs(normal.y) <= std::abs(normal.z) ? Vec3{0, 1, 0}
-                                                                      : Vec3{0, 0, 1};
-        u_ = normalized(cross(least, normal));
-        v_ = cross(normal, u_);
-    }
+        : p_(prepared), mesh_(*prepared.piece->mesh), slabs_(slabs), offsets_(offsets), frame_(frame_across(normal)) {}
 
     Section run() {
         link_records();
@@ -83,7 +78,7 @@ class Finder {
         const Vec3 lower = mesh_.points[corner[c.lower]];
         const double share = (s.height[c.upper] - offset) / (s.height[c.upper] - s.height[c.lower]);
         const Vec3 p = upper + share * (lower - upper) - p_.origin;
-        return {dot(u_, p), dot(v_, p)};
+        return {dot(frame_.u, p), dot(frame_.v, p)};
     }
 
     void trace_loops() {
@@ -148,8 +143,7 @@ class Finder {
     const TriangleMesh& mesh_;
     const Slabs& slabs_;
     std::span<const double> offsets_;
-    Vec3 u_;
-    Vec3 v_;
+    PlaneFrame frame_;
     std::vector<std::uint32_t> straddler_of_record_;
     std::vector<double> above_;
     std::vector<double> below_;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "segment/cut/plane.h"
+#include "segment/mesh/frame.h"
 
 namespace qchopper {
 namespace {
@@ -23,23 +24,9 @@ struct Seen {
     double h;
 };
 
-class Frame {
- public:
-    explicit Frame(Vec3 normal) : normal_(normal) {
-        const Vec3 least = std::abs(normal.x) <= std::abs(normal.y) && std::abs(normal.x) <= std::abs(normal.z)
-                               ? Vec3{1, 0, 0}
-                           : std::abs(normal.y) <= std::abs(normal.z) ? Vec3{0, 1, 0}
-                                                                      : Vec3{0, 0, 1};
-        u_ = normalized(cross(least, normal));
-        v_ = cross(normal, u_);
-    }
-    Seen operator()(Vec3 p) const { return {dot(u_, p), dot(v_, p), height(normal_, p)}; }
-
- private:
-    Vec3 normal_;
-    Vec3 u_;
-    Vec3 v_;
-};
+Seen seen_along(Vec3 normal, const PlaneFrame& frame, Vec3 p) {
+    return {dot(frame.u, p), dot(frame.v, p), height(normal, p)};
+}
 
 struct GridPoint {
     Seen at;
@@ -49,10 +36,10 @@ struct GridPoint {
 // The queries of one direction, sorted by cell. Few to a cell: a scan's triangles are small beside it.
 class Grid {
  public:
-    Grid(const Frame& frame, std::span<const WayQuery> queries, bool up) {
+    Grid(Vec3 normal, const PlaneFrame& frame, std::span<const WayQuery> queries, bool up) {
         std::vector<GridPoint> points;
         for (std::uint32_t q = 0; q < queries.size(); ++q) {
-            if (queries[q].up == up) points.push_back({frame(queries[q].from), q});
+            if (queries[q].up == up) points.push_back({seen_along(normal, frame, queries[q].from), q});
         }
         if (points.empty()) return;
         double high_u = -infinite;
@@ -167,13 +154,14 @@ std::vector<double> straight_ways(const TriangleMesh& mesh, Vec3 normal, std::sp
                                   double most) {
     std::vector<double> least(queries.size(), infinite);
     if (queries.empty()) return least;
-    const Frame frame(normal);
-    const Grid grid_up(frame, queries, true);
-    const Grid grid_down(frame, queries, false);
+    const PlaneFrame frame = frame_across(normal);
+    const Grid grid_up(normal, frame, queries, true);
+    const Grid grid_down(normal, frame, queries, false);
     std::vector<Seen> seen(mesh.points.size());
     tbb::parallel_for(std::size_t{0}, shares, [&](std::size_t s) {
         const std::size_t end = seen.size() * (s + 1) / shares;
-        for (std::size_t p = seen.size() * s / shares; p < end; ++p) seen[p] = frame(mesh.points[p]);
+        for (std::size_t p = seen.size() * s / shares; p < end; ++p)
+            seen[p] = seen_along(normal, frame, mesh.points[p]);
     });
     std::vector<std::vector<double>> ways(shares);
     tbb::parallel_for(std::size_t{0}, shares, [&](std::size_t s) {

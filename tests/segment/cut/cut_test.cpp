@@ -11,22 +11,11 @@
 #include "segment/intake/read_mesh.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
+#include "tests/pieces.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
 namespace {
-
-Piece piece_of(TriangleMesh mesh) {
-    Piece piece;
-    piece.name = "A";
-    piece.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
-    return piece;
-}
-
-Vec3 random_normal(std::mt19937& random) {
-    std::normal_distribution<double> normal;
-    return canonical({normalized({normal(random), normal(random), normal(random)}), 0}).normal;
-}
 
 // The laws of one cut. Returns the number of pieces, 0 if the plane misses.
 std::size_t expect_lawful(const Piece& piece, const Plane& plane, const std::string& what) {

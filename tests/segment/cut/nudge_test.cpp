@@ -4,16 +4,11 @@
 
 #include "segment/cut/cut.h"
 #include "segment/cut/cut_piece.h"
+#include "tests/pieces.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
 namespace {
-
-Piece piece_of(TriangleMesh mesh) {
-    Piece piece;
-    piece.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
-    return piece;
-}
 
 std::optional<Nudged> nudge_one(const Piece& piece, Vec3 normal, double wanted) {
     return nudge(piece, normal, std::array{wanted}).front();

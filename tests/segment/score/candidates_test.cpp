@@ -5,16 +5,11 @@
 
 #include "segment/cut/nudge.h"
 #include "segment/score/pricing.h"
+#include "tests/pieces.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
 namespace {
-
-Piece piece_of(TriangleMesh mesh) {
-    Piece piece;
-    piece.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
-    return piece;
-}
 
 TEST(Candidates, FortyOffsetsEvenlyInsideTheExtentOfThreeNormals) {
     const Piece piece = piece_of(shapes::torus({0, 0, 0}, 40, 12));

@@ -4,16 +4,11 @@
 
 #include "segment/cut/cut.h"
 #include "segment/cut/cut_piece.h"
+#include "tests/pieces.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
 namespace {
-
-Piece piece_of(TriangleMesh mesh) {
-    Piece piece;
-    piece.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
-    return piece;
-}
 
 double thinness_of(const Piece& piece, const Plane& plane, double distance) {
     return thinness(piece, plane, cut(*piece.mesh, plane, 1)->cap_area_mm2, distance);

@@ -7,16 +7,11 @@
 #include "segment/cut/cut_piece.h"
 #include "segment/cut/nudge.h"
 #include "segment/mesh/measure.h"
+#include "tests/pieces.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
 namespace {
-
-Piece piece_of(TriangleMesh mesh) {
-    Piece piece;
-    piece.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
-    return piece;
-}
 
 TEST(Oracle, AHalvedBoxHasNoUndercut) {
     const TriangleMesh box = shapes::box({0, 0, 0}, {10, 10, 10}, 2);

@@ -10,23 +10,12 @@
 #include "segment/mesh/measure.h"
 #include "segment/score/candidates.h"
 #include "segment/score/oracle.h"
+#include "tests/pieces.h"
 #include "tests/segment/score/same_price.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
 namespace {
-
-Piece piece_of(TriangleMesh mesh) {
-    Piece piece;
-    piece.name = "A";
-    piece.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
-    return piece;
-}
-
-Vec3 random_normal(std::mt19937& random) {
-    std::normal_distribution<double> normal;
-    return canonical({normalized({normal(random), normal(random), normal(random)}), 0}).normal;
-}
 
 std::vector<double> even(const Piece& piece, Vec3 normal, int count) {
     const Extent range = extent(*piece.mesh, normal);

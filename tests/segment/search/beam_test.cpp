@@ -45,7 +45,7 @@ TEST(Beam, OfOneIsTheGreedySearchOnEveryShape) {
         EXPECT_EQ(beam.end.is_finished, is_finished) << name;
         ASSERT_EQ(beam.segmentation.cuts.size(), greedy.cuts.size()) << name;
         for (std::size_t i = 0; i < greedy.cuts.size(); ++i) {
-            EXPECT_EQ(beam.segmentation.cuts[i], greedy.cuts[i]) << name << " cut " << i + 1;
+            EXPECT_TRUE(beam.segmentation.cuts[i] == greedy.cuts[i]) << name << " cut " << i + 1;
         }
     }
 }
@@ -54,10 +54,11 @@ TEST(Beam, OfOneIsTheGreedySearchWithLimitsOnFaces) {
     SearchSettings settings = settings_of(0, 1, 7);
     settings.stop.min_cuts.reset();
     settings.stop.max_faces = 300;
+    settings.stop.max_cuts = 12;
     for (const TriangleMesh& mesh : {shapes::linked_tori(), shapes::nested(), shapes::ball({1, 2, 3}, 20, 16)}) {
         Segmentation greedy = uncut(mesh, 0);
         greedy::search(greedy, settings);
-        EXPECT_EQ(searched(mesh, settings).segmentation.cuts, greedy.cuts);
+        EXPECT_TRUE(searched(mesh, settings).segmentation.cuts == greedy.cuts);
         EXPECT_FALSE(greedy.cuts.empty());
     }
 }
@@ -66,7 +67,7 @@ TEST(Beam, OfAnyWidthFindsTheGreedyCutIfOneIsAskedFor) {
     for (const auto& [name, mesh, count] : shapes::all_closed()) {
         const std::vector<Cut> greedy = searched(mesh, settings_of(1, 1)).segmentation.cuts;
         for (const std::size_t width : {2U, 3U, 8U}) {
-            EXPECT_EQ(searched(mesh, settings_of(1, width)).segmentation.cuts, greedy) << name << " " << width;
+            EXPECT_TRUE(searched(mesh, settings_of(1, width)).segmentation.cuts == greedy) << name << " " << width;
         }
     }
 }
@@ -126,7 +127,8 @@ TEST(Beam, CostOfThePricesIsTheCostOfTheRealPieces) {
 
 TEST(Beam, IsTheSameTwice) {
     const TriangleMesh mesh = shapes::linked_tori();
-    EXPECT_EQ(searched(mesh, settings_of(3, 4)).segmentation.cuts, searched(mesh, settings_of(3, 4)).segmentation.cuts);
+    EXPECT_TRUE(searched(mesh, settings_of(3, 4)).segmentation.cuts ==
+                searched(mesh, settings_of(3, 4)).segmentation.cuts);
 }
 
 TEST(Beam, CullsTheWorseOfTwoNearPlanesOfOneNormal) {

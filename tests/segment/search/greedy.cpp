@@ -13,10 +13,11 @@ std::vector<Ranked> ranked(const Segmentation& segmentation, std::size_t piece, 
         if (p != piece) others.push_back(share(measure(segmentation.pieces[p]), settings.objectives));
     }
     std::vector<Ranked> all;
-    for (const Candidate& c : candidate_planes(segmentation.pieces[piece], settings.candidates)) {
-        const auto price =
-            price_all(segmentation.pieces[piece], std::span(&c, 1), settings.objectives, Context{}).front();
-        const std::optional<Terms> t = price ? terms(*price, others, settings.objectives) : std::nullopt;
+    const std::vector<Candidate> candidates = candidate_planes(segmentation.pieces[piece], settings.candidates);
+    const auto prices = price_all(segmentation.pieces[piece], candidates, settings.objectives, Context{});
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        const Candidate& c = candidates[i];
+        const std::optional<Terms> t = prices[i] ? terms(*prices[i], others, settings.objectives) : std::nullopt;
         if (t) all.push_back({c.plane, c.wanted_offset, c.normal, c.offset, *t});
     }
     // The order of the candidates is that of ties: a plane goes before another only if it is better by more than a tie

@@ -24,7 +24,8 @@ struct ProjectFolder : ::testing::Test {
 
 Project searched_project(const TriangleMesh& mesh, Segmentation& segmentation) {
     Project project;
-    project.scan = {"/scans/a bone.ply", std::string(64, 'a'), Unit::cm, 0.5, {1, 2.5, 1.0 / 3}, 12, volume_mm3(mesh)};
+    project.scan = {"/scans/a bone.ply", std::string(64, 'a'), Unit::cm, 0.5, {1, 2.5, 1.0 / 3}, 12,
+                    volume_mm3(mesh),    {"scaled by 0.5"}};
     project.preset = "bunny";
     project.settings.candidates.offsets_per_normal = 5;
     project.settings.objectives.fragility_form = FragilityForm::thesis;
@@ -34,7 +35,7 @@ Project searched_project(const TriangleMesh& mesh, Segmentation& segmentation) {
     project.settings.stop.combine = Stop::any;
     segmentation = uncut(mesh, project.settings.objectives.crumb_volume_mm3);
     search(segmentation, project.settings, RayTree(mesh), {}, [](const Segmentation&) {}, {});
-    project.warnings = {"scaled by 0.5"};
+    project.history.weights_at_start = project.settings.objectives.weights;
     record(project, segmentation);
     return project;
 }
@@ -44,6 +45,16 @@ TEST_F(ProjectFolder, WhatIsSavedIsLoadedToTheLastBit) {
     const Project project = searched_project(shapes::nested(), segmentation);
     save_project(folder, project);
     EXPECT_EQ(load_project(folder), project);
+    EXPECT_EQ(project.warnings, project.scan.warnings);
+    Project decided = project;
+    decide(decided.history, Reset{});
+    decide(decided.history, WeightsChange{{1, 2, 3, 0.1}});
+    decided.history.standing = 1;
+    decided.cuts = standing_cuts(decided.history);
+    decided.settings.beam = 7;
+    decided.settings.near = 1.0 / 3;
+    save_project(folder, decided);
+    EXPECT_EQ(load_project(folder), decided);
 }
 
 TEST_F(ProjectFolder, ReplayGivesTheSamePiecesBitForBit) {
@@ -75,6 +86,10 @@ TEST_F(ProjectFolder, EveryBrokenProjectFileIsOneClearError) {
     }
     write_file(folder / "project.json", std::string_view("{\"schema\": \"other\"}"));
     EXPECT_THROW(load_project(folder), InputError);
+    std::string too_many = text;
+    too_many.replace(too_many.find("\"standing\": "), 12, "\"standing\": 9");
+    write_file(folder / "project.json", too_many);
+    EXPECT_THROW(load_project(folder), InputError) << "more decisions stand than there are";
     fs::remove(folder / "project.json");
     EXPECT_THROW(load_project(folder), InputError);
 }

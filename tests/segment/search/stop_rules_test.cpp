@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "segment/mesh/oriented_box.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
@@ -63,6 +64,45 @@ TEST(StopRules, APieceWithoutCandidatesIsPassedOver) {
     rules.max_faces = 10;
     EXPECT_EQ(next_piece(s, rules, {}, {"B"}).piece, 0U);
     EXPECT_FALSE(next_piece(s, rules, {}, {"A", "B"}).piece);
+}
+
+TEST(StopRules, AJudgeLooksAtEveryPieceOnce) {
+    Segmentation s = two_boxes();
+    StopRules rules;
+    rules.max_obb = Vec3{11, 29, 21};
+    rules.fits_cell = true;
+    int boxes = 0;
+    int checks = 0;
+    StopJudge judge(
+        rules,
+        [&](const Piece&) {
+            ++checks;
+            return true;
+        },
+        [&](const Piece& p) {
+            ++boxes;
+            return oriented_box(p.mesh->points).size();
+        });
+    for (int again = 0; again < 3; ++again) EXPECT_EQ(judge.next(s, {}).piece, 1U);
+    EXPECT_EQ(boxes, 2);
+    EXPECT_EQ(checks, 2);
+    Cut cut;
+    cut.piece = "B";
+    cut.chosen.plane = {{1, 0, 0}, 33.3};
+    ASSERT_TRUE(apply(s, cut, 0));
+    EXPECT_TRUE(judge.next(s, {}).is_finished);
+    EXPECT_EQ(boxes, 4) << "only the new pieces are looked at";
+}
+
+TEST(StopRules, ThosePiecesWaitThatWillBeCutTheNextOneFirst) {
+    const Segmentation s = two_boxes();
+    StopRules rules;
+    rules.max_faces = 10;
+    EXPECT_EQ(next_piece(s, rules, {}, {}).waiting, (std::vector<std::size_t>{1, 0}));
+    EXPECT_EQ(next_piece(s, rules, {}, {"B"}).waiting, (std::vector<std::size_t>{0}));
+    rules = {};
+    rules.min_cuts = 1;
+    EXPECT_EQ(next_piece(s, rules, {}, {}).waiting, (std::vector<std::size_t>{1})) << "one cut is missing, not two";
 }
 
 TEST(StopRules, ABoxFitsInSomeAxisOrder) {

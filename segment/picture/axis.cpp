@@ -1,0 +1,54 @@
+#include "segment/picture/axis.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "segment/picture/svg.h"
+
+namespace qchopper {
+
+std::string Ticks::text(double value) const {
+    if (!is_logarithmic) return svg_number(value, decimals);
+    return svg_number(value, std::clamp(static_cast<int>(std::ceil(-std::log10(value) - 1e-9)), 0, decimals));
+}
+
+Ticks ticks(PlotRange range, int wanted) {
+    const double rough = (range.high - range.low) / wanted;
+    const double ten = std::pow(10.0, std::floor(std::log10(rough)));
+    double step = 10 * ten;
+    for (const double nice : {5 * ten, 2 * ten, ten}) {
+        if (nice >= rough * 0.99) step = nice;
+    }
+    Ticks result;
+    result.decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 12);
+    const double first = std::ceil(range.low / step - 1e-9);
+    for (double k = first; k * step <= range.high + 1e-9 * step && result.values.size() < 50; ++k) {
+        result.values.push_back(k * step);
+    }
+    return result;
+}
+
+Ticks decades(PlotRange range) {
+    const double span = std::log10(range.high / range.low);
+    Ticks result;
+    result.is_logarithmic = true;
+    for (double power = std::floor(std::log10(range.low)); power <= std::log10(range.high); ++power) {
+        for (const double times : {1.0, 2.0, 5.0}) {
+            const double value = times * std::pow(10.0, power);
+            const bool is_wanted = times == 1.0 ? span < 5 || std::fmod(power, 2) == 0 : span < 1.5;
+            if (is_wanted && value >= range.low && value <= range.high) result.values.push_back(value);
+        }
+    }
+    result.decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(range.low))), 0, 12);
+    return result;
+}
+
+PlotRange mended(PlotRange range) {
+    if (!std::isfinite(range.low) || !std::isfinite(range.high) || range.low > range.high) return {0, 1};
+    const double least = 1e-9 * std::max({std::abs(range.low), std::abs(range.high), 1e-6});
+    if (range.high - range.low > least) return range;
+    const double room = std::max(std::abs(range.low) * 0.1, 0.5);
+    return {range.low - room, range.high + room};
+}
+
+}  // namespace qchopper
