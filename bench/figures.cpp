@@ -12,6 +12,8 @@ std::string number_text(double value) {
     const int decimals = value >= 99.95 ? 0 : value >= 9.995 ? 1 : value >= 0.9995 ? 2 : 4;
     if (value >= 1e6)
         std::snprintf(text, sizeof text, "%.2f million", value / 1e6);
+    else if (value < 1e-3)
+        std::snprintf(text, sizeof text, "%.2g", value);
     else
         std::snprintf(text, sizeof text, "%.*f", decimals, value);
     return text;

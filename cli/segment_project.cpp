@@ -33,7 +33,10 @@ Intake take_in_as(const fs::path& scan, Unit unit, double scale, Terminal& termi
     IntakeOptions options;
     options.mm_per_unit = mm_per(unit);
     options.scale = scale;
-    Intake intake = take_in(scan, options, terminal.context());
+    return take_in(scan, options, terminal.context());
+}
+
+void tell_intake(const fs::path& scan, const Intake& intake, Terminal& terminal) {
     const IntakeReport& r = intake.report;
     std::string line = scan.filename().string() + ": " + with_commas(intake.mesh.triangles.size()) + " faces, " +
                        size_in_words(bounds(intake.mesh).size()) + ".";
@@ -42,7 +45,6 @@ Intake take_in_as(const fs::path& scan, Unit unit, double scale, Terminal& termi
     if (r.pinched_split > 0) line += " " + with_commas(r.pinched_split) + " pinched points split.";
     if (r.shells_turned > 0) line += " " + with_commas(r.shells_turned) + " shells turned outwards.";
     terminal.say(line);
-    return intake;
 }
 
 }  // namespace
@@ -84,6 +86,7 @@ void check_output(const fs::path& out) {
 
 Intake take_in_scan(const fs::path& scan, const ProjectArguments& a, Terminal& terminal) {
     Intake intake = take_in_as(scan, unit_named(*a.units), a.scale.value_or(1), terminal);
+    tell_intake(scan, intake, terminal);
     for (const std::string& warning : intake.report.warnings) terminal.warn(warning);
     return intake;
 }
@@ -95,6 +98,7 @@ Intake take_in_scan(const Project& project, Terminal& terminal) {
         throw InputError(InputFault::mesh, s.path.string() + " is not the scan that the project was made from",
                          "put that scan back, or prepare this one as a new project");
     }
+    tell_intake(s.path, intake, terminal);
     return intake;
 }
 
@@ -118,6 +122,7 @@ Project new_project(const fs::path& scan, const Intake& intake, const ProjectArg
 
 void create_project(const fs::path& folder, const Project& project, const std::optional<Bytes>& cell_file) {
     const fs::path aside = folder.string() + ".tmp." + std::to_string(::getpid());
+    std::error_code ignored;  // what hinders the making may hinder the removal
     try {
         fs::create_directories(aside / "pieces");
         fs::create_directory(aside / "jobs");
@@ -126,11 +131,11 @@ void create_project(const fs::path& folder, const Project& project, const std::o
         save_project(aside, project);
         fs::rename(aside, folder);
     } catch (const fs::filesystem_error& e) {
-        fs::remove_all(aside);
+        fs::remove_all(aside, ignored);
         throw InputError(InputFault::create, folder.string() + " cannot be made: " + e.code().message(),
                          "choose another place");
     } catch (...) {
-        fs::remove_all(aside);
+        fs::remove_all(aside, ignored);
         throw;
     }
 }

@@ -12,18 +12,25 @@ std::string Ticks::text(double value) const {
     return svg_number(value, std::clamp(static_cast<int>(std::ceil(-std::log10(value) - 1e-9)), 0, decimals));
 }
 
-Ticks ticks(PlotRange range, int wanted) {
-    const double rough = (range.high - range.low) / wanted;
-    const double ten = std::pow(10.0, std::floor(std::log10(rough)));
-    double step = 10 * ten;
-    for (const double nice : {5 * ten, 2 * ten, ten}) {
-        if (nice >= rough * 0.99) step = nice;
-    }
+namespace {
+
+Ticks multiples(PlotRange range, double step) {
     Ticks result;
     result.decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 12);
     const double first = std::ceil(range.low / step - 1e-9);
-    for (double k = first; k * step <= range.high + 1e-9 * step && result.values.size() < 50; ++k) {
-        result.values.push_back(k * step);
+    const double last = std::floor(range.high / step + 1e-9);
+    for (int i = 0; i <= std::min(last - first, 50.0); ++i) result.values.push_back((first + i) * step);
+    return result;
+}
+
+}  // namespace
+
+Ticks ticks(PlotRange range, int wanted) {
+    const double rough = (range.high - range.low) / wanted;
+    const double ten = std::pow(10.0, std::floor(std::log10(rough)));
+    Ticks result;
+    for (const double step : {10 * ten, 5 * ten, 2 * ten, ten}) {
+        if (result.values.size() < 2 || step >= rough * 0.99) result = multiples(range, step);
     }
     return result;
 }
@@ -32,10 +39,13 @@ Ticks decades(PlotRange range) {
     const double span = std::log10(range.high / range.low);
     Ticks result;
     result.is_logarithmic = true;
-    for (double power = std::floor(std::log10(range.low)); power <= std::log10(range.high); ++power) {
+    const int first = static_cast<int>(std::floor(std::log10(range.low)));
+    const int last = static_cast<int>(std::ceil(std::log10(range.high)));
+    const int stride = std::max(1, (last - first) / 5);
+    for (int power = first; power <= last; ++power) {
         for (const double times : {1.0, 2.0, 5.0}) {
             const double value = times * std::pow(10.0, power);
-            const bool is_wanted = times == 1.0 ? span < 5 || std::fmod(power, 2) == 0 : span < 1.5;
+            const bool is_wanted = times == 1.0 ? (power - first) % stride == 0 : span < 1.5;
             if (is_wanted && value >= range.low && value <= range.high) result.values.push_back(value);
         }
     }
@@ -44,7 +54,7 @@ Ticks decades(PlotRange range) {
 }
 
 PlotRange mended(PlotRange range) {
-    if (!std::isfinite(range.low) || !std::isfinite(range.high) || range.low > range.high) return {0, 1};
+    if (!std::isfinite(range.high - range.low) || range.low > range.high) return {0, 1};
     const double least = 1e-9 * std::max({std::abs(range.low), std::abs(range.high), 1e-6});
     if (range.high - range.low > least) return range;
     const double room = std::max(std::abs(range.low) * 0.1, 0.5);

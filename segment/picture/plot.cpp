@@ -25,8 +25,9 @@ constexpr double top = 12;
 constexpr double letter = 6.2;   // width of one, about
 constexpr double dots_need = 4;  // room between points, below which curves are drawn without dots
 
+// A place in the picture; one that cannot be drawn stays near, and short in the file.
 std::string at(double value) {
-    return svg_number(value, 2);
+    return svg_number(std::isnan(value) ? 0 : std::clamp(value, -1e6, 1e6), 2);
 }
 
 // Keeps words readable where a mark passes.
@@ -34,10 +35,15 @@ constexpr const char* halo = "paint-order=\"stroke\" stroke=\"#fdfdfb\" stroke-w
 constexpr const char* ink = "#222222";
 constexpr const char* faint = "#dcdcd6";
 
+// Numbers beyond cannot be subtracted and divided safely; they are drawn as gaps.
+bool is_sane(double value) {
+    return std::isfinite(value) && std::abs(value) < 1e200;
+}
+
 class Spread {
  public:
     void add(double value) {
-        if (!std::isfinite(value)) return;
+        if (!is_sane(value)) return;
         range_.low = std::min(range_.low, value);
         range_.high = std::max(range_.high, value);
     }
@@ -72,7 +78,7 @@ struct Panel {
         if (is_logarithmic) return y0 + height * std::log(y.high / value) / std::log(y.high / y.low);
         return y0 + height * (y.high - value) / (y.high - y.low);
     }
-    bool is_drawn(double value) const { return std::isfinite(value) && (value > 0 || !is_logarithmic); }
+    bool is_drawn(double value) const { return is_sane(value) && (value > (is_logarithmic ? 1e-200 : -1e200)); }
     bool is_above(double value) const { return value > y.high; }
     bool is_below(double value) const { return value < y.low; }
 };
@@ -120,7 +126,7 @@ class Drawing {
         for (const auto& curve : row.curves) {
             for (const PlotPoint& p : curve) {
                 if (!row.is_logarithmic) spread.add(p.y);
-                if (row.is_logarithmic && p.y > 0) spread.add(std::log10(p.y));
+                if (row.is_logarithmic && p.y > 1e-200 && is_sane(p.y)) spread.add(std::log10(p.y));
             }
         }
         if (!row.is_logarithmic) return row.range ? mended(*row.range) : spread.widened(0.06);

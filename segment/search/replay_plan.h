@@ -2,8 +2,8 @@
 //
 // Frames are aligned by the coordinates of the files. A piece is found again by its place in the BSP, by the point that
 // lies inside it, and by its share of the volume. On the very scan of the plan the pieces are the same bit for bit; on
-// another version the same pieces, volumes within 0.1 % as far as the two scans agree
-// (tests/segment/search/replay_plan_test.cpp).
+// the same surface meshed anew volumes agree to 1e-6; on another version they differ by what the two scans differ by
+// there, which is told (tests/segment/search/replay_plan_test.cpp).
 
 #pragma once
 

@@ -80,6 +80,7 @@ std::vector<std::vector<PlotPoint>> awkward_curves() {
             {{-1e300, -1e300}, {1e300, 1e300}},
             {{1e-300, 1e-300}, {2e-300, 2e-300}},
             {{1e9, 1e15}, {1e9 + 1e-6, 1e15 + 1}},
+            {{nan, 1}, {infinity, 2}, {1e308, -1e308}, {-1e308, 1e308}},
             {{0, -1}, {1, 0}, {2, 1e-12}, {3, 1e12}}};
 }
 
@@ -89,6 +90,7 @@ TEST(Plot, IsWellFormedWhateverTheNumbers) {
             Plot plot = simple();
             plot.rows = {row_of({curve, curve})};
             plot.rows[0].is_logarithmic = is_logarithmic;
+            plot.columns[1].marks = {{nan, "nowhere", true}, {infinity, "far", false}};
             const std::string svg = to_svg(plot);
             EXPECT_EQ(fault_of(svg), "");
             EXPECT_EQ(count(svg, "nan") + count(svg, "inf"), 0U) << svg;

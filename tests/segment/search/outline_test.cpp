@@ -44,7 +44,8 @@ TEST(Outline, HasTheLoopsPointsAndAreaOfTheCutOnEveryShape) {
                 const Plane plane{n, nudged->offset};
                 const std::optional<CutHalves> halves = cut(mesh, plane, 1);
                 const Outline found = outline(mesh, plane);
-                ASSERT_TRUE(halves) << name;
+                EXPECT_EQ(found.loops.empty(), !halves.has_value()) << name;
+                if (!halves) continue;  // between two balls
                 EXPECT_EQ(found.loops.size(), halves->loops) << name;
                 std::vector<Vec3> points;
                 double area = 0;
