@@ -63,7 +63,8 @@ std::vector<Measured> meshes(const Choice& choice) {
 
 void measure(const Choice& choice, Figures& figures) {
     const std::size_t large = choice.is_small ? 500'000 : 10'000'000;
-    const std::vector<Measured> all = meshes(choice);
+    const bool is_memory_alone = choice.only == std::set<std::string>{"memory"};
+    const std::vector<Measured> all = is_memory_alone ? std::vector<Measured>{} : meshes(choice);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Measured& m = all[i];
         figures.tell(m.name, "faces", number_text(static_cast<double>(m.faces())));
@@ -73,7 +74,8 @@ void measure(const Choice& choice, Figures& figures) {
         const Base base = measure_pricing(m, effort, figures);
         if (choice.wants("caps")) measure_caps(m, base, effort, figures);
         if (choice.wants("decision")) measure_decision(m, base, effort, figures);
-        if (choice.wants("run")) measure_run(m, choice.is_small ? 6 : 20, figures);
+        const bool is_one_solid = m.name != "CT head, whole";  // else there are many pieces before the first cut
+        if (choice.wants("run") && is_one_solid) measure_run(m, choice.is_small ? 6 : 20, figures);
         if (choice.wants("many") && i == 0) measure_many(m, base, figures);
         const bool is_sample = choice.is_small ? i + 1 == all.size() : i == 0;
         if (choice.wants("growth") && is_sample) measure_growth(m, base, large, figures);

@@ -139,7 +139,7 @@ class Preparation {
             ++input.piece_no;
             terminal_.context().progress("jobs written", input.piece_no - 1U, segmentation_.pieces.size());
             const Carving& carving = setups_.of(piece);
-            PreparedPiece row;
+            PieceReport row;
             row.name = piece.name;
             row.faces = piece.mesh->triangles.size();
             row.volume_mm3 = volume_mm3(*piece.mesh);

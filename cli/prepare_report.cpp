@@ -40,7 +40,7 @@ Json cut_json(const Cut& cut) {
             {"crumbs", cut.crumbs}};
 }
 
-Json piece_json(const PreparedPiece& piece, const Cell& cell) {
+Json piece_json(const PieceReport& piece, const Cell& cell) {
     const Setup& s = piece.carving.setup;
     Json margins;
     for (const Margin& m : piece.carving.envelope.margins) margins[m.name] = m.mm;
@@ -61,13 +61,13 @@ Json piece_json(const PreparedPiece& piece, const Cell& cell) {
 }  // namespace
 
 bool PreparedProject::all_fit() const {
-    return std::all_of(pieces.begin(), pieces.end(), [](const PreparedPiece& p) { return !p.job.empty(); });
+    return std::all_of(pieces.begin(), pieces.end(), [](const PieceReport& p) { return !p.job.empty(); });
 }
 
 std::vector<std::string> table(const PreparedProject& prepared, const Cell& cell) {
     std::vector<std::vector<std::string>> rows{
         {"piece", "faces", "litres", "box mm", "block", "base", "undercut", "fits"}};
-    for (const PreparedPiece& p : prepared.pieces) {
+    for (const PieceReport& p : prepared.pieces) {
         const Setup& s = p.carving.setup;
         rows.push_back({p.name, with_commas(p.faces), fixed(p.volume_mm3 / 1e6, 3), lengths(s.box.size()),
                         cell.stock[s.stock].name, s.base ? "cut " + std::to_string(*s.base) : "none",
@@ -83,7 +83,7 @@ std::vector<std::string> table(const PreparedProject& prepared, const Cell& cell
             (prepared.project.crumbs == CrumbChoice::keep ? " and kept in pieces/crumbs.ply" : ", dropped"));
     }
     const auto jobs = std::count_if(prepared.pieces.begin(), prepared.pieces.end(),
-                                    [](const PreparedPiece& p) { return !p.job.empty(); });
+                                    [](const PieceReport& p) { return !p.job.empty(); });
     const std::string folder = prepared.folder.string();
     lines.push_back(counted(prepared.pieces.size(), "piece") + " by " + counted(prepared.project.cuts.size(), "cut") +
                     ", " + counted(static_cast<std::size_t>(jobs), "job") + " in " + folder + "/jobs, pictures in " +
@@ -97,7 +97,7 @@ std::string document(const PreparedProject& prepared, const Cell& cell) {
     Json cuts = Json::array();
     for (const Cut& cut : p.cuts) cuts.push_back(cut_json(cut));
     Json pieces = Json::array();
-    for (const PreparedPiece& piece : prepared.pieces) pieces.push_back(piece_json(piece, cell));
+    for (const PieceReport& piece : prepared.pieces) pieces.push_back(piece_json(piece, cell));
     Json crumbs = Json::array();
     for (const SolidRecord& c : p.crumb_list) {
         crumbs.push_back(

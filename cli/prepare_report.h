@@ -20,7 +20,7 @@ struct Carving {
     std::shared_ptr<const TriangleMesh> keeps_alive;
 };
 
-struct PreparedPiece {
+struct PieceReport {
     std::string name;
     std::size_t faces = 0;
     double volume_mm3 = 0;
@@ -31,7 +31,7 @@ struct PreparedPiece {
 struct PreparedProject {
     std::filesystem::path folder;
     Project project;
-    std::vector<PreparedPiece> pieces;
+    std::vector<PieceReport> pieces;
     bool rules_hold = true;
     bool all_fit() const;
 };

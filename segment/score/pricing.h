@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "segment/context.h"
-#include "segment/mesh/rays.h"
 #include "segment/score/candidates.h"
 #include "segment/score/oracle.h"
 
@@ -16,11 +15,5 @@ namespace qchopper {
 // One price per candidate, in their order.
 std::vector<std::optional<Price>> price_all(const Piece& piece, std::span<const Candidate> candidates,
                                             const Objectives& objectives, const Context& context);
-
-inline std::vector<std::optional<Price>> price_all(const Piece& piece, std::span<const Candidate> candidates,
-                                                   const Objectives& objectives, const RayTree&,
-                                                   const Context& context) {
-    return price_all(piece, candidates, objectives, context);
-}
 
 }  // namespace qchopper

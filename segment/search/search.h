@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "segment/context.h"
-#include "segment/mesh/rays.h"
 #include "segment/search/piece_book.h"
 #include "segment/search/rank.h"
 #include "segment/search/segmentation.h"
@@ -36,11 +35,6 @@ struct SearchSettings {
 // All candidates of one piece, best first.
 std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
                          PieceBook& book, const Context& context);
-inline std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
-                                const RayTree&, const Context& context) {
-    PieceBook book(settings.objectives, settings.candidates);
-    return rank(segmentation, piece, settings, book, context);
-}
 
 // One plane that is no candidate of the piece. Nothing if it misses, or leaves fewer than two pieces that are no
 // crumbs.
@@ -67,11 +61,5 @@ struct SearchEnd {
 SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, PieceBook& book, const FitsCell& fits_cell,
                  const std::function<void(const Segmentation&)>& on_round, const Context& context,
                  std::optional<double> time_limit_s = std::nullopt);
-inline SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, const RayTree&,
-                        const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
-                        const Context& context) {
-    PieceBook book(settings.objectives, settings.candidates);
-    return search(segmentation, settings, book, fits_cell, on_round, context);
-}
 
 }  // namespace qchopper

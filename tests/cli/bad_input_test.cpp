@@ -302,7 +302,7 @@ std::vector<Case> projects() {
          {"C.qjob", "piece.stl"},
          project([](const fs::path& folder) {
              std::string bytes = bytes_in(folder / "jobs" / "C.qjob");
-             bytes[bytes.find("piece.stl") + 2000] ^= 1;
+             bytes.at(bytes.find("piece.stl") + 2000) ^= 1;
              put(folder / "jobs" / "C.qjob", bytes);
              return Kept();
          }),

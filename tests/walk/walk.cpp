@@ -91,9 +91,9 @@ Segmentation cut_up(const TriangleMesh& scan, SearchSettings settings) {
     settings.objectives.crumb_volume_mm3 = 1e-5 * volume;
     Segmentation segmentation = uncut(scan, settings.objectives.crumb_volume_mm3);
     expect_nothing_is_lost(segmentation, volume);
-    const RayTree rays(scan);
     const auto on_cut = [&](const Segmentation& s) { expect_nothing_is_lost(s, volume); };
-    const SearchEnd end = search(segmentation, settings, rays, {}, on_cut, {});
+    PieceBook book(settings.objectives, settings.candidates);
+    const SearchEnd end = search(segmentation, settings, book, {}, on_cut, {});
     EXPECT_TRUE(end.is_finished) << end.reason;
     return segmentation;
 }

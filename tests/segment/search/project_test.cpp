@@ -34,7 +34,8 @@ Project searched_project(const TriangleMesh& mesh, Segmentation& segmentation) {
     project.settings.stop.max_obb = Vec3{1, 2, 3};
     project.settings.stop.combine = Stop::any;
     segmentation = uncut(mesh, project.settings.objectives.crumb_volume_mm3);
-    search(segmentation, project.settings, RayTree(mesh), {}, [](const Segmentation&) {}, {});
+    PieceBook book(project.settings.objectives, project.settings.candidates);
+    search(segmentation, project.settings, book, {}, [](const Segmentation&) {}, {});
     project.history.weights_at_start = project.settings.objectives.weights;
     record(project, segmentation);
     return project;

@@ -26,7 +26,8 @@ SearchSettings quick(int cuts) {
 
 Segmentation searched(const TriangleMesh& mesh, const SearchSettings& settings) {
     Segmentation segmentation = uncut(mesh, settings.objectives.crumb_volume_mm3);
-    const SearchEnd end = search(segmentation, settings, RayTree(mesh), {}, [](const Segmentation&) {}, {});
+    PieceBook book(settings.objectives, settings.candidates);
+    const SearchEnd end = search(segmentation, settings, book, {}, [](const Segmentation&) {}, {});
     EXPECT_TRUE(end.is_finished) << end.reason;
     return segmentation;
 }
@@ -61,7 +62,8 @@ TEST(Search, TiesGoToTheLowerNormalThenOffset) {
     SearchSettings settings = quick(1);
     settings.objectives.weights = {0, 0, 1, 0};  // every plane gives two pieces: all tie
     const Segmentation segmentation = uncut(cube, 0);
-    const std::vector<Ranked> ranked = rank(segmentation, 0, settings, RayTree(cube), {});
+    PieceBook book(settings.objectives, settings.candidates);
+    const std::vector<Ranked> ranked = rank(segmentation, 0, settings, book, {});
     for (std::size_t i = 1; i < ranked.size(); ++i) {
         EXPECT_LT(std::pair(ranked[i - 1].normal, ranked[i - 1].offset), std::pair(ranked[i].normal, ranked[i].offset));
     }
@@ -90,7 +92,8 @@ TEST(Search, StopsInWordsWhenNoPlanePartsAnything) {
     settings.candidates.offsets_per_normal = 0;
     const TriangleMesh mesh = shapes::ball({0, 0, 0}, 10);
     Segmentation segmentation = uncut(mesh, 0);
-    const SearchEnd end = search(segmentation, settings, RayTree(mesh), {}, [](const Segmentation&) {}, {});
+    PieceBook book(settings.objectives, settings.candidates);
+    const SearchEnd end = search(segmentation, settings, book, {}, [](const Segmentation&) {}, {});
     EXPECT_FALSE(end.is_finished);
     EXPECT_EQ(end.reason, "no plane parts any of the unfinished pieces");
 }
@@ -102,8 +105,10 @@ TEST(Search, WhenStoppedTheCutsMadeUntilThenStand) {
     context.cancelled = &stop;
     Segmentation segmentation = uncut(mesh, 0);
     std::size_t told = 0;
+    const SearchSettings settings = quick(9);
+    PieceBook book(settings.objectives, settings.candidates);
     EXPECT_THROW(search(
-                     segmentation, quick(9), RayTree(mesh), {},
+                     segmentation, settings, book, {},
                      [&](const Segmentation& s) {
                          told = s.cuts.size();
                          if (told == 2) stop = true;
