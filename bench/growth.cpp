@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -9,6 +10,7 @@
 #include "bench/measures.h"
 #include "segment/files/file.h"
 #include "segment/intake/write_ply.h"
+#include "segment/search/project.h"
 
 extern char** environ;
 
@@ -48,7 +50,12 @@ Ended run(const std::vector<std::string>& command) {
     Ended ended;
     const double started = wall_s();
     pid_t child = 0;
-    if (::posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments.data(), environ) != 0) return ended;
+    posix_spawn_file_actions_t streams;
+    ::posix_spawn_file_actions_init(&streams);
+    ::posix_spawn_file_actions_addopen(&streams, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    const int fault = ::posix_spawnp(&child, arguments[0], &streams, nullptr, arguments.data(), environ);
+    ::posix_spawn_file_actions_destroy(&streams);
+    if (fault != 0) return ended;
     rusage usage{};
     if (::wait4(child, &ended.status, 0, &usage) != child) return ended;
     ended.wall = wall_s() - started;
@@ -76,9 +83,10 @@ void measure_memory(const fs::path& program, std::size_t faces, Figures& figures
         options.faces = faces;
         write_file(file, to_ply(sample(Specimen::skull, options)));
     }
-    const Ended ended = run({program.string(), "segment", file.string(), "--units", "mm", "--min-cuts", "1", "--quiet",
-                             "-o", (folder.path() / "skull.qch").string()});
-    if (ended.status != 0) {
+    const Ended ended = run({program.string(), "segment", file.string(), "--units", "mm", "--min-cuts", "1", "--auto",
+                             "--quiet", "-o", (folder.path() / "skull.qch").string()});
+    const bool is_done = ended.status == 0 && load_project(folder.path() / "skull.qch").cuts.size() == 1;
+    if (!is_done) {
         figures.add({name, "peak memory of " + program.string() + " segment",
                      "it ended with status " + std::to_string(ended.status), "at most 200 bytes a face", std::nullopt});
         return;

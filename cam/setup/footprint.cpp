@@ -10,19 +10,19 @@
 namespace qchopper {
 namespace {
 
-Point2 minus(Point2 a, Point2 b) {
+FootPoint minus(FootPoint a, FootPoint b) {
     return {a[0] - b[0], a[1] - b[1]};
 }
-double dot2(Point2 a, Point2 b) {
+double dot2(FootPoint a, FootPoint b) {
     return a[0] * b[0] + a[1] * b[1];
 }
-double cross2(Point2 a, Point2 b) {
+double cross2(FootPoint a, FootPoint b) {
     return a[0] * b[1] - a[1] * b[0];
 }
 
 // One turn around the hull below or above; points must be sorted.
 template <class Iterator>
-void add_chain(std::vector<Point2>& hull, Iterator first, Iterator last) {
+void add_chain(std::vector<FootPoint>& hull, Iterator first, Iterator last) {
     const std::size_t start = hull.size();
     for (; first != last; ++first) {
         while (hull.size() >= start + 2 &&
@@ -35,7 +35,7 @@ void add_chain(std::vector<Point2>& hull, Iterator first, Iterator last) {
 }
 
 // Moves a contact point on while the next corner reaches further. Never more than once around.
-std::size_t advance(const std::vector<Point2>& hull, std::size_t from, Point2 direction) {
+std::size_t advance(const std::vector<FootPoint>& hull, std::size_t from, FootPoint direction) {
     std::size_t at = from;
     for (std::size_t steps = 0; steps < hull.size(); ++steps) {
         const std::size_t next = (at + 1) % hull.size();
@@ -45,22 +45,22 @@ std::size_t advance(const std::vector<Point2>& hull, std::size_t from, Point2 di
     return at;
 }
 
-Rectangle spanned(Point2 along, double length, double width) {
+Rectangle spanned(FootPoint along, double length, double width) {
     if (length >= width) return {along, length, width};
     return {{-along[1], along[0]}, width, length};
 }
 
-Rectangle turn_around(const std::vector<Point2>& hull) {
+Rectangle turn_around(const std::vector<FootPoint>& hull) {
     Rectangle best;
     double least = std::numeric_limits<double>::infinity();
     std::size_t right = 0;
     std::size_t top = 0;
     std::size_t left = 0;
     for (std::size_t i = 0; i < hull.size(); ++i) {
-        const Point2 edge = minus(hull[(i + 1) % hull.size()], hull[i]);
+        const FootPoint edge = minus(hull[(i + 1) % hull.size()], hull[i]);
         const double size = std::hypot(edge[0], edge[1]);
-        const Point2 u{edge[0] / size, edge[1] / size};
-        const Point2 v{-u[1], u[0]};
+        const FootPoint u{edge[0] / size, edge[1] / size};
+        const FootPoint v{-u[1], u[0]};
         if (i == 0) right = 1;
         right = advance(hull, right, u);
         top = advance(hull, i == 0 ? right : top, v);
@@ -76,21 +76,21 @@ Rectangle turn_around(const std::vector<Point2>& hull) {
 
 }  // namespace
 
-std::vector<Point2> convex_hull(std::vector<Point2> points) {
+std::vector<FootPoint> convex_hull(std::vector<FootPoint> points) {
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
     if (points.size() < 3) return points;
-    std::vector<Point2> hull;
+    std::vector<FootPoint> hull;
     add_chain(hull, points.begin(), points.end());
     add_chain(hull, points.rbegin(), points.rend());
     return hull;
 }
 
-Rectangle smallest_rectangle(std::vector<Point2> points) {
-    const std::vector<Point2> hull = convex_hull(std::move(points));
+Rectangle smallest_rectangle(std::vector<FootPoint> points) {
+    const std::vector<FootPoint> hull = convex_hull(std::move(points));
     if (hull.size() >= 3) return turn_around(hull);
     if (hull.size() < 2) return {};
-    const Point2 edge = minus(hull[1], hull[0]);
+    const FootPoint edge = minus(hull[1], hull[0]);
     const double length = std::hypot(edge[0], edge[1]);
     return {{edge[0] / length, edge[1] / length}, length, 0};
 }
@@ -110,10 +110,10 @@ namespace {
 // Cells of a footprint's box that lie in some triangle.
 class Grid {
  public:
-    Grid(Point2 min, Point2 max) : min_(min) {
+    Grid(FootPoint min, FootPoint max) : min_(min) {
         constexpr double cells = 1 << 18;
         constexpr double most = 1 << 12;
-        const Point2 size = minus(max, min);
+        const FootPoint size = minus(max, min);
         const double side = std::sqrt(size[0] * size[1] / cells);
         for (int k = 0; k < 2; ++k) {
             count_[k] = static_cast<std::size_t>(std::clamp(std::ceil(size[k] / side), 1.0, most));
@@ -122,8 +122,8 @@ class Grid {
         covered_.assign(count_[0] * count_[1], 0);
     }
 
-    void add(std::array<Point2, 3> corner) {
-        for (Point2& p : corner) p = {(p[0] - min_[0]) / cell_[0], (p[1] - min_[1]) / cell_[1]};
+    void add(std::array<FootPoint, 3> corner) {
+        for (FootPoint& p : corner) p = {(p[0] - min_[0]) / cell_[0], (p[1] - min_[1]) / cell_[1]};
         const auto [low, high] = std::minmax({corner[0][1], corner[1][1], corner[2][1]});
         const std::size_t last = up_to(high, 1);
         for (std::size_t row = up_to(low, 1); row < last; ++row) add_row(corner, row);
@@ -139,13 +139,13 @@ class Grid {
         return static_cast<std::size_t>(std::clamp(std::ceil(at - 0.5), 0.0, static_cast<double>(count_[axis])));
     }
 
-    void add_row(const std::array<Point2, 3>& corner, std::size_t row) {
+    void add_row(const std::array<FootPoint, 3>& corner, std::size_t row) {
         const double y = static_cast<double>(row) + 0.5;
         double from = std::numeric_limits<double>::infinity();
         double to = -from;
         for (int k = 0; k < 3; ++k) {
-            const Point2 a = corner[k];
-            const Point2 b = corner[(k + 1) % 3];
+            const FootPoint a = corner[k];
+            const FootPoint b = corner[(k + 1) % 3];
             if ((a[1] <= y) == (b[1] <= y)) continue;
             const double x = a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]);
             from = std::min(from, x);
@@ -157,7 +157,7 @@ class Grid {
                   begin + static_cast<std::ptrdiff_t>(up_to(to, 0)), char{1});
     }
 
-    Point2 min_;
+    FootPoint min_;
     std::array<double, 2> cell_{};
     std::array<std::size_t, 2> count_{};
     std::vector<char> covered_;
@@ -167,10 +167,10 @@ class Grid {
 
 double shadow_mm2(const TriangleMesh& mesh, Vec3 up) {
     const auto [e1, e2] = frame_under(up);
-    std::vector<Point2> flat;
+    std::vector<FootPoint> flat;
     flat.reserve(mesh.points.size());
-    Point2 min{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-    Point2 max{-min[0], -min[1]};
+    FootPoint min{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    FootPoint max{-min[0], -min[1]};
     for (const Vec3& p : mesh.points) {
         flat.push_back({dot(e1, p), dot(e2, p)});
         for (int k = 0; k < 2; ++k) {

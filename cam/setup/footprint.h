@@ -12,20 +12,20 @@
 
 namespace qchopper {
 
-using Point2 = std::array<double, 2>;
+using FootPoint = std::array<double, 2>;
 
 // Counter-clockwise corners, the lowest of the leftmost first, no three in line. Fewer than three where all points
 // are one or lie in a line.
-std::vector<Point2> convex_hull(std::vector<Point2> points);
+std::vector<FootPoint> convex_hull(std::vector<FootPoint> points);
 
 // The rectangle of least area around the points.
 struct Rectangle {
-    Point2 along{1, 0};  // unit vector of the long side
+    FootPoint along{1, 0};  // unit vector of the long side
     double length = 0;
     double width = 0;  // never more than the length
     double area() const { return length * width; }
 };
-Rectangle smallest_rectangle(std::vector<Point2> points);
+Rectangle smallest_rectangle(std::vector<FootPoint> points);
 
 // Two unit vectors that make a right-handed frame with the unit vector `up`.
 std::array<Vec3, 2> frame_under(Vec3 up);

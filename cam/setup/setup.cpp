@@ -75,10 +75,10 @@ Candidate best_side(const Piece& piece, const RayTree& rays) {
 // Turned so that the smallest rectangle of the footprint lies along x, then set down.
 void place(const TriangleMesh& mesh, Setup& setup) {
     const auto [e1, e2] = frame_under(setup.up);
-    std::vector<Point2> footprint;
+    std::vector<FootPoint> footprint;
     footprint.reserve(mesh.points.size());
     for (const Vec3& p : mesh.points) footprint.push_back({dot(e1, p), dot(e2, p)});
-    const Point2 along = smallest_rectangle(std::move(footprint)).along;
+    const FootPoint along = smallest_rectangle(std::move(footprint)).along;
     const Vec3 x = normalized(along[0] * e1 + along[1] * e2);
     setup.piece_in_setup = {{x, cross(setup.up, x), setup.up}, {}};
     const Box turned = bounds(apply(setup.piece_in_setup, mesh));

@@ -10,7 +10,7 @@
 namespace qchopper {
 
 struct Bone {
-    Field field;
+    BoneField field;
     Box box;                  // holds the surface with room to spare
     double base_spacing = 0;  // a lattice cell that resolves every process and every wall
 };

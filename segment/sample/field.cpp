@@ -118,7 +118,7 @@ constexpr double safe_mm = 1e-6;
 
 }  // namespace
 
-double value_at(const Field& field, Vec3 point) {
+double value_at(const BoneField& field, Vec3 point) {
     double value = field.start;
     for (const FieldPart& part : field.parts) {
         double nearest = std::numeric_limits<double>::infinity();
@@ -131,7 +131,7 @@ double value_at(const Field& field, Vec3 point) {
     return value;
 }
 
-FieldRange range_in_ball(const Field& field, Vec3 centre, double radius, Field* local) {
+FieldRange range_in_ball(const BoneField& field, Vec3 centre, double radius, BoneField* local) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     FieldRange value{field.start, field.start};
     if (local != nullptr) *local = {{}, field.textures, field.start};

@@ -43,13 +43,13 @@ struct Texture {
     double phase = 0;   // of a period
 };
 
-struct Field {
+struct BoneField {
     std::vector<FieldPart> parts;
     std::vector<Texture> textures;
     double start = std::numeric_limits<double>::infinity();  // before the first part
 };
 
-double value_at(const Field& field, Vec3 point);
+double value_at(const BoneField& field, Vec3 point);
 
 struct FieldRange {
     double low = 0;
@@ -57,7 +57,7 @@ struct FieldRange {
 };
 
 // Bounds of the value within a ball, and in `local` (may be null) what the field amounts to there.
-FieldRange range_in_ball(const Field& field, Vec3 centre, double radius, Field* local);
+FieldRange range_in_ball(const BoneField& field, Vec3 centre, double radius, BoneField* local);
 
 // Builders.
 FieldPrimitive cone(Vec3 a, double radius_a, Vec3 b, double radius_b);

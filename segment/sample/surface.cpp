@@ -80,18 +80,18 @@ class March {
         for (int axis = 0; axis < 3; ++axis) extent_[axis] = static_cast<int>(std::ceil(size[axis] / spacing)) + 1;
     }
 
-    void walk(const Field& field) { walk_block(field, 0, 0, 0, root_); }
+    void walk(const BoneField& field) { walk_block(field, 0, 0, 0, root_); }
 
     std::size_t count() const { return count_; }
     TriangleMesh& mesh() { return mesh_; }
 
  private:
-    void walk_block(const Field& field, int x, int y, int z, int cells) {
+    void walk_block(const BoneField& field, int x, int y, int z, int cells) {
         if (x >= extent_[0] || y >= extent_[1] || z >= extent_[2]) return;
         // half a cell more: the tetrahedra reach to the centres of the next cells
         const double half_edge = half_ * (cells + 0.5);
         const Vec3 centre = at({2 * x, 2 * y, 2 * z}) + Vec3{half_edge, half_edge, half_edge};
-        Field local;
+        BoneField local;
         const FieldRange range = range_in_ball(field, centre, std::sqrt(3.0) * half_edge * (1 + 1e-9), &local);
         if (range.low > 0 || range.high < 0) return;
         if (cells == leaf) {
@@ -115,7 +115,7 @@ class March {
         return ((local.x & 1) != 0 ? centres_ : corners_)[index(local.x >> 1, local.y >> 1, local.z >> 1)];
     }
 
-    void march_leaf(const Field& field, int x, int y, int z) {
+    void march_leaf(const BoneField& field, int x, int y, int z) {
         if ((++leaves_ & 1023) == 0) context_.check_cancelled();
         x0_ = x;
         y0_ = y;
@@ -144,7 +144,7 @@ class March {
 
     // The twelve tetrahedra about the lines from a cell's centre to those of the next cells in x, y and z: each has
     // such a line and one edge of the square face between the two cells.
-    void march_cell(const Field& field, LatticePoint low) {
+    void march_cell(const BoneField& field, LatticePoint low) {
         const LatticePoint centre{low.x + 1, low.y + 1, low.z + 1};
         for (int axis = 0; axis < 3; ++axis) {
             const LatticePoint next = shifted(centre, axis, 2);
@@ -167,7 +167,7 @@ class March {
     }
 
     // The four points turn right-handed: seen from the first, the others run counter-clockwise from behind.
-    void march_tetrahedron(const Field& field, const std::array<LatticePoint, 4>& corner) {
+    void march_tetrahedron(const BoneField& field, const std::array<LatticePoint, 4>& corner) {
         unsigned inside = 0;
         for (unsigned i = 0; i < 4; ++i) inside |= (value(corner[i]) < 0 ? 1U : 0U) << i;
         const int count_inside = std::popcount(inside);
@@ -213,7 +213,7 @@ class March {
         }
     }
 
-    std::uint32_t point_on(const Field& field, LatticePoint a, LatticePoint b) {
+    std::uint32_t point_on(const BoneField& field, LatticePoint a, LatticePoint b) {
         // twice the middle of an edge tells it from all others
         const auto key = static_cast<std::uint64_t>(a.x + b.x) << 42 | static_cast<std::uint64_t>(a.y + b.y) << 21 |
                          static_cast<std::uint64_t>(a.z + b.z);
@@ -226,7 +226,7 @@ class March {
     }
 
     // False position with Illinois' halving. Kept off the ends so that no triangle shrinks to nothing.
-    static Vec3 crossing(const Field& field, Vec3 a, Vec3 b, double value_a, double value_b) {
+    static Vec3 crossing(const BoneField& field, Vec3 a, Vec3 b, double value_a, double value_b) {
         double low = 0;
         double high = 1;
         double t = 0.5;
@@ -271,13 +271,13 @@ class March {
 
 }  // namespace
 
-std::size_t count_triangles(const Field& field, const Box& box, double spacing, const Context& context) {
+std::size_t count_triangles(const BoneField& field, const Box& box, double spacing, const Context& context) {
     March march(box, spacing, true, context);
     march.walk(field);
     return march.count();
 }
 
-TriangleMesh surface(const Field& field, const Box& box, double spacing, const Context& context) {
+TriangleMesh surface(const BoneField& field, const Box& box, double spacing, const Context& context) {
     March march(box, spacing, false, context);
     march.walk(field);
     return std::move(march.mesh());

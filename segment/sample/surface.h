@@ -16,9 +16,9 @@
 namespace qchopper {
 
 // How many triangles surface() would give.
-std::size_t count_triangles(const Field& field, const Box& box, double spacing, const Context& context);
+std::size_t count_triangles(const BoneField& field, const Box& box, double spacing, const Context& context);
 
 // The surface must lie inside the box. `spacing` is the edge of a lattice cell.
-TriangleMesh surface(const Field& field, const Box& box, double spacing, const Context& context);
+TriangleMesh surface(const BoneField& field, const Box& box, double spacing, const Context& context);
 
 }  // namespace qchopper

@@ -12,22 +12,22 @@
 namespace qchopper {
 namespace {
 
-std::vector<Point2> cloud(std::mt19937& random, int count, bool on_grid) {
+std::vector<FootPoint> cloud(std::mt19937& random, int count, bool on_grid) {
     std::uniform_real_distribution<double> u(-5, 5);
-    std::vector<Point2> points;
+    std::vector<FootPoint> points;
     for (int i = 0; i < count; ++i) {
-        Point2 p{u(random), 0.4 * u(random)};
+        FootPoint p{u(random), 0.4 * u(random)};
         if (on_grid) p = {std::round(p[0]), std::round(p[1])};
         points.push_back(p);
     }
     return points;
 }
 
-Rectangle around(const std::vector<Point2>& points, Point2 u) {
+Rectangle around(const std::vector<FootPoint>& points, FootPoint u) {
     const double most = 1e300;
     double low[2] = {most, most};
     double high[2] = {-most, -most};
-    for (const Point2& p : points) {
+    for (const FootPoint& p : points) {
         const double at[2] = {u[0] * p[0] + u[1] * p[1], -u[1] * p[0] + u[0] * p[1]};
         for (int k = 0; k < 2; ++k) {
             low[k] = std::min(low[k], at[k]);
@@ -40,13 +40,13 @@ Rectangle around(const std::vector<Point2>& points, Point2 u) {
 TEST(Footprint, HullHoldsAllPointsAndTurnsOneWay) {
     std::mt19937 random(1);
     for (int round = 0; round < 300; ++round) {
-        const std::vector<Point2> points = cloud(random, 3 + round % 60, round % 2 == 0);
-        const std::vector<Point2> hull = convex_hull(points);
+        const std::vector<FootPoint> points = cloud(random, 3 + round % 60, round % 2 == 0);
+        const std::vector<FootPoint> hull = convex_hull(points);
         if (hull.size() < 3) continue;
         for (std::size_t i = 0; i < hull.size(); ++i) {
-            const Point2 a = hull[i];
-            const Point2 b = hull[(i + 1) % hull.size()];
-            for (const Point2& p : points) {
+            const FootPoint a = hull[i];
+            const FootPoint b = hull[(i + 1) % hull.size()];
+            for (const FootPoint& p : points) {
                 EXPECT_GE((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]), -1e-9);
             }
         }
@@ -56,7 +56,7 @@ TEST(Footprint, HullHoldsAllPointsAndTurnsOneWay) {
 TEST(Footprint, NoTurnHasASmallerRectangle) {
     std::mt19937 random(2);
     for (int round = 0; round < 200; ++round) {
-        const std::vector<Point2> points = cloud(random, 3 + round % 40, round % 2 == 0);
+        const std::vector<FootPoint> points = cloud(random, 3 + round % 40, round % 2 == 0);
         const Rectangle best = smallest_rectangle(points);
         const Rectangle checked = around(points, best.along);
         EXPECT_NEAR(checked.length, best.length, 1e-9) << "it is the rectangle that it says";
@@ -73,8 +73,8 @@ TEST(Footprint, ATurnedRectangleIsFoundExactly) {
     for (const double angle : {0.0, 0.1, 0.7, 1.5, 2.9}) {
         const double c = std::cos(angle);
         const double s = std::sin(angle);
-        std::vector<Point2> points;
-        for (const Point2 p : std::vector<Point2>{{0, 0}, {7, 0}, {7, 2}, {0, 2}, {3, 1}}) {
+        std::vector<FootPoint> points;
+        for (const FootPoint p : std::vector<FootPoint>{{0, 0}, {7, 0}, {7, 2}, {0, 2}, {3, 1}}) {
             points.push_back({c * p[0] - s * p[1], s * p[0] + c * p[1]});
         }
         const Rectangle best = smallest_rectangle(points);
@@ -94,7 +94,7 @@ TEST(Footprint, PointsInLineAndASinglePointHaveNoWidth) {
 }
 
 TEST(Footprint, AHullOfManyPointsIsTurnedAroundOnce) {
-    std::vector<Point2> circle;
+    std::vector<FootPoint> circle;
     for (int i = 0; i < 200000; ++i) {
         const double angle = 2 * std::numbers::pi * i / 200000;
         circle.push_back({std::cos(angle), std::sin(angle)});

@@ -10,8 +10,8 @@
 namespace qchopper {
 namespace {
 
-TEST(Field, PrimitivesMeasureDistance) {
-    Field field;
+TEST(BoneField, PrimitivesMeasureDistance) {
+    BoneField field;
     field.parts = {added(0, {cone({0, 0, 0}, 2, {10, 0, 0}, 2)})};
     EXPECT_NEAR(value_at(field, {5, 7, 0}), 5, 1e-12);
     EXPECT_NEAR(value_at(field, {-6, 0, 0}), 4, 1e-12);
@@ -28,17 +28,17 @@ TEST(Field, PrimitivesMeasureDistance) {
     EXPECT_NEAR(value_at(field, {1, 0, 0}), 2, 1e-12);
 }
 
-TEST(Field, SmoothJointsOnlyAddMaterialAndOnlyNearTheJoint) {
-    Field sharp;
+TEST(BoneField, SmoothJointsOnlyAddMaterialAndOnlyNearTheJoint) {
+    BoneField sharp;
     sharp.parts = {added(0, {ball({0, 0, 0}, 5)}), added(0, {ball({8, 0, 0}, 5)})};
-    Field smooth = sharp;
+    BoneField smooth = sharp;
     smooth.parts[1].blend = 3;
     EXPECT_LT(value_at(smooth, {4, 4, 0}), value_at(sharp, {4, 4, 0}));
     EXPECT_EQ(value_at(smooth, {-6, 0, 0}), value_at(sharp, {-6, 0, 0}));
 }
 
 // In a ball, the local field is the field, bit for bit, and its values keep within the bounds.
-TEST(Field, LocalFieldGivesTheSameBits) {
+TEST(BoneField, LocalFieldGivesTheSameBits) {
     std::mt19937 random(7);
     const auto between = [&](double low, double high) {
         return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
@@ -51,7 +51,7 @@ TEST(Field, LocalFieldGivesTheSameBits) {
             const Vec3 centre{between(bone.box.min.x, bone.box.max.x), between(bone.box.min.y, bone.box.max.y),
                               between(bone.box.min.z, bone.box.max.z)};
             const double radius = std::pow(10, between(-3, -1)) * size;
-            Field local;
+            BoneField local;
             const FieldRange range = range_in_ball(bone.field, centre, radius, &local);
             if (radius < 0.01 * size) {
                 parts_kept += local.parts.size();
@@ -70,9 +70,9 @@ TEST(Field, LocalFieldGivesTheSameBits) {
     }
 }
 
-TEST(Field, BonesAreAlikeOnBothSides) {
+TEST(BoneField, BonesAreAlikeOnBothSides) {
     const Bone bone = skull();
-    Field even = bone.field;
+    BoneField even = bone.field;
     even.textures.clear();
     for (const Vec3 p : {Vec3{200, 0, 0}, Vec3{390, -400, 10}, Vec3{60, 900, -100}}) {
         EXPECT_DOUBLE_EQ(value_at(even, p), value_at(even, {-p.x, p.y, p.z}));
