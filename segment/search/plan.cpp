@@ -8,8 +8,8 @@
 namespace qchopper {
 namespace {
 
-std::vector<Side> path_of(const Piece& piece) {
-    std::vector<Side> path;
+std::vector<PathSide> path_of(const Piece& piece) {
+    std::vector<PathSide> path;
     for (const Bound& bound : piece.bounds) path.push_back({bound.cut, bound.above});
     return path;
 }

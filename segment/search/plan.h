@@ -16,16 +16,16 @@
 namespace qchopper {
 
 // On which side of an earlier cut a piece lies.
-struct Side {
+struct PathSide {
     std::int32_t cut = 0;
     bool above = true;
-    bool operator==(const Side&) const = default;
+    bool operator==(const PathSide&) const = default;
 };
 
 struct PlanCut {
     std::int32_t number = 0;
     std::string piece;              // its name where the plan was made
-    std::vector<Side> path;         // where it lies in the BSP
+    std::vector<PathSide> path;     // where it lies in the BSP
     Plane plane;                    // in the scan's own frame
     double from_centre = 0;         // the same offset counted from PlanScan::centre, exact to the last bit
     Vec3 inside;                    // a point deep in the piece before the cut

@@ -39,7 +39,7 @@ std::string quoted(const std::string& text) {
     return out + "\"";
 }
 
-std::string word(const Side& side) {
+std::string word(const PathSide& side) {
     return std::to_string(side.cut) + (side.above ? " above" : " below");
 }
 
@@ -131,12 +131,12 @@ PlanScan scan_from(const Table& t) {
     return scan;
 }
 
-std::vector<Side> path_from(const Table& t, std::int32_t number) {
-    std::vector<Side> path;
+std::vector<PathSide> path_from(const Table& t, std::int32_t number) {
+    std::vector<PathSide> path;
     for (const toml::node& node : t.array("path")) {
         const std::string text = node.value_exact<std::string>().value_or("");
         std::istringstream in(text);
-        Side side;
+        PathSide side;
         std::string where;
         std::string rest;
         const bool is_ok = (in >> side.cut >> where) && !(in >> rest) && (where == "above" || where == "below") &&

@@ -103,7 +103,7 @@ class Replay {
             const Piece& piece = segmentation.pieces[p];
             const bool is_there =
                 std::equal(piece.bounds.begin(), piece.bounds.end(), planned.path.begin(), planned.path.end(),
-                           [](const Bound& b, const Side& s) { return b.cut == s.cut && b.above == s.above; });
+                           [](const Bound& b, const PathSide& s) { return b.cut == s.cut && b.above == s.above; });
             if (!is_there || !contains(*piece.mesh, inside)) continue;
             const double off = share_off(volume_mm3(*piece.mesh), planned.volume_mm3);
             if (off <= fit_.most_volume_off) return p;
