@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "segment/intake/manifold.h"
-#include "segment/intake/nesting.h"
-#include "segment/intake/weld.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/shells.h"
+#include "segment/repair/manifold.h"
+#include "segment/repair/nesting.h"
+#include "segment/repair/weld.h"
 
 namespace qchopper {
 namespace {

@@ -7,15 +7,15 @@
 
 #include "segment/error.h"
 #include "segment/files/file.h"
-#include "segment/intake/fill_holes.h"
 #include "segment/intake/inspect.h"
-#include "segment/intake/manifold.h"
-#include "segment/intake/nesting.h"
 #include "segment/intake/read_mesh.h"
-#include "segment/intake/weld.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/shells.h"
+#include "segment/repair/fill_holes.h"
+#include "segment/repair/manifold.h"
+#include "segment/repair/nesting.h"
+#include "segment/repair/weld.h"
 
 namespace qchopper {
 namespace {

@@ -13,7 +13,7 @@ ROOMS = ["segment", "cam", "devices", "sim", "cli"]
 
 # Inside these rooms the sub-rooms stand in a row as well.
 SUB_ROOMS = {
-    "segment": ["files", "mesh", "sample", "intake", "cut", "picture", "score", "search"],
+    "segment": ["files", "mesh", "sample", "repair", "intake", "cut", "picture", "score", "search"],
     "cam": ["cell", "setup", "job"],
 }
 

@@ -6,9 +6,9 @@
 #include <bit>
 #include <limits>
 
-#include "segment/intake/weld.h"
 #include "segment/intake/write_stl.h"
 #include "segment/mesh/measure.h"
+#include "segment/repair/weld.h"
 #include "tests/segment/intake/help.h"
 #include "tests/shapes.h"
 

@@ -4,10 +4,10 @@
 #include <cstring>
 
 #include "segment/intake/read_mesh.h"
-#include "segment/intake/weld.h"
 #include "segment/intake/write_ply.h"
 #include "segment/intake/write_stl.h"
 #include "segment/mesh/measure.h"
+#include "segment/repair/weld.h"
 #include "tests/segment/intake/help.h"
 #include "tests/shapes.h"
 

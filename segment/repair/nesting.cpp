@@ -1,4 +1,4 @@
-#include "segment/intake/nesting.h"
+#include "segment/repair/nesting.h"
 
 #include <algorithm>
 #include <cstddef>

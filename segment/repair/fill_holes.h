@@ -2,7 +2,7 @@
 //
 // Existing points and triangles keep their order and their bits; the new triangles come last and no_cap is what
 // cap_of says of them. The bunny of the Stanford scanning repository comes out with 69,664 faces
-// (tests/segment/intake/fill_holes_test.cpp).
+// (tests/segment/repair/fill_holes_test.cpp).
 
 #pragma once
 

@@ -1,10 +1,10 @@
-#include "segment/intake/manifold.h"
+#include "segment/repair/manifold.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "segment/intake/weld.h"
+#include "segment/repair/weld.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

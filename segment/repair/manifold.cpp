@@ -1,4 +1,4 @@
-#include "segment/intake/manifold.h"
+#include "segment/repair/manifold.h"
 
 #include <algorithm>
 #include <limits>

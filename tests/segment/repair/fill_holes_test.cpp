@@ -1,14 +1,14 @@
-#include "segment/intake/fill_holes.h"
+#include "segment/repair/fill_holes.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "segment/intake/read_mesh.h"
-#include "segment/intake/weld.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/shells.h"
+#include "segment/repair/weld.h"
 #include "tests/segment/intake/help.h"
 #include "tests/shapes.h"
 

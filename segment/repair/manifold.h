@@ -2,7 +2,7 @@
 //
 // A point is pinched when the triangles around it fall into several fans that share no edge there. After
 // split_pinched every fan has a point of its own, so no border loop touches another
-// (tests/segment/intake/manifold_test.cpp).
+// (tests/segment/repair/manifold_test.cpp).
 
 #pragma once
 

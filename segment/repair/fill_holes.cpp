@@ -2,7 +2,7 @@
 // OpenMesh holds the connectivity. CGAL rounds the points that it writes to an OpenMesh mesh to float; here it
 // writes none, and our own points never leave our own mesh.
 
-#include "segment/intake/fill_holes.h"
+#include "segment/repair/fill_holes.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 // OpenMesh first: CGAL's header adapts to it
@@ -12,7 +12,7 @@
 
 #include <iterator>
 
-#include "segment/intake/manifold.h"
+#include "segment/repair/manifold.h"
 
 namespace qchopper {
 namespace {

@@ -1,7 +1,7 @@
 // Which shells of a closed mesh lie inside which.
 //
 // Orientation does not matter: a point is inside a shell when a ray from it meets that shell an odd number of times
-// (tests/segment/intake/nesting_test.cpp).
+// (tests/segment/repair/nesting_test.cpp).
 
 #pragma once
 

@@ -1,7 +1,7 @@
 // Makes one point of all points with exactly the same coordinates, and drops what that leaves without use.
 //
 // Points and triangles that stay keep their order and their bits (-0.0 becomes 0.0). Welding twice is welding once
-// (tests/segment/intake/weld_test.cpp).
+// (tests/segment/repair/weld_test.cpp).
 
 #pragma once
 

@@ -1,4 +1,4 @@
-#include "segment/intake/weld.h"
+#include "segment/repair/weld.h"
 
 #include <algorithm>
 #include <bit>
