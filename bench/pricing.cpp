@@ -51,7 +51,7 @@ double bytes(const std::vector<T>& v) {
 double bytes_to_touch(const PreparedPiece& prepared) {
     const TriangleMesh& mesh = *prepared.piece->mesh;
     const auto points = static_cast<double>(mesh.points.size());
-    const double read = bytes(mesh.points) + bytes(prepared.vertex_normals) + bytes(prepared.neighbour) +
+    const double read = bytes(mesh.points) + bytes(prepared.vertex_normals) + points * sizeof(std::uint32_t) +
                         bytes(mesh.triangles) + static_cast<double>(mesh.triangles.size() * sizeof(Vec3));
     const double written = points * (sizeof(double) + sizeof(std::uint32_t));
     return read + written;

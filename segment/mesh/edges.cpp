@@ -6,53 +6,75 @@
 namespace qchopper {
 namespace {
 
-// A half-edge seen from the smaller of its two end points.
-struct HalfEdge {
-    std::uint32_t other;  // the larger end point
-    std::uint32_t id;
-    bool operator<(const HalfEdge& b) const { return other != b.other ? other < b.other : id < b.id; }
-};
+// A half-edge seen from the smaller of its two end points: the larger one, its number, and which way it runs. Numbers
+// sort by end point, then by number.
+std::uint64_t seen_from_smaller(std::uint32_t from, std::uint32_t to, std::uint32_t half_edge) {
+    return std::uint64_t{std::max(from, to)} << 32 | std::uint64_t{half_edge} << 1 | (from > to ? 1U : 0U);
+}
+std::uint32_t far_end(std::uint64_t seen) {
+    return static_cast<std::uint32_t>(seen >> 32);
+}
+std::uint32_t half_edge(std::uint64_t seen) {
+    return static_cast<std::uint32_t>(seen) >> 1;
+}
+bool run_opposite(std::uint64_t a, std::uint64_t b) {
+    return ((a ^ b) & 1) != 0;
+}
+
+// Most points have two to four: then this is much faster than std::sort.
+void sort_few(std::uint64_t* begin, std::uint64_t* end) {
+    if (end - begin > 24) {
+        std::sort(begin, end);
+        return;
+    }
+    for (std::uint64_t* i = begin; i < end; ++i) {
+        const std::uint64_t moved = *i;
+        std::uint64_t* hole = i;
+        for (; hole > begin && moved < hole[-1]; --hole) *hole = hole[-1];
+        *hole = moved;
+    }
+}
+
+// All half-edges by their smaller end point; those of point v begin at first[v].
+std::vector<std::uint64_t> by_smaller_end(const TriangleMesh& mesh, std::vector<std::uint32_t>& first) {
+    first.assign(mesh.points.size() + 2, 0);
+    for (const Triangle& t : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) ++first[std::min(t[k], t[(k + 1) % 3]) + std::size_t{2}];
+    }
+    for (std::size_t v = 2; v < first.size(); ++v) first[v] += first[v - 1];
+    std::vector<std::uint64_t> sorted(3 * mesh.triangles.size());
+    std::uint32_t id = 0;
+    for (const Triangle& t : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k, ++id) {
+            const std::uint32_t from = t[k];
+            const std::uint32_t to = t[(k + 1) % 3];
+            sorted[first[std::min(from, to) + std::size_t{1}]++] = seen_from_smaller(from, to, id);
+        }
+    }
+    return sorted;
+}
 
 }  // namespace
 
 Edges edges(const TriangleMesh& mesh) {
-    assert(mesh.triangles.size() < no_twin / 3);
-    const auto half_edge_count = static_cast<std::uint32_t>(3 * mesh.triangles.size());
-    const auto ends = [&](std::uint32_t id) {
-        const Triangle& t = mesh.triangles[id / 3];
-        return std::pair{t[id % 3], t[(id + 1) % 3]};
-    };
-    std::vector<std::uint32_t> first(mesh.points.size() + 2, 0);  // counting sort by the smaller end point
-    for (std::uint32_t id = 0; id < half_edge_count; ++id) {
-        const auto [a, b] = ends(id);
-        ++first[std::min(a, b) + 2];
-    }
-    for (std::size_t v = 2; v < first.size(); ++v) first[v] += first[v - 1];
-    std::vector<HalfEdge> sorted(half_edge_count);
-    for (std::uint32_t id = 0; id < half_edge_count; ++id) {
-        const auto [a, b] = ends(id);
-        sorted[first[std::min(a, b) + 1]++] = {std::max(a, b), id};
-    }
+    assert(mesh.triangles.size() < (std::size_t{1} << 31) / 3);
+    std::vector<std::uint32_t> first;
+    std::vector<std::uint64_t> sorted = by_smaller_end(mesh, first);
     Edges result;
-    result.twin.assign(half_edge_count, no_twin);
+    result.twin.assign(sorted.size(), no_twin);
     EdgeFaults& faults = result.faults;
-    const auto fault_at = [&](std::uint32_t id) {
-        if (faults.is_closed()) faults.first_triangle = id / 3;
-    };
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-        const auto begin = sorted.begin() + first[v];
-        const auto end = sorted.begin() + first[v + 1];
-        std::sort(begin, end);
-        for (auto group = begin; group != end;) {
-            auto next = group;
-            while (next != end && next->other == group->other) ++next;
+        std::uint64_t* const end = sorted.data() + first[v + 1];
+        sort_few(sorted.data() + first[v], end);
+        for (const std::uint64_t* group = sorted.data() + first[v]; group != end;) {
+            const std::uint64_t* next = group;
+            while (next != end && far_end(*next) == far_end(*group)) ++next;
             const auto size = next - group;
-            const std::uint32_t a = group->id;
-            if (size == 2 && ends(a).first == ends((group + 1)->id).second && group->other != v) {
-                result.twin[a] = (group + 1)->id;
-                result.twin[(group + 1)->id] = a;
+            if (size == 2 && run_opposite(group[0], group[1]) && far_end(*group) != v) {
+                result.twin[half_edge(group[0])] = half_edge(group[1]);
+                result.twin[half_edge(group[1])] = half_edge(group[0]);
             } else {
-                fault_at(a);
+                if (faults.is_closed()) faults.first_triangle = half_edge(*group) / 3;
                 ++(size == 1 ? faults.open : size == 2 ? faults.inconsistent : faults.non_manifold);
             }
             group = next;

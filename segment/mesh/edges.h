@@ -26,7 +26,7 @@ struct EdgeFaults {
 };
 
 // For every half-edge the opposite one, or no_twin at an open, inconsistent or non-manifold edge.
-// Linear in the mesh. The mesh must hold fewer than 2^32/3 triangles.
+// Linear in the mesh. The mesh must hold fewer than 2^31/3 triangles.
 struct Edges {
     std::vector<std::uint32_t> twin;
     EdgeFaults faults;

@@ -1,14 +1,20 @@
 #include "segment/mesh/order.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdint>
-#include <utility>
+#include <limits>
+#include <numeric>
+#include <vector>
 
 #include "segment/mesh/measure.h"
 
 namespace qchopper {
 namespace {
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr unsigned bits_per_axis = 11;  // 2048 cells along the longest side: finer than a scan of ten million faces
+constexpr std::size_t keys = std::size_t{1} << bits_per_axis;
 
 // Spreads the low 21 bits so that two zeros follow each.
 std::uint64_t spread(std::uint64_t x) {
@@ -21,15 +27,30 @@ std::uint64_t spread(std::uint64_t x) {
     return x;
 }
 
-using Keyed = std::pair<std::uint64_t, std::uint32_t>;
+struct Keyed {
+    std::uint64_t key;
+    std::uint32_t point;
+};
 
-}  // namespace
+// Counting sort by one digit of the key after the other; ties keep their order.
+void sort_by_key(std::vector<Keyed>& points) {
+    std::vector<Keyed> other(points.size());
+    for (unsigned digit = 0; digit < 3; ++digit) {
+        const auto digit_of = [&](const Keyed& p) { return (p.key >> (digit * bits_per_axis)) & (keys - 1); };
+        std::array<std::uint32_t, keys + 1> first{};
+        for (const Keyed& p : points) ++first[digit_of(p) + 1];
+        for (std::size_t k = 1; k <= keys; ++k) first[k] += first[k - 1];
+        for (const Keyed& p : points) other[first[digit_of(p)]++] = p;
+        points.swap(other);
+    }
+}
 
-TriangleMesh in_memory_order(const TriangleMesh& mesh) {
+// Per point its place along the curve.
+std::vector<std::uint32_t> along_curve(const TriangleMesh& mesh) {
     const Box box = bounds(mesh);
     const Vec3 size = box.size();
     const double longest = std::max({size.x, size.y, size.z});
-    const double scale = longest > 0 ? 2097151.0 / longest : 0;
+    const double scale = longest > 0 ? static_cast<double>(keys - 1) / longest : 0;
     std::vector<Keyed> order(mesh.points.size());
     for (std::uint32_t v = 0; v < order.size(); ++v) {
         const Vec3 p = scale * (mesh.points[v] - box.min);
@@ -37,26 +58,82 @@ TriangleMesh in_memory_order(const TriangleMesh& mesh) {
                         spread(static_cast<std::uint64_t>(p.z)) << 2,
                     v};
     }
-    std::sort(order.begin(), order.end());
+    sort_by_key(order);
+    std::vector<std::uint32_t> place(order.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i].point] = i;
+    return place;
+}
+
+// The same things in the order of their numbers, which are below `end`; ties keep their order.
+std::vector<std::uint32_t> sorted_by(const std::vector<std::uint32_t>& numbers, std::size_t end,
+                                     const std::vector<std::uint32_t>& things) {
+    std::vector<std::uint32_t> first(end + 1, 0);
+    for (const std::uint32_t n : numbers) ++first[n + 1];
+    for (std::size_t n = 1; n <= end; ++n) first[n] += first[n - 1];
+    std::vector<std::uint32_t> result(things.size());
+    for (const std::uint32_t thing : things) result[first[numbers[thing]]++] = thing;
+    return result;
+}
+
+// Per triangle its patch. It joins the earliest patch at its corners that has room, or begins one.
+std::vector<std::uint32_t> divide(const TriangleMesh& mesh, const std::vector<std::uint32_t>& order,
+                                  std::size_t& count) {
+    std::vector<std::uint32_t> size;
+    std::vector<std::uint32_t> at_point(mesh.points.size(), none);
+    std::vector<std::uint32_t> patch(mesh.triangles.size());
+    for (const std::uint32_t t : order) {
+        std::uint32_t chosen = none;
+        for (const std::uint32_t v : mesh.triangles[t]) {
+            const std::uint32_t p = at_point[v];
+            if (p != none && size[p] < triangles_per_patch && p < chosen) chosen = p;
+        }
+        if (chosen == none) {
+            chosen = static_cast<std::uint32_t>(size.size());
+            size.push_back(0);
+        }
+        ++size[chosen];
+        patch[t] = chosen;
+        for (const std::uint32_t v : mesh.triangles[t]) {
+            if (at_point[v] == none || size[at_point[v]] >= triangles_per_patch) at_point[v] = chosen;
+        }
+    }
+    count = size.size();
+    return patch;
+}
+
+}  // namespace
+
+TriangleMesh in_memory_order(const TriangleMesh& mesh) {
+    const std::vector<std::uint32_t> place = along_curve(mesh);
+    std::vector<std::uint32_t> least(mesh.triangles.size());
+    std::vector<std::uint32_t> order(mesh.triangles.size());
+    std::iota(order.begin(), order.end(), 0U);
+    for (std::size_t t = 0; t < least.size(); ++t) {
+        const Triangle& v = mesh.triangles[t];
+        least[t] = std::min({place[v[0]], place[v[1]], place[v[2]]});
+    }
+    std::size_t patches = 0;
+    order = sorted_by(least, mesh.points.size(), order);
+    const std::vector<std::uint32_t> patch = divide(mesh, order, patches);
     TriangleMesh result;
-    result.points.reserve(order.size());
-    std::vector<std::uint32_t> number(order.size());
-    for (const auto& [key, v] : order) {
-        number[v] = static_cast<std::uint32_t>(result.points.size());
-        result.points.push_back(mesh.points[v]);
-    }
-    std::vector<Keyed> by_point(mesh.triangles.size());
-    for (std::uint32_t t = 0; t < by_point.size(); ++t) {
+    result.points.reserve(mesh.points.size());
+    result.triangles.reserve(mesh.triangles.size());
+    std::vector<std::uint32_t> number(mesh.points.size(), none);
+    const auto numbered = [&](std::uint32_t v) {
+        if (number[v] == none) {
+            number[v] = static_cast<std::uint32_t>(result.points.size());
+            result.points.push_back(mesh.points[v]);
+        }
+        return number[v];
+    };
+    for (const std::uint32_t t : sorted_by(patch, patches, order)) {
         const Triangle& v = mesh.triangles[t];
-        by_point[t] = {std::min({number[v[0]], number[v[1]], number[v[2]]}), t};
-    }
-    std::sort(by_point.begin(), by_point.end());
-    result.triangles.reserve(by_point.size());
-    for (const auto& [key, t] : by_point) {
-        const Triangle& v = mesh.triangles[t];
-        result.triangles.push_back({number[v[0]], number[v[1]], number[v[2]]});
+        const std::uint32_t a = numbered(v[0]);
+        const std::uint32_t b = numbered(v[1]);
+        result.triangles.push_back({a, b, numbered(v[2])});
         if (!mesh.cap_of.empty()) result.cap_of.push_back(mesh.cap_of[t]);
     }
+    for (std::uint32_t v = 0; v < number.size(); ++v) numbered(v);
     return result;
 }
 

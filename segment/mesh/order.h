@@ -5,11 +5,16 @@
 
 #pragma once
 
+#include <cstdint>
+
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {
 
-// Points along a Morton curve (Morton 1966), triangles by their smallest point; both ties by their old number.
+constexpr std::uint32_t triangles_per_patch = 16;
+
+// Triangles in patches: runs of up to triangles_per_patch that hang together by points, along a Morton curve (Morton
+// 1966). Points by their first triangle; those of none come last.
 TriangleMesh in_memory_order(const TriangleMesh& mesh);
 
 }  // namespace qchopper

@@ -62,8 +62,7 @@ struct Search {
 };
 
 // From each cavity's farthest vertex, in the order of their heights.
-std::vector<Search> searches(const TriangleMesh& mesh, const Shells& shells, const LineFrame& frame,
-                             std::span<const double> heights) {
+std::vector<Search> searches(const TriangleMesh& mesh, const Shells& shells, const LineFrame& frame, Vec3 axis) {
     std::vector<std::uint32_t> farthest(shells.count(), none);
     std::vector<double> best(shells.count(), -std::numeric_limits<double>::infinity());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -80,7 +79,7 @@ std::vector<Search> searches(const TriangleMesh& mesh, const Shells& shells, con
     for (std::uint32_t shell = 0; shell < shells.count(); ++shell) {
         const std::uint32_t v = farthest[shell];
         if (v == none) continue;
-        result.push_back({{heights[v], dot(frame.side, mesh.points[v]), best[shell]}, {shell, v, none}});
+        result.push_back({{dot(axis, mesh.points[v]), dot(frame.side, mesh.points[v]), best[shell]}, {shell, v, none}});
     }
     std::stable_sort(result.begin(), result.end(),
                      [](const Search& a, const Search& b) { return a.start.h < b.start.h; });
@@ -119,10 +118,9 @@ bool may_meet(const Search& search, const Box& box, const LineFrame& frame) {
            along + half >= search.start.t && along - half <= search.nearest;
 }
 
-void try_triangle(Search& search, const TriangleMesh& mesh, const LineFrame& frame, std::span<const double> heights,
-                  std::size_t triangle) {
+void try_triangle(Search& search, const TriangleMesh& mesh, const LineFrame& frame, Vec3 axis, std::size_t triangle) {
     const Triangle& v = mesh.triangles[triangle];
-    const double h[3] = {heights[v[0]], heights[v[1]], heights[v[2]]};
+    const double h[3] = {dot(axis, mesh.points[v[0]]), dot(axis, mesh.points[v[1]]), dot(axis, mesh.points[v[2]])};
     const int above = (h[0] >= search.start.h) + (h[1] >= search.start.h) + (h[2] >= search.start.h);
     if (above == 0 || above == 3) return;
     Coordinates corner[3];
@@ -137,13 +135,29 @@ void try_triangle(Search& search, const TriangleMesh& mesh, const LineFrame& fra
     search.is_hit = true;
 }
 
+void grow(Box& box, const Box& other) {
+    box.min = {std::min(box.min.x, other.min.x), std::min(box.min.y, other.min.y), std::min(box.min.z, other.min.z)};
+    box.max = {std::max(box.max.x, other.max.x), std::max(box.max.y, other.max.y), std::max(box.max.z, other.max.z)};
+}
+
+// Triangles of one shell that follow each other.
+struct Run {
+    Box box;
+    Vec3 origin;  // of the cones whose volumes are added up
+    double volume = 0;
+    Run(Vec3 first, Vec3 cones) : box{first, first}, origin(cones) {}
+    void add(const TriangleMesh& mesh, const Triangle& t) {
+        const Vec3 a = mesh.points[t[0]];
+        const Vec3 b = mesh.points[t[1]];
+        const Vec3 c = mesh.points[t[2]];
+        volume += dot(a - origin, cross(b - origin, c - origin)) / 6;
+        for (const Vec3& p : {a, b, c}) grow(box, {p, p});
+    }
+};
+
 }  // namespace
 
 Shells shells(const TriangleMesh& mesh) {
-    const auto grow = [](Box& box, Vec3 p) {
-        box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y), std::min(box.min.z, p.z)};
-        box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y), std::max(box.max.z, p.z)};
-    };
     DisjointSets sets(mesh.points.size());
     for (const Triangle& t : mesh.triangles) {
         sets.unite(t[0], t[1]);
@@ -154,9 +168,8 @@ Shells shells(const TriangleMesh& mesh) {
     std::vector<std::uint32_t> number(mesh.points.size(), none);
     std::vector<Vec3> origin;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const Triangle& triangle = mesh.triangles[t];
-        std::uint32_t& shell = number[sets.root(triangle[0])];
-        const Vec3 a = mesh.points[triangle[0]];
+        const Vec3 a = mesh.points[mesh.triangles[t][0]];
+        std::uint32_t& shell = number[sets.root(mesh.triangles[t][0])];
         if (shell == none) {
             shell = static_cast<std::uint32_t>(origin.size());
             origin.push_back(a);
@@ -164,33 +177,36 @@ Shells shells(const TriangleMesh& mesh) {
             result.box.push_back({a, a});
         }
         result.shell_of[t] = shell;
-        const Vec3 o = origin[shell];
-        const Vec3 b = mesh.points[triangle[1]];
-        const Vec3 c = mesh.points[triangle[2]];
-        result.volume[shell] += dot(a - o, cross(b - o, c - o)) / 6;
-        if (t % triangles_per_block == 0) result.block.push_back({a, a});
-        for (const Vec3& p : {a, b, c}) {
-            grow(result.box[shell], p);
-            grow(result.block.back(), p);
+    }
+    for (std::size_t begin = 0; begin < mesh.triangles.size(); begin += triangles_per_block) {
+        const std::size_t end = std::min(begin + triangles_per_block, mesh.triangles.size());
+        const Vec3 first = mesh.points[mesh.triangles[begin][0]];
+        result.block.push_back({first, first});
+        for (std::size_t t = begin; t < end;) {
+            const std::uint32_t shell = result.shell_of[t];
+            Run run(mesh.points[mesh.triangles[t][0]], origin[shell]);
+            for (; t < end && result.shell_of[t] == shell; ++t) run.add(mesh, mesh.triangles[t]);
+            result.volume[shell] += run.volume;
+            grow(result.box[shell], run.box);
+            grow(result.block.back(), run.box);
         }
     }
     return result;
 }
 
-std::vector<Tether> tethers(const TriangleMesh& mesh, const Shells& shells, Vec3 axis,
-                            std::span<const double> heights) {
+std::vector<Tether> tethers(const TriangleMesh& mesh, const Shells& shells, Vec3 axis) {
     std::vector<Tether> result;
     const bool has_cavity = std::any_of(shells.volume.begin(), shells.volume.end(), [](double v) { return v < 0; });
     if (!has_cavity || shells.count() == 1) return result;
     const LineFrame frame = line_frame(axis);
-    std::vector<Search> all = searches(mesh, shells, frame, heights);
+    std::vector<Search> all = searches(mesh, shells, frame, axis);
     for (std::size_t b = 0; b < shells.block.size(); ++b) {
         const std::size_t last = std::min(mesh.triangles.size(), (b + 1) * triangles_per_block);
         const auto [begin, end] = searches_at(all, shells.block[b], axis);
         for (auto it = begin; it != end; ++it) {
             if (!may_meet(*it, shells.block[b], frame)) continue;
             for (std::size_t t = b * triangles_per_block; t < last; ++t) {
-                if (shells.shell_of[t] != it->tether.cavity) try_triangle(*it, mesh, frame, heights, t);
+                if (shells.shell_of[t] != it->tether.cavity) try_triangle(*it, mesh, frame, axis, t);
             }
         }
     }
@@ -205,10 +221,7 @@ Solids solids(const TriangleMesh& mesh, const Shells& shells, Vec3 axis) {
     Solids result;
     result.solid_of_shell.assign(shells.count(), none);
     DisjointSets sets(shells.count());
-    std::vector<double> heights;
-    heights.reserve(mesh.points.size());
-    for (const Vec3& p : mesh.points) heights.push_back(dot(axis, p));
-    const std::vector<Tether> ties = tethers(mesh, shells, axis, heights);
+    const std::vector<Tether> ties = tethers(mesh, shells, axis);
     for (const Tether& tie : ties) sets.unite(tie.cavity, shells.shell_of[tie.triangle]);
     const auto cavities = std::count_if(shells.volume.begin(), shells.volume.end(), [](double v) { return v < 0; });
     result.loose_cavities = static_cast<std::size_t>(cavities) - ties.size();

@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "segment/mesh/measure.h"
@@ -36,9 +35,9 @@ struct Tether {
     std::uint32_t triangle = 0;  // where the line leaves the material
 };
 
-// One tether for every negative shell; those with nothing around them have none: they are loose. `heights` are those of
-// the points along `axis` (plane.h). One pass over the triangles, however many cavities there are.
-std::vector<Tether> tethers(const TriangleMesh& mesh, const Shells& shells, Vec3 axis, std::span<const double> heights);
+// One tether for every negative shell; those with nothing around them have none: they are loose. One
+// pass over the triangles, however many cavities there are.
+std::vector<Tether> tethers(const TriangleMesh& mesh, const Shells& shells, Vec3 axis);
 
 // Groups the shells of a closed mesh into solids, each cavity by its tether.
 struct Solids {

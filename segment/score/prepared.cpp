@@ -10,23 +10,6 @@
 namespace qchopper {
 namespace {
 
-std::vector<std::uint32_t> earlier_neighbours(const TriangleMesh& mesh) {
-    std::vector<std::uint32_t> neighbour(mesh.points.size(), no_twin);
-    for (const Triangle& t : mesh.triangles) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = t[k];
-            const std::uint32_t b = t[(k + 1) % 3];
-            const std::uint32_t high = std::max(a, b);
-            const std::uint32_t low = std::min(a, b);
-            if (neighbour[high] == no_twin || neighbour[high] < low) neighbour[high] = low;
-        }
-    }
-    for (std::uint32_t v = 0; v < neighbour.size(); ++v) {
-        if (neighbour[v] == no_twin) neighbour[v] = v;
-    }
-    return neighbour;
-}
-
 std::vector<std::uint16_t> bases(const Piece& piece) {
     std::vector<std::uint16_t> result;
     if (piece.mesh->cap_of.empty() || piece.bounds.empty()) return result;
@@ -59,7 +42,37 @@ std::vector<Vec3> unit_normals(const PreparedPiece& p) {
     return unit;
 }
 
+// What the triangles of each patch add to the old bases: the same for every normal.
+std::vector<double> base_sums(const PreparedPiece& p) {
+    const std::size_t width = 3 * p.up.size();
+    std::vector<double> sums(width * p.patches.count(), 0.0);
+    for (std::size_t i = 0; width > 0 && i < p.patches.count(); ++i) {
+        const std::span<double> row(sums.data() + i * width, width);
+        for (std::uint32_t k = p.patches.patch[i].first_triangle; k < p.patches.patch[i + 1].first_triangle; ++k) {
+            add_to_bases(row, p, k, 1, 1);
+        }
+    }
+    return sums;
+}
+
 }  // namespace
+
+void add_to_bases(std::span<double> sums, const PreparedPiece& prepared, std::uint32_t triangle, double share,
+                  double faces) {
+    const Vec3 look = prepared.look(triangle);
+    const double weight = prepared.unit.empty() ? share : faces;
+    const std::uint16_t own = prepared.base.empty() ? no_base : prepared.base[triangle];
+    double* cell = sums.data();
+    for (std::size_t b = 0; b < prepared.up.size(); ++b, cell += 3) {
+        if (b == own) {
+            cell[2] += faces;
+            continue;
+        }
+        const double upwards = weight * dot(look, prepared.up[b]);
+        cell[0] += upwards > 0 ? upwards : 0;
+        cell[1] += upwards < 0 ? -upwards : 0;
+    }
+}
 
 PreparedPiece prepare(const Piece& piece, const Objectives& objectives) {
     const TriangleMesh& mesh = *piece.mesh;
@@ -68,11 +81,14 @@ PreparedPiece prepare(const Piece& piece, const Objectives& objectives) {
     p.origin = mesh.points.empty() ? Vec3{} : mesh.points.front();
     p.base = bases(piece);
     for (const Bound& bound : piece.bounds) p.up.push_back(bound.up());
-    // Four passes that know nothing of each other.
+    // Three passes that know nothing of each other.
     tbb::parallel_invoke([&] { p.edges = edges(mesh); }, [&] { p.shells = shells(mesh); },
-                         [&] { p.neighbour = earlier_neighbours(mesh); },
-                         [&] { p.sums = triangle_sums(mesh, p.origin); });
-    if (!objectives.undercut_by_area) p.unit = unit_normals(p);
+                         [&] {
+                             p.sums = triangle_sums(mesh, p.origin);
+                             if (!objectives.undercut_by_area) p.unit = unit_normals(p);
+                             p.patches = patches(mesh, p.sums, p.unit);
+                             p.base_sums = base_sums(p);
+                         });
     if (objectives.fragility_form == FragilityForm::thesis) p.vertex_normals = vertex_normals(mesh);
     return p;
 }

@@ -3,20 +3,16 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "segment/cut/piece.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/shells.h"
 #include "segment/score/objectives.h"
+#include "segment/score/patches.h"
 
 namespace qchopper {
-
-// The area vector of a triangle (mm2), and the volume of the cone from `origin` to it (mm3).
-struct TriangleSums {
-    Vec3 area;
-    double volume = 0;
-};
 
 constexpr std::uint16_t no_base = 0xFFFF;
 
@@ -25,13 +21,21 @@ struct PreparedPiece {
     Vec3 origin;                   // of the cones: the first point
     Edges edges;
     Shells shells;
-    std::vector<std::uint32_t> neighbour;  // per point: the nearest in memory of its earlier neighbours, or itself
     std::vector<TriangleSums> sums;
-    std::vector<Vec3> unit;            // per triangle, unit normals; only if undercut counts triangles
+    std::vector<Vec3> unit;  // per triangle, unit normals; only if undercut counts triangles
+    Patches patches;
+    std::vector<double> base_sums;     // per patch and bound three: up, down, faces on its cap; as in a row of slabs.h
     std::vector<Vec3> up;              // per bound of the piece, Bound::up()
     std::vector<std::uint16_t> base;   // per triangle: index in piece->bounds of its cap, or no_base; empty: no caps
     std::vector<Vec3> vertex_normals;  // only for the thesis' fragility
+    // What undercut multiplies with a direction: the area vector, or the unit normal if triangles are counted.
+    Vec3 look(std::size_t triangle) const { return unit.empty() ? sums[triangle].area : unit[triangle]; }
 };
+
+// Adds a triangle to three sums per bound (up, down, faces on its cap): `share` of its area, counted as `faces`
+// triangles.
+void add_to_bases(std::span<double> sums, const PreparedPiece& prepared, std::uint32_t triangle, double share,
+                  double faces);
 
 PreparedPiece prepare(const Piece& piece, const Objectives& objectives);
 

@@ -2,136 +2,116 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <memory>
-
-#include "segment/mesh/frame.h"
+#include <numeric>
 
 namespace qchopper {
 namespace {
-
-// How one plane crosses one straddler.
-struct Crossing {
-    std::size_t lone;  // the corner that is alone on its side
-    bool lone_is_above;
-    std::size_t upper;  // ends of the edge through which the surface leaves downwards
-    std::size_t lower;
-    std::size_t exit_edge;
-};
-
-Crossing crossing(const Straddler& s, std::size_t plane) {
-    const bool above[3] = {s.slab[0] > plane, s.slab[1] > plane, s.slab[2] > plane};
-    Crossing c{};
-    c.lone_is_above = above[0] + above[1] + above[2] == 1;
-    while (above[c.lone] != c.lone_is_above) ++c.lone;
-    c.exit_edge = c.lone_is_above ? c.lone : (c.lone + 2) % 3;
-    c.upper = c.exit_edge;
-    c.lower = (c.exit_edge + 1) % 3;
-    return c;
-}
 
 // Share of the triangle's area at its lone corner: the product of the shares of the two cut edges.
 double lone_share(const Straddler& s, const Crossing& c, double offset) {
     const double h = s.height[c.lone];
     const double next = s.height[(c.lone + 1) % 3];
     const double last = s.height[(c.lone + 2) % 3];
-    return (h - offset) / (h - next) * ((h - offset) / (h - last));
+    return (h - offset) * (h - offset) / ((h - next) * (h - last));
 }
 
+// Simple loops one after the other, each with one reach into far memory: many of those are under way at a time then.
 class Finder {
  public:
-    Finder(const PreparedPiece& prepared, const Slabs& slabs, Vec3 normal, std::span<const double> offsets)
-        : p_(prepared), mesh_(*prepared.piece->mesh), slabs_(slabs), offsets_(offsets), frame_(frame_across(normal)) {}
+    Finder(const PreparedPiece& prepared, const Slabs& slabs, std::span<const double> offsets)
+        : p_(prepared), slabs_(slabs), offsets_(offsets), width_(slabs.layout.width()) {}
 
     Section run() {
-        link_records();
+        link_crossings();
         trace_loops();
+        add_parts();
         order_loops();
         return std::move(out_);
     }
 
  private:
-    void link_records() {
+    void link_crossings() {
+        const std::size_t crossings = slabs_.exit.size();
+        std::vector<std::uint32_t> across(crossings);  // the triangle that the surface enters
+        for (std::size_t i = 0; i < crossings; ++i) across[i] = p_.edges.twin[slabs_.exit[i]] / 3;
         // Only straddlers are ever looked up: what the rest holds does not matter.
-        const auto straddler_of = std::make_unique_for_overwrite<std::uint32_t[]>(mesh_.triangles.size());
-        for (std::uint32_t i = 0; i < slabs_.straddlers.size(); ++i) straddler_of[slabs_.straddlers[i].triangle] = i;
-        out_.next.resize(slabs_.records);
-        out_.point.resize(slabs_.records);
-        straddler_of_record_.resize(slabs_.records);
-        for (std::uint32_t i = 0; i < slabs_.straddlers.size(); ++i) {
-            const Straddler& s = slabs_.straddlers[i];
-            for (std::size_t plane = s.low; plane < s.high; ++plane) {
-                const auto record = static_cast<std::uint32_t>(s.first_record + (plane - s.low));
-                const Crossing c = crossing(s, plane);
-                const std::uint32_t twin = p_.edges.twin[3 * s.triangle + c.exit_edge];
-                const Straddler& other = slabs_.straddlers[straddler_of[twin / 3]];
+        const auto straddler_of = std::make_unique_for_overwrite<std::uint32_t[]>(p_.piece->mesh->triangles.size());
+        const std::vector<Straddler>& all = slabs_.straddlers;
+        for (std::uint32_t i = 0; i < all.size(); ++i) straddler_of[all[i].triangle] = i;
+        for (std::uint32_t& triangle : across) triangle = straddler_of[triangle];
+        out_.next.resize(crossings);
+        std::uint32_t i = 0;
+        for (const Straddler& s : all) {
+            for (std::size_t plane = s.low; plane < s.high; ++plane, ++i) {
+                const Straddler& other = all[across[i]];
                 assert(plane >= other.low && plane < other.high);
-                out_.next[record] = static_cast<std::uint32_t>(other.first_record + (plane - other.low));
-                out_.point[record] = flat_point(s, c, offsets_[plane]);
-                straddler_of_record_[record] = i;
+                out_.next[i] = static_cast<std::uint32_t>(other.first_crossing + (plane - other.low));
             }
         }
-    }
-
-    Point2 flat_point(const Straddler& s, const Crossing& c, double offset) const {
-        const Triangle& corner = mesh_.triangles[s.triangle];
-        const Vec3 upper = mesh_.points[corner[c.upper]];
-        const Vec3 lower = mesh_.points[corner[c.lower]];
-        const double share = (s.height[c.upper] - offset) / (s.height[c.upper] - s.height[c.lower]);
-        const Vec3 p = upper + share * (lower - upper) - p_.origin;
-        return {dot(frame_.u, p), dot(frame_.v, p)};
     }
 
     void trace_loops() {
-        std::vector<bool> done(slabs_.records, false);
-        const std::size_t width = slabs_.layout.width();
-        for (std::uint32_t start = 0; start < slabs_.records; ++start) {
-            if (done[start]) continue;
-            SectionLoop loop;
-            const Straddler& first = slabs_.straddlers[straddler_of_record_[start]];
-            loop.plane = static_cast<std::uint16_t>(first.low + (start - first.first_record));
-            loop.first_record = start;
-            above_.resize(above_.size() + width, 0.0);
-            below_.resize(below_.size() + width, 0.0);
-            const std::span<double> above(above_.data() + above_.size() - width, width);
-            const std::span<double> below(below_.data() + below_.size() - width, width);
-            const Point2 origin = out_.point[start];
-            double twice_area = 0;
-            for (std::uint32_t r = start; !done[r]; r = out_.next[r]) {
-                done[r] = true;
-                ++loop.points;
-                const Point2 a = out_.point[r];
-                const Point2 b = out_.point[out_.next[r]];
-                twice_area += (a.x - origin.x) * (b.y - origin.y) - (b.x - origin.x) * (a.y - origin.y);
-                add_parts(slabs_.straddlers[straddler_of_record_[r]], loop, above, below);
+        constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+        loop_of_.assign(slabs_.exit.size(), none);
+        std::uint32_t start = 0;
+        for (const Straddler& s : slabs_.straddlers) {
+            for (std::size_t plane = s.low; plane < s.high; ++plane, ++start) {
+                if (loop_of_[start] != none) continue;
+                const Crossing c = crossing(s, plane);
+                SectionLoop loop;
+                loop.plane = static_cast<std::uint16_t>(plane);
+                loop.first_crossing = start;
+                loop.node_above = s.node[c.exit];
+                loop.node_below = s.node[(c.exit + 1) % 3];
+                const auto number = static_cast<std::uint32_t>(out_.loops.size());
+                for (std::uint32_t i = start; loop_of_[i] == none; i = out_.next[i]) {
+                    loop_of_[i] = number;
+                    ++loop.points;
+                }
+                out_.loops.push_back(loop);
             }
-            loop.area_mm2 = -twice_area / 2;  // the surface is followed clockwise
-            out_.loops.push_back(loop);
         }
     }
 
-    void add_parts(const Straddler& s, SectionLoop& loop, std::span<double> above, std::span<double> below) const {
-        const Crossing c = crossing(s, loop.plane);
-        const double share = lone_share(s, c, offsets_[loop.plane]);
-        add_part(c.lone_is_above ? above : below, p_, s, share, 1);
-        add_part(c.lone_is_above ? below : above, p_, s, 1 - share, 2);
-        loop.node_above = s.node[c.upper];
-        loop.node_below = s.node[c.lower];
+    // The parts of the crossed triangles, and the areas within the loops.
+    void add_parts() {
+        sums_.assign(out_.loops.size() * 2 * width_, 0.0);
+        std::uint32_t i = 0;
+        for (const Straddler& s : slabs_.straddlers) {
+            for (std::size_t plane = s.low; plane < s.high; ++plane, ++i) {
+                SectionLoop& loop = out_.loops[loop_of_[i]];
+                const Crossing c = crossing(s, plane);
+                const double share = lone_share(s, c, offsets_[plane]);
+                add_part(sums(loop_of_[i], c.lone_is_above), p_, s, share, 1);
+                add_part(sums(loop_of_[i], !c.lone_is_above), p_, s, 1 - share, 2);
+                const Point2 origin = slabs_.point[loop.first_crossing];
+                const Point2 a = slabs_.point[i];
+                const Point2 b = slabs_.point[out_.next[i]];
+                // Half the shoelace; the surface is followed clockwise.
+                loop.area_mm2 -= ((a.x - origin.x) * (b.y - origin.y) - (b.x - origin.x) * (a.y - origin.y)) / 2;
+            }
+        }
+    }
+
+    std::span<double> sums(std::uint32_t loop, bool above) {
+        return {sums_.data() + (std::size_t{loop} * 2 + (above ? 0 : 1)) * width_, width_};
     }
 
     void order_loops() {
-        std::vector<std::size_t> order(out_.loops.size());
-        for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+        std::vector<std::uint32_t> order(out_.loops.size());
+        std::iota(order.begin(), order.end(), 0U);
         std::stable_sort(order.begin(), order.end(),
-                         [&](std::size_t a, std::size_t b) { return out_.loops[a].plane < out_.loops[b].plane; });
-        const std::size_t width = slabs_.layout.width();
-        out_.above = SumTable(order.size(), width);
-        out_.below = SumTable(order.size(), width);
+                         [&](std::uint32_t a, std::uint32_t b) { return out_.loops[a].plane < out_.loops[b].plane; });
+        out_.above = SumTable(order.size(), width_);
+        out_.below = SumTable(order.size(), width_);
         std::vector<SectionLoop> sorted;
         sorted.reserve(order.size());
         for (std::size_t i = 0; i < order.size(); ++i) {
             sorted.push_back(out_.loops[order[i]]);
-            add(out_.above.row(i), {above_.data() + order[i] * width, width});
-            add(out_.below.row(i), {below_.data() + order[i] * width, width});
+            add(out_.above.row(i), sums(order[i], true));
+            add(out_.below.row(i), sums(order[i], false));
         }
         out_.loops = std::move(sorted);
         out_.first_loop.assign(offsets_.size() + 1, 0);
@@ -140,23 +120,21 @@ class Finder {
     }
 
     const PreparedPiece& p_;
-    const TriangleMesh& mesh_;
     const Slabs& slabs_;
     std::span<const double> offsets_;
-    PlaneFrame frame_;
-    std::vector<std::uint32_t> straddler_of_record_;
-    std::vector<double> above_;
-    std::vector<double> below_;
+    std::size_t width_;
+    std::vector<std::uint32_t> loop_of_;  // per crossing
+    std::vector<double> sums_;            // per loop a row above and a row below
     Section out_;
 };
 
 }  // namespace
 
-Section find_section(const PreparedPiece& prepared, const Slabs& slabs, Vec3 normal, std::span<const double> offsets) {
-    return Finder(prepared, slabs, normal, offsets).run();
+Section find_section(const PreparedPiece& prepared, const Slabs& slabs, std::span<const double> offsets) {
+    return Finder(prepared, slabs, offsets).run();
 }
 
-std::vector<SectionRegion> regions(const Section& section, std::size_t plane) {
+std::vector<SectionRegion> regions(const Section& section, const Slabs& slabs, std::size_t plane) {
     std::vector<std::size_t> kept;  // loops of two points close by themselves and take no cap (cap.cpp)
     for (std::size_t i = section.first_loop[plane]; i < section.first_loop[plane + 1]; ++i) {
         if (section.loops[i].points > 2) kept.push_back(i);
@@ -169,10 +147,10 @@ std::vector<SectionRegion> regions(const Section& section, std::size_t plane) {
         std::vector<Loop> loops(kept.size());
         for (std::size_t k = 0; k < kept.size(); ++k) {
             const SectionLoop& loop = section.loops[kept[k]];
-            std::uint32_t record = loop.first_record;
-            for (std::uint32_t n = 0; n < loop.points; ++n, record = section.next[record]) {
+            std::uint32_t crossing = loop.first_crossing;
+            for (std::uint32_t n = 0; n < loop.points; ++n, crossing = section.next[crossing]) {
                 loops[k].push_back(static_cast<std::uint32_t>(points.size()));
-                points.push_back(section.point[record]);
+                points.push_back(slabs.point[crossing]);
             }
             std::reverse(loops[k].begin(), loops[k].end());
         }

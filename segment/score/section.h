@@ -1,7 +1,7 @@
 // The loops in which the planes of one normal cross the surface, without cutting it.
 //
-// A record is one crossing of a straddler by a plane; following the surface from record to record closes the loops,
-// which are all run clockwise around material seen against the normal.
+// Following the surface from crossing to crossing (slabs.h) closes the loops, which are all run clockwise around
+// material seen against the normal.
 
 #pragma once
 
@@ -20,12 +20,11 @@ struct SectionLoop {
     double area_mm2 = 0;       // signed: positive around material
     std::uint32_t node_above = 0;
     std::uint32_t node_below = 0;
-    std::uint32_t first_record = 0;  // where it starts; Section::next goes on
+    std::uint32_t first_crossing = 0;  // where it starts; Section::next goes on
 };
 
 struct Section {
-    std::vector<std::uint32_t> next;      // per record
-    std::vector<Point2> point;            // per record, in plane coordinates
+    std::vector<std::uint32_t> next;      // per crossing: the one that follows on its loop
     std::vector<SectionLoop> loops;       // by plane, ascending
     std::vector<std::size_t> first_loop;  // per plane and one more
     SumTable above;                       // per loop: the parts of crossed triangles
@@ -33,7 +32,7 @@ struct Section {
 };
 
 // The piece must be closed.
-Section find_section(const PreparedPiece& prepared, const Slabs& slabs, Vec3 normal, std::span<const double> offsets);
+Section find_section(const PreparedPiece& prepared, const Slabs& slabs, std::span<const double> offsets);
 
 // A cap region of one plane: its loops (indices in Section::loops) and what a cut there would make of it.
 struct SectionRegion {
@@ -41,6 +40,6 @@ struct SectionRegion {
     double area_mm2 = 0;
     double triangles = 0;  // N + 2L - 4
 };
-std::vector<SectionRegion> regions(const Section& section, std::size_t plane);
+std::vector<SectionRegion> regions(const Section& section, const Slabs& slabs, std::size_t plane);
 
 }  // namespace qchopper

@@ -3,8 +3,10 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "segment/mesh/disjoint_sets.h"
+#include "segment/mesh/frame.h"
 
 namespace qchopper {
 namespace {
@@ -49,7 +51,7 @@ class SlabFinder {
     double per_mm_;
 };
 
-// One normal's pass over vertices and triangles.
+// One normal's pass over the points, and then over the patches: as a whole, or triangle by triangle.
 class Pass {
  public:
     Pass(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets)
@@ -57,36 +59,49 @@ class Pass {
           mesh_(*prepared.piece->mesh),
           normal_(normal),
           offsets_(offsets),
+          frame_(frame_across(normal)),
           packing_(offsets.size() + 1),
           word_(mesh_.points.size()) {
         out_.layout.bases = prepared.up.size();
-        out_.height.resize(mesh_.points.size());
+        width_ = out_.layout.width();
+        // Room that is not used costs nothing; growing does.
+        out_.straddlers.reserve(mesh_.triangles.size() / 2);
+        out_.point.reserve(mesh_.triangles.size() / 2);
+        out_.exit.reserve(mesh_.triangles.size() / 2);
     }
 
     Slabs run() {
-        label_vertices();
+        label_points();
         assert(label_slab_.size() <= packing_.most_labels());
-        sums_ = SumTable(label_slab_.size(), out_.layout.width());
-        if (out_.layout.bases > 0) {
-            sum_triangles<true>();
-        } else {
-            sum_triangles<false>();
+        sums_.assign(label_slab_.size() * 3 * width_, 0.0);
+        for (std::size_t p = 0; p < p_.patches.count(); ++p) {
+            if (is_whole(points_of(p))) {
+                take_whole(p);
+            } else {
+                take_triangles(p);
+            }
         }
         number_nodes();
         return std::move(out_);
     }
 
  private:
-    // A vertex takes the label of its earlier neighbour if that lies in the same slab: almost all unions, for free.
-    void label_vertices() {
+    enum Sums { inside, above, below };
+
+    std::span<double> row(std::uint32_t label, Sums which) {
+        return {sums_.data() + (std::size_t{label} * 3 + which) * width_, width_};
+    }
+
+    // A point takes the label of its earlier neighbour if that lies in the same slab: almost all unions, for free.
+    void label_points() {
         const SlabFinder slab_at(offsets_);
         for (std::uint32_t v = 0; v < word_.size(); ++v) {
-            const double h = height(normal_, mesh_.points[v]);
-            out_.height[v] = h;
-            const std::uint32_t slab = slab_at(h);
-            const std::uint32_t before = p_.neighbour[v];
-            if (before != v && packing_.slab(word_[before]) == slab) {
-                word_[v] = word_[before];
+            const std::uint32_t slab = slab_at(height(normal_, mesh_.points[v]));
+            const auto [nearest, farthest] = p_.patches.neighbour[v];
+            if (nearest != v && packing_.slab(word_[nearest]) == slab) {
+                word_[v] = word_[nearest];
+            } else if (farthest != v && packing_.slab(word_[farthest]) == slab) {
+                word_[v] = word_[farthest];
             } else {
                 word_[v] = packing_.pack(slab, sets_.add());
                 label_slab_.push_back(static_cast<std::uint16_t>(slab));
@@ -94,69 +109,119 @@ class Pass {
         }
     }
 
-    // What a triangle looks like along the normal: its area, or 1, times the cosine.
-    double along(std::uint32_t t) const { return dot(p_.unit.empty() ? p_.sums[t].area : p_.unit[t], normal_); }
+    std::span<const std::uint32_t> points_of(std::size_t p) const {
+        const std::uint32_t first = p_.patches.patch[p].first_point;
+        return {p_.patches.point.data() + first, p_.patches.patch[p + 1].first_point - first};
+    }
 
-    template <bool has_bases>  // the four sums along the normal stay in registers over a run of one label
-    void sum_triangles() {
-        std::uint32_t run = std::numeric_limits<std::uint32_t>::max();
-        double faces = 0;
-        double volume = 0;
-        double up = 0;
-        double down = 0;
-        const auto flush = [&] {
-            if (faces == 0) return;
-            double* row = sums_.cells.data() + std::size_t{run} * sums_.width;
-            row[sum_faces] += faces;
-            row[sum_volume] += volume;
-            row[sum_up] += up;
-            row[sum_down] += down;
-        };
-        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    // All points in one slab? Then they hang together, since the patch does.
+    bool is_whole(std::span<const std::uint32_t> points) {
+        const std::uint32_t word = word_[points.front()];
+        std::uint32_t different = 0;
+        for (const std::uint32_t v : points) different |= word_[v] ^ word;
+        if (packing_.slab(different) != 0) return false;
+        if (different != 0) {
+            for (const std::uint32_t v : points) join(word_[v], word);
+        }
+        return true;
+    }
+
+    // Two words of one slab become one set; the first takes over the other, so that the next comparison sees it.
+    void join(std::uint32_t& word, std::uint32_t other) {
+        if (word == other) return;
+        sets_.unite(packing_.label(word), packing_.label(other));
+        word = other;
+    }
+
+    void take_whole(std::size_t p) {
+        const Patch& patch = p_.patches.patch[p];
+        const std::uint32_t end = p_.patches.patch[p + 1].first_triangle;
+        const std::span<double> sums = row(packing_.label(word_[p_.patches.point[patch.first_point]]), inside);
+        sums[sum_faces] += end - patch.first_triangle;
+        sums[sum_volume] += patch.volume;
+        if (std::abs(dot(patch.axis, normal_)) > patch.cone) {
+            add_look(sums, dot(patch.look, normal_));
+        } else {
+            for (std::uint32_t t = patch.first_triangle; t < end; ++t) add_look(sums, dot(p_.look(t), normal_));
+        }
+        const double* base = p_.base_sums.data() + p * (width_ - sum_base);
+        for (std::size_t i = sum_base; i < width_; ++i) sums[i] += *base++;
+    }
+
+    static void add_look(std::span<double> sums, double look) {
+        sums[sum_up] += look > 0 ? look : 0;
+        sums[sum_down] += look < 0 ? -look : 0;
+    }
+
+    void take_triangles(std::size_t p) {
+        const std::uint32_t end = p_.patches.patch[p + 1].first_triangle;
+        for (std::uint32_t t = p_.patches.patch[p].first_triangle; t < end; ++t) {
             const Triangle& v = mesh_.triangles[t];
             const std::array<std::uint32_t, 3> word{word_[v[0]], word_[v[1]], word_[v[2]]};
             if (packing_.slab(word[0]) != packing_.slab(word[1]) || packing_.slab(word[0]) != packing_.slab(word[2])) {
                 keep_straddler(t, word);
                 continue;
             }
-            const std::uint32_t label = packing_.label(word[0]);
-            if (word[0] != word[1]) sets_.unite(label, packing_.label(word[1]));
-            if (word[0] != word[2]) sets_.unite(label, packing_.label(word[2]));
-            if (label != run) {
-                flush();
-                run = label;
-                faces = volume = up = down = 0;
-            }
-            const double look = along(t);
-            faces += 1;
-            volume += p_.sums[t].volume;
-            up += look > 0 ? look : 0;
-            down += look < 0 ? -look : 0;
-            if constexpr (has_bases) add_to_bases(sums_.row(label), p_, t, 1, 1);
+            join(word_[v[1]], word[0]);
+            join(word_[v[2]], word[0]);
+            const std::span<double> sums = row(packing_.label(word[0]), inside);
+            sums[sum_faces] += 1;
+            sums[sum_volume] += p_.sums[t].volume;
+            add_look(sums, dot(p_.look(t), normal_));
+            if (width_ > sum_base) add_to_bases(sums.subspan(sum_base), p_, t, 1, 1);
         }
-        flush();
     }
 
     void keep_straddler(std::uint32_t t, const std::array<std::uint32_t, 3>& word) {
-        const Triangle& v = mesh_.triangles[t];
         Straddler s{};
         s.triangle = t;
+        s.along = dot(p_.look(t), normal_);
+        s.volume = p_.sums[t].volume;
+        const Triangle& v = mesh_.triangles[t];
+        const std::array<Vec3, 3> corner{mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]};
+        std::size_t lowest = 0;
+        std::size_t highest = 0;
         for (std::size_t k = 0; k < 3; ++k) {
+            s.height[k] = height(normal_, corner[k]);
             s.node[k] = packing_.label(word[k]);
             s.slab[k] = static_cast<std::uint16_t>(packing_.slab(word[k]));
-            s.height[k] = out_.height[v[k]];
+            if (s.slab[k] < s.slab[lowest]) lowest = k;
+            if (s.slab[k] > s.slab[highest]) highest = k;
         }
+        s.low = s.slab[lowest];
+        s.high = s.slab[highest];
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t next = (k + 1) % 3;
-            if (s.slab[k] == s.slab[next] && s.node[k] != s.node[next]) sets_.unite(s.node[k], s.node[next]);
+            if (s.slab[k] != s.slab[next]) {
+                tie(s.node[k], s.node[next]);
+            } else {
+                join(word_[v[next]], word[k]);
+            }
         }
-        s.low = std::min({s.slab[0], s.slab[1], s.slab[2]});
-        s.high = std::max({s.slab[0], s.slab[1], s.slab[2]});
-        s.first_record = out_.records;
-        s.along = along(t);
-        s.volume = p_.sums[t].volume;
-        out_.records += static_cast<std::uint32_t>(s.high - s.low);
+        // Whole on one side as soon as its corner nearest to the planes is taken in.
+        add_part(row(s.node[lowest], above), p_, s, 1, 1);
+        add_part(row(s.node[highest], below), p_, s, 1, 1);
+        s.first_crossing = static_cast<std::uint32_t>(out_.exit.size());
+        for (std::size_t plane = s.low; plane < s.high; ++plane) add_crossing(s, corner, plane);
         out_.straddlers.push_back(s);
+    }
+
+    // Ties of the same two labels come in runs and by turns; a few are remembered to leave most repeats out.
+    void tie(std::uint32_t a, std::uint32_t b) {
+        if (a > b) std::swap(a, b);
+        std::array<std::uint32_t, 2>& known = last_ties_[(a * 31 + b) % last_ties_.size()];
+        if (known[0] == a && known[1] == b) return;
+        known = {a, b};
+        out_.ties.push_back(known);
+    }
+
+    void add_crossing(const Straddler& s, const std::array<Vec3, 3>& corner, std::size_t plane) {
+        const std::size_t from = crossing(s, plane).exit;
+        const std::size_t to = (from + 1) % 3;
+        const double share = (s.height[from] - offsets_[plane]) / (s.height[from] - s.height[to]);
+        const Vec3 at = corner[from] + share * (corner[to] - corner[from]) - p_.origin;
+        out_.point.push_back({dot(frame_.u, at), dot(frame_.v, at)});
+        out_.exit.push_back(3 * s.triangle + static_cast<std::uint32_t>(from));
     }
 
     // Labels become nodes: one per root.
@@ -170,10 +235,19 @@ class Pass {
                 node[label] = node[sets_.root(label)];  // a root is smaller, so it has its number already
             }
         }
-        out_.sums = SumTable(out_.nodes(), sums_.width);
-        for (std::uint32_t label = 0; label < node.size(); ++label) add(out_.sums.row(node[label]), sums_.row(label));
+        for (const auto& [table, which] :
+             {std::pair{&out_.inside, inside}, {&out_.above, above}, {&out_.below, below}}) {
+            *table = SumTable(out_.nodes(), width_);
+            for (std::uint32_t label = 0; label < node.size(); ++label) {
+                add(table->row(node[label]), row(label, which));
+            }
+        }
         for (Straddler& s : out_.straddlers) {
             for (std::uint32_t& n : s.node) n = node[n];
+        }
+        for (auto& [a, b] : out_.ties) {
+            a = node[a];
+            b = node[b];
         }
         for (std::uint32_t& word : word_) word = node[packing_.label(word)];
         out_.node_of = std::move(word_);
@@ -183,33 +257,18 @@ class Pass {
     const TriangleMesh& mesh_;
     Vec3 normal_;
     std::span<const double> offsets_;
+    PlaneFrame frame_;
     Packing packing_;
-    std::vector<std::uint32_t> word_;
+    std::size_t width_ = 0;
+    std::vector<std::uint32_t> word_;  // per point
     std::vector<std::uint16_t> label_slab_;
     DisjointSets sets_;
-    SumTable sums_;
+    std::vector<double> sums_;  // three rows per label
+    std::array<std::array<std::uint32_t, 2>, 256> last_ties_{};
     Slabs out_;
 };
 
 }  // namespace
-
-void add_to_bases(std::span<double> row, const PreparedPiece& prepared, std::uint32_t triangle, double share,
-                  double faces) {
-    const bool by_area = prepared.unit.empty();
-    const Vec3 look = by_area ? prepared.sums[triangle].area : prepared.unit[triangle];
-    const double weight = by_area ? share : faces;
-    const std::uint16_t own = prepared.base.empty() ? no_base : prepared.base[triangle];
-    double* cell = row.data() + sum_base;
-    for (std::size_t b = 0; b < prepared.up.size(); ++b, cell += 3) {
-        if (b == own) {
-            cell[2] += faces;
-            continue;
-        }
-        const double upwards = weight * dot(look, prepared.up[b]);
-        cell[0] += upwards > 0 ? upwards : 0;
-        cell[1] += upwards < 0 ? -upwards : 0;
-    }
-}
 
 Slabs slabs(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets) {
     return Pass(prepared, normal, offsets).run();

@@ -1,7 +1,7 @@
 // The slabs between the offsets of one normal, and the small graph of what hangs together in each of them.
 //
-// A node is a connected set of vertices in one slab. Triangles inside a slab are summed up in its node; a triangle that
-// reaches over several slabs is kept aside as a straddler. One pass over the vertices and one over the triangles.
+// A node is a connected set of vertices in one slab. Triangles inside a slab are summed up in its node, patch by patch
+// where a whole patch lies in it; a triangle that reaches over several slabs is kept aside as a straddler.
 
 #pragma once
 
@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "segment/cut/nest.h"
 #include "segment/score/prepared.h"
 
 namespace qchopper {
@@ -48,29 +49,44 @@ struct Straddler {
     std::array<std::uint16_t, 3> slab;  // per corner: the number of offsets at or below it
     std::uint16_t low;                  // least and largest slab: the planes low .. high-1 cross it
     std::uint16_t high;
-    std::uint32_t first_record;  // number of its first crossing (section.h)
+    std::uint32_t first_crossing;  // in Slabs::point and exit
     std::array<double, 3> height;
     double along;  // its share in the undercut along the normal: signed area, or 1 times the unit normal's cosine
     double volume;
 };
 
+// How one plane crosses one straddler.
+struct Crossing {
+    std::size_t lone;  // the corner that is alone on its side
+    bool lone_is_above;
+    std::size_t exit;  // the half-edge (0..2) from above to below: it starts at the corner of this number
+};
+
+inline Crossing crossing(const Straddler& s, std::size_t plane) {
+    const bool above[3] = {s.slab[0] > plane, s.slab[1] > plane, s.slab[2] > plane};
+    Crossing c{};
+    c.lone_is_above = above[0] + above[1] + above[2] == 1;
+    while (above[c.lone] != c.lone_is_above) ++c.lone;
+    c.exit = c.lone_is_above ? c.lone : (c.lone + 2) % 3;
+    return c;
+}
+
 struct Slabs {
     SumLayout layout;
-    std::vector<double> height;            // per point
-    std::vector<std::uint32_t> node_of;    // per point
-    std::vector<std::uint16_t> node_slab;  // per node
-    SumTable sums;                         // per node: the triangles inside its slab
-    std::vector<Straddler> straddlers;     // in the order of their triangles
-    std::uint32_t records = 0;             // crossings of all straddlers
+    std::vector<std::uint16_t> node_slab;            // per node
+    SumTable inside;                                 // per node: the triangles inside its slab
+    SumTable above;                                  // per node: straddlers whose lowest corner it has
+    SumTable below;                                  // per node: straddlers whose highest corner it has
+    std::vector<std::array<std::uint32_t, 2>> ties;  // nodes that a straddler has in common; some of them repeat
+    std::vector<Straddler> straddlers;               // patch by patch
+    std::vector<Point2> point;                       // per crossing of a straddler: where its exit edge meets the plane
+    std::vector<std::uint32_t> exit;     // per crossing: the half-edge through which the surface leaves downwards
+    std::vector<std::uint32_t> node_of;  // per point
     std::size_t nodes() const { return node_slab.size(); }
 };
 
 // `offsets` ascending, none at a vertex's height.
 Slabs slabs(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets);
-
-// Adds a triangle to the old bases of a row: `share` of its area, counted as `faces` triangles.
-void add_to_bases(std::span<double> row, const PreparedPiece& prepared, std::uint32_t triangle, double share,
-                  double faces);
 
 // Adds a straddler, or its part on one side, to a row.
 inline void add_part(std::span<double> row, const PreparedPiece& prepared, const Straddler& s, double share,
@@ -80,7 +96,7 @@ inline void add_part(std::span<double> row, const PreparedPiece& prepared, const
     row[sum_volume] += share * s.volume;
     row[sum_up] += along > 0 ? along : 0;
     row[sum_down] += along < 0 ? -along : 0;
-    if (row.size() > sum_base) add_to_bases(row, prepared, s.triangle, share, faces);
+    if (row.size() > sum_base) add_to_bases(row.subspan(sum_base), prepared, s.triangle, share, faces);
 }
 
 }  // namespace qchopper

@@ -32,17 +32,14 @@ class Side {
           above_(above),
           planes_(offsets.size()),
           sets_(slabs.nodes()),
-          sums_(slabs.sums),
+          sums_(slabs.inside),
           edges_at_(planes_ + 1),
           nodes_at_(planes_ + 1) {
-        for (std::uint32_t n = 0; n < slabs.nodes(); ++n) nodes_at_[slabs.node_slab[n]].push_back(n);
-        for (const Straddler& s : slabs.straddlers) {
-            // Whole on this side as soon as its corner nearest to the planes is taken in.
-            const std::uint16_t last = above ? s.low : s.high;
-            const std::size_t k = s.slab[0] == last ? 0 : s.slab[1] == last ? 1 : 2;
-            add_part(sums_.row(s.node[k]), p_, s, 1, 1);
-            for (std::size_t i = 0; i < 3; ++i) add_edge(s.node[i], s.node[(i + 1) % 3]);
+        for (std::uint32_t n = 0; n < slabs.nodes(); ++n) {
+            nodes_at_[slabs.node_slab[n]].push_back(n);
+            add(sums_.row(n), (above ? slabs.above : slabs.below).row(n));
         }
+        for (const auto& [a, b] : slabs.ties) add_edge(a, b);
         for (const Tether& t : ties) {
             add_edge(slabs.node_of[t.vertex], slabs.node_of[far_corner(t.triangle)]);
         }
@@ -61,20 +58,20 @@ class Side {
  private:
     // The tether lies at the cavity's height; of the triangle that it meets, this corner is on its side of any plane.
     std::uint32_t far_corner(std::uint32_t triangle) const {
-        const Triangle& v = p_.piece->mesh->triangles[triangle];
+        const TriangleMesh& mesh = *p_.piece->mesh;
+        const Triangle& v = mesh.triangles[triangle];
         return *std::max_element(v.begin(), v.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return above_ ? slabs_.height[a] < slabs_.height[b] : slabs_.height[a] > slabs_.height[b];
+            const double difference = height(normal_, mesh.points[a]) - height(normal_, mesh.points[b]);
+            return above_ ? difference < 0 : difference > 0;
         });
     }
 
-    // An edge counts from the slab of its end nearer to the planes. Equal edges come in runs; one of a run is enough.
+    // An edge counts from the slab of its end nearer to the planes.
     void add_edge(std::uint32_t a, std::uint32_t b) {
         if (a == b) return;
         const std::uint16_t slab_a = slabs_.node_slab[a];
         const std::uint16_t slab_b = slabs_.node_slab[b];
         std::vector<GraphEdge>& edges = edges_at_[above_ ? std::min(slab_a, slab_b) : std::max(slab_a, slab_b)];
-        if (a > b) std::swap(a, b);
-        if (!edges.empty() && edges.back().a == a && edges.back().b == b) return;
         edges.push_back({a, b});
     }
 
@@ -186,7 +183,7 @@ std::vector<std::optional<Price>> sweep_solids(const PreparedPiece& prepared, Ve
     std::vector<std::optional<Price>> prices(offsets.size());
     if (offsets.empty()) return prices;
     const Slabs all_slabs = slabs(prepared, normal, offsets);
-    const Section section = find_section(prepared, all_slabs, normal, offsets);
+    const Section section = find_section(prepared, all_slabs, offsets);
     std::vector<std::vector<SectionRegion>> all_regions(offsets.size());
     for (std::size_t plane = 0; plane < offsets.size(); ++plane) {
         if (section.first_loop[plane] == section.first_loop[plane + 1]) continue;
@@ -194,9 +191,9 @@ std::vector<std::optional<Price>> sweep_solids(const PreparedPiece& prepared, Ve
         for (std::size_t i = section.first_loop[plane]; i < section.first_loop[plane + 1]; ++i) {
             prices[plane]->cap_area_mm2 += section.loops[i].area_mm2;
         }
-        all_regions[plane] = regions(section, plane);
+        all_regions[plane] = regions(section, all_slabs, plane);
     }
-    const std::vector<Tether> ties = tethers(*prepared.piece->mesh, prepared.shells, normal, all_slabs.height);
+    const std::vector<Tether> ties = tethers(*prepared.piece->mesh, prepared.shells, normal);
     for (const bool above : {true, false}) {
         Side(prepared, all_slabs, section, normal, offsets, ties, above).run(prices, all_regions);
     }

@@ -1,0 +1,107 @@
+#include "segment/score/patches.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+#include "segment/mesh/order.h"
+#include "segment/mesh/shells.h"
+#include "tests/shapes.h"
+
+namespace qchopper {
+namespace {
+
+std::vector<TriangleSums> sums_of(const TriangleMesh& mesh) {
+    std::vector<TriangleSums> sums;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const Vec3 area = area_vector(mesh, t);
+        sums.push_back({area, dot(mesh.points[mesh.triangles[t][0]], area) / 3});
+    }
+    return sums;
+}
+
+TEST(Patches, CoverEveryTriangleOnceAndListTheirPoints) {
+    for (const auto& [name, mesh, solids] : shapes::all_closed()) {
+        const Patches found = patches(mesh, sums_of(mesh), {});
+        ASSERT_GT(found.count(), 0U) << name;
+        EXPECT_EQ(found.patch.front().first_triangle, 0U) << name;
+        EXPECT_EQ(found.patch.back().first_triangle, mesh.triangles.size()) << name;
+        for (std::size_t p = 0; p < found.count(); ++p) {
+            const std::uint32_t first = found.patch[p].first_triangle;
+            const std::uint32_t end = found.patch[p + 1].first_triangle;
+            ASSERT_GT(end, first) << name;
+            EXPECT_LE(end - first, triangles_per_patch) << name;
+            std::set<std::uint32_t> points;
+            for (std::uint32_t t = first; t < end; ++t)
+                points.insert(mesh.triangles[t].begin(), mesh.triangles[t].end());
+            const std::vector<std::uint32_t> listed(found.point.begin() + found.patch[p].first_point,
+                                                    found.point.begin() + found.patch[p + 1].first_point);
+            EXPECT_EQ(listed.size(), points.size()) << name;
+            EXPECT_EQ(std::set<std::uint32_t>(listed.begin(), listed.end()), points) << name;
+        }
+    }
+}
+
+// What makes it right to give all points of a patch in one slab one label.
+TEST(Patches, HangTogether) {
+    for (const auto& [name, mesh, solids] : shapes::all_closed()) {
+        const Patches found = patches(mesh, sums_of(mesh), {});
+        for (std::size_t p = 0; p < found.count(); ++p) {
+            TriangleMesh alone;
+            alone.points = mesh.points;
+            alone.triangles.assign(mesh.triangles.begin() + found.patch[p].first_triangle,
+                                   mesh.triangles.begin() + found.patch[p + 1].first_triangle);
+            EXPECT_EQ(shells(alone).count(), 1U) << name << " " << p;
+        }
+    }
+}
+
+TEST(Patches, NeighboursAreEarlierAndOnACommonEdge) {
+    for (const auto& [name, mesh, solids] : shapes::all_closed()) {
+        std::vector<std::set<std::uint32_t>> beside(mesh.points.size());
+        for (const Triangle& t : mesh.triangles) {
+            for (const std::uint32_t v : t) beside[v].insert(t.begin(), t.end());
+        }
+        const Patches found = patches(mesh, sums_of(mesh), {});
+        for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
+            for (const std::uint32_t n : found.neighbour[v]) {
+                EXPECT_TRUE(n == v || (n < v && beside[v].contains(n))) << name;
+            }
+        }
+    }
+}
+
+// Every normal: where the cone says so, the sum over the triangles is up or down alone, and equals the patch's.
+TEST(Patches, ConesTellWhenAllTrianglesLookToOneSide) {
+    std::mt19937 random(5);
+    std::normal_distribution<double> some;
+    std::size_t sure = 0;
+    std::size_t asked = 0;
+    for (const auto& [name, shape, solids] : shapes::all_closed()) {
+        const TriangleMesh mesh = in_memory_order(shape);
+        const std::vector<TriangleSums> sums = sums_of(mesh);
+        const Patches found = patches(mesh, sums, {});
+        for (int i = 0; i < 20; ++i) {
+            const Vec3 normal = normalized({some(random), some(random), some(random)});
+            for (std::size_t p = 0; p < found.count(); ++p) {
+                const Patch& patch = found.patch[p];
+                ++asked;
+                if (std::abs(dot(patch.axis, normal)) <= patch.cone) continue;
+                ++sure;
+                double up = 0;
+                double down = 0;
+                for (std::uint32_t t = patch.first_triangle; t < found.patch[p + 1].first_triangle; ++t) {
+                    const double look = dot(sums[t].area, normal);
+                    (look > 0 ? up : down) += look;
+                }
+                EXPECT_TRUE(up == 0 || down == 0) << name;
+                EXPECT_NEAR(up + down, dot(patch.look, normal), 1e-9 * norm(patch.look)) << name;
+            }
+        }
+    }
+    EXPECT_GT(sure, asked / 10);  // otherwise they would be of no use
+}
+
+}  // namespace
+}  // namespace qchopper
