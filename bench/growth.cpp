@@ -1,69 +1,15 @@
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <iostream>
 
+#include "bench/child.h"
 #include "bench/clock.h"
 #include "bench/measures.h"
 #include "segment/files/file.h"
 #include "segment/intake/write_ply.h"
 #include "segment/search/project.h"
 
-extern char** environ;
-
 namespace qchopper::bench {
-namespace {
 
 namespace fs = std::filesystem;
-
-class TemporaryFolder {
- public:
-    TemporaryFolder() {
-        std::string name = (fs::temp_directory_path() / "bench-XXXXXX").string();
-        path_ = ::mkdtemp(name.data()) != nullptr ? name : std::string();
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        if (!path_.empty()) fs::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    const fs::path& path() const { return path_; }
-
- private:
-    fs::path path_;
-};
-
-struct Ended {
-    int status = -1;
-    double peak_bytes = 0;
-    double wall = 0;
-};
-
-Ended run(const std::vector<std::string>& command) {
-    std::vector<char*> arguments;
-    for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
-    arguments.push_back(nullptr);
-    Ended ended;
-    const double started = wall_s();
-    pid_t child = 0;
-    posix_spawn_file_actions_t streams;
-    ::posix_spawn_file_actions_init(&streams);
-    ::posix_spawn_file_actions_addopen(&streams, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    const int fault = ::posix_spawnp(&child, arguments[0], &streams, nullptr, arguments.data(), environ);
-    ::posix_spawn_file_actions_destroy(&streams);
-    if (fault != 0) return ended;
-    rusage usage{};
-    if (::wait4(child, &ended.status, 0, &usage) != child) return ended;
-    ended.wall = wall_s() - started;
-    ended.peak_bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
-    return ended;
-}
-
-}  // namespace
 
 void measure_growth(const Measured& small, const Base& small_base, std::size_t faces, Figures& figures) {
     const Measured large = one_shell("skull " + number_text(static_cast<double>(faces)), Specimen::skull, faces);

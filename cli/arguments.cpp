@@ -19,11 +19,13 @@ namespace {
 constexpr const char* examples = R"(Examples:
   qchopper sample vertebra --faces 50000 -o vertebra.ply
   qchopper inspect vertebra.ply --units mm
+  qchopper repair vertebra.ply --units mm -o solid.ply
   qchopper prepare vertebra.ply --units mm --cell cells/foam-1.toml --min-cuts 3 -o vertebra.qch
   qchopper segment vertebra.ply --units mm -o by-hand.qch
   qchopper segment by-hand.qch --step
   qchopper segment by-hand.qch --accept 1
   qchopper explain vertebra.qch --cut 1
+  qchopper export vertebra.qch --format 3mf
   qchopper dry-run vertebra.qch
   qchopper cell-sim --listen 127.0.0.1:15020 --drop drop --consent ask
   qchopper dispatch vertebra.qch --to 127.0.0.1:15020 --drop drop
@@ -106,9 +108,11 @@ struct Parser {
     Arguments common;
     SampleArguments sample;
     InspectArguments inspect;
+    RepairArguments repair;
     PrepareArguments prepare;
     SegmentArguments segment;
     ExplainArguments explain;
+    ExportArguments exported;
     DryRunArguments dry_run;
     CellSimArguments cell_sim;
     DispatchArguments dispatch;
@@ -120,9 +124,11 @@ struct Parser {
         app.set_version_flag("--version", std::string("qchopper ") + version);
         add_sample();
         add_inspect();
+        add_repair();
         add_prepare();
         add_segment();
         add_explain();
+        add_export();
         add_dry_run();
         add_cell_sim();
         add_dispatch();
@@ -137,19 +143,57 @@ struct Parser {
             ->check(number_between(1, many, "a count of faces"));
         c->add_option("--holes", sample.holes, "leave so many holes (0)")
             ->check(number_between(0, 1e6, "a count of holes"));
+        c->add_option("--marks", sample.marks, "draw so many shallow dents, as a marker pen leaves them in a scan (0)")
+            ->check(number_between(0, 1e6, "a count of marks"));
         c->add_option("-o,--out", sample.out, "the file to write: .ply, or .stl")->required();
         add_common(c, common);
     }
 
     void add_inspect() {
         CLI::App* c = app.add_subcommand("inspect", "say what a scan is and what is wrong with it");
-        c->add_option("SCAN", inspect.scan, "PLY or STL")->required();
+        c->add_option("SCAN", inspect.scan, "PLY, STL, OBJ, OFF, GLB, glTF or 3MF; - is standard input")->required();
         c->add_option("--units", inspect.units, "what one unit of the file is: mm, cm, m, in")
             ->check(one_of({"mm", "cm", "m", "in"}));
+        c->add_flag("--deep", inspect.deep, "look for faces that run through each other too");
+        add_common(c, common);
+    }
+
+    void add_repair_choices(CLI::App* c, RepairChoiceArguments& a) {
+        c->add_option("--weld", a.weld_mm, "make one point of border points that lie within so many mm (off)")
+            ->check(number_between(0, many, "a length in mm"));
+        c->add_option(
+             "--fill", a.fill,
+             "close holes flat, fair (refined, bent like the surface around), auto (small ones flat, large ones "
+             "fair) or none (auto)")
+            ->check(one_of({"auto", "flat", "fair", "none"}));
+        c->add_flag("--smooth-marks", a.smooth_marks,
+                    "lift the shallow lines that a marker pen leaves in a laser scan");
+        c->add_option("--wrap", a.wrap_mm,
+                      "last resort: wrap the scan with a ball of so many mm, which keeps no point of it (off)")
+            ->check(number_between(0, many, "a length in mm"));
+    }
+
+    void add_repair() {
+        CLI::App* c = app.add_subcommand("repair", "make a closed solid of a scan and say what that took");
+        c->add_option("SCAN", repair.scan, "a scan of any kind that inspect reads; - is standard input")->required();
+        c->add_option("-o,--out", repair.out, "the file to write: .ply, which keeps every bit, or .stl")->required();
+        c->add_option("--units", repair.units, "what one unit of the file is: mm, cm, m, in")
+            ->check(one_of({"mm", "cm", "m", "in"}));
+        add_repair_choices(c, repair);
+        c->add_option("--crumbs", repair.crumbs, "solids too small to be pieces: keep or drop (keep)")
+            ->check(one_of({"keep", "drop"}));
+        c->add_flag("--keep-self-intersections", repair.keep_self_intersections,
+                    "leave places where the scan runs through itself");
+        c->add_option("--skip", repair.skipped, "leave steps out: faces, split, orient, stitch, no_area, outwards")
+            ->delimiter(',')
+            ->check(one_of({"faces", "split", "orient", "stitch", "no_area", "outwards"}));
         add_common(c, common);
     }
 
     void add_project_options(CLI::App* c, ProjectArguments& a) {
+        add_repair_choices(c, a);
+        c->add_flag("--resolve-self-intersections", a.resolve_self_intersections,
+                    "mend places where the scan runs through itself; the cut copes with them");
         c->add_option("--units", a.units, "what one unit of the scan is: mm, cm, m, in")
             ->check(one_of({"mm", "cm", "m", "in"}));
         c->add_option("--scale", a.scale, "enlarge by this factor; recorded, and shown as a warning")
@@ -246,6 +290,26 @@ struct Parser {
         add_common(c, common);
     }
 
+    void add_export() {
+        CLI::App* c = app.add_subcommand("export", "write pieces as 3MF, STL, PLY or GLB for other programs");
+        c->add_option("PROJECT", exported.project, "the folder NAME.qch")->required();
+        c->add_option("--format", exported.format, "3mf, stl, ply or glb")
+            ->required()
+            ->check(one_of({"3mf", "stl", "ply", "glb"}));
+        c->add_option("--pose", exported.pose,
+                      "place: as they sit in the scan; setup: as they lie in the stock (place)")
+            ->check(one_of({"place", "setup"}));
+        c->add_option("--piece", exported.piece, "only this piece");
+        c->add_option("--simplify", exported.simplify_mm,
+                      "as few faces as a deviation of so many mm allows; caps stay as they are")
+            ->check(number_between(1e-9, many, "a length in mm above 0"));
+        c->add_option("--max-faces", exported.max_faces, "no more than so many faces a piece; the deviation is told")
+            ->check(number_between(4, many, "a count of faces from 4"));
+        c->add_option("-o,--out", exported.out,
+                      "the file to make, or for STL and PLY the folder (NAME.3mf, NAME-stl beside the project)");
+        add_common(c, common);
+    }
+
     void add_dry_run() {
         CLI::App* c = app.add_subcommand("dry-run", "hand every piece to a simulated cell inside, over real TCP");
         c->add_option("PROJECT", dry_run.project, "the folder NAME.qch")->required();
@@ -285,12 +349,16 @@ struct Parser {
             common.command = sample;
         else if (name == "inspect")
             common.command = inspect;
+        else if (name == "repair")
+            common.command = repair;
         else if (name == "prepare")
             common.command = prepare;
         else if (name == "segment")
             common.command = segment;
         else if (name == "explain")
             common.command = explain;
+        else if (name == "export")
+            common.command = exported;
         else if (name == "dry-run")
             common.command = dry_run;
         else if (name == "cell-sim")

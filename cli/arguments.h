@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "segment/mesh/vec3.h"
 
@@ -16,16 +17,36 @@ struct SampleArguments {
     std::string specimen;
     std::size_t faces = 100'000;
     int holes = 0;
+    int marks = 0;
     std::filesystem::path out;
 };
 
 struct InspectArguments {
     std::filesystem::path scan;
     std::optional<std::string> units;
+    bool deep = false;
+};
+
+// How a scan becomes a solid, for every command that takes one in.
+struct RepairChoiceArguments {
+    std::optional<double> weld_mm;
+    std::optional<std::string> fill;  // auto | flat | fair | none
+    bool smooth_marks = false;
+    std::optional<double> wrap_mm;
+};
+
+struct RepairArguments : RepairChoiceArguments {
+    std::filesystem::path scan;
+    std::filesystem::path out;
+    std::optional<std::string> units;
+    std::optional<std::string> crumbs;  // keep | drop
+    bool keep_self_intersections = false;
+    std::vector<std::string> skipped;  // names of steps
 };
 
 // What a new project is told; a stop rule also tells a search how to go on.
-struct ProjectArguments {
+struct ProjectArguments : RepairChoiceArguments {
+    bool resolve_self_intersections = false;
     std::optional<std::string> units;
     std::optional<double> scale;
     std::optional<std::filesystem::path> cell;
@@ -71,6 +92,16 @@ struct ExplainArguments {
     std::optional<std::filesystem::path> out;  // of the plot
 };
 
+struct ExportArguments {
+    std::filesystem::path project;
+    std::string format;          // 3mf | stl | ply | glb
+    std::string pose = "place";  // place | setup
+    std::optional<std::string> piece;
+    std::optional<double> simplify_mm;
+    std::optional<std::size_t> max_faces;
+    std::optional<std::filesystem::path> out;
+};
+
 struct DryRunArguments {
     std::filesystem::path project;
     std::optional<std::string> piece;
@@ -97,8 +128,8 @@ struct DispatchArguments {
 struct Arguments {
     bool json = false;  // for the option parser; run.cpp knows it earlier
     bool quiet = false;
-    std::variant<SampleArguments, InspectArguments, PrepareArguments, SegmentArguments, ExplainArguments,
-                 DryRunArguments, CellSimArguments, DispatchArguments>
+    std::variant<SampleArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
+                 ExplainArguments, ExportArguments, DryRunArguments, CellSimArguments, DispatchArguments>
         command;
 };
 

@@ -9,9 +9,11 @@ namespace qchopper {
 
 int run(const SampleArguments& arguments, Terminal& terminal);
 int run(const InspectArguments& arguments, Terminal& terminal);
+int run(const RepairArguments& arguments, Terminal& terminal);
 int run(const PrepareArguments& arguments, Terminal& terminal);
 int run(const SegmentArguments& arguments, Terminal& terminal);
 int run(const ExplainArguments& arguments, Terminal& terminal);
+int run(const ExportArguments& arguments, Terminal& terminal);
 int run(const DryRunArguments& arguments, Terminal& terminal);
 int run(const CellSimArguments& arguments, Terminal& terminal);
 int run(const DispatchArguments& arguments, Terminal& terminal);

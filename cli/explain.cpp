@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/explanation.h"
+#include "cli/segment_project.h"
 #include "segment/files/file.h"
 #include "segment/intake/intake.h"
 #include "segment/score/pricing.h"
@@ -31,10 +32,7 @@ const Cut& cut_to_explain(const Project& project, std::optional<int> number) {
 }
 
 Intake intake_of(const Project& project, const Context& context) {
-    IntakeOptions options;
-    options.mm_per_unit = mm_per(project.scan.unit);
-    options.scale = project.scan.scale;
-    Intake intake = take_in(project.scan.path, options, context);
+    Intake intake = take_in(project.scan.path, options_of(project.scan), context);
     if (to_hex(intake.sha256) != project.scan.sha256) {
         throw InputError(InputFault::mesh,
                          project.scan.path.string() + " is not the scan that the project was made from",

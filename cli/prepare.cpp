@@ -29,7 +29,7 @@ void check_options(const PrepareArguments& a, bool is_project) {
     };
     if (is_project) {
         const bool has_any = a.units || a.scale || a.preset || a.min_cuts || a.max_faces || a.max_obb || a.fits_cell ||
-                             a.stop || a.fragility || a.weights || a.beam || a.crumbs || a.out ||
+                             a.stop || a.fragility || a.weights || a.beam || a.crumbs || a.out || is_any_given(a) ||
                              (a.cell && fs::exists(a.input / "cell.toml"));
         if (has_any) {
             fail(a.input.string() + " is a project: its settings were fixed when it was made",
@@ -37,7 +37,7 @@ void check_options(const PrepareArguments& a, bool is_project) {
         }
         return;
     }
-    if (!a.units) fail("the scan has no unit", "say --units mm, cm, m or in");
+    check_unit(a.input, a);
     if (!a.cell) fail("no cell is named", "say --cell FILE, for example cells/foam-1.toml");
     if (!a.out) fail("no project folder is named", "say -o NAME.qch");
 }

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "cam/job/text.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "segment/intake/inspect.h"
@@ -19,11 +20,17 @@ int run(const SampleArguments& arguments, Terminal& terminal) {
     SampleOptions options;
     options.faces = arguments.faces;
     options.holes = arguments.holes;
-    const TriangleMesh mesh = sample(*specimen_named(arguments.specimen), options, terminal.context());
+    options.marks = arguments.marks;
+    DrawnMarks drawn;
+    const TriangleMesh mesh = sample(*specimen_named(arguments.specimen), options, terminal.context(), &drawn);
     write_file(arguments.out, is_stl ? to_stl(mesh) : to_ply(mesh));
     const std::string size = size_in_words(bounds(mesh).size());
     terminal.show(arguments.out.string() + ": " + arguments.specimen + ", " + with_commas(mesh.triangles.size()) +
                   " faces, " + size + ", in mm");
+    if (arguments.marks > 0) {
+        terminal.show(std::to_string(drawn.lines.size()) + " marks, " + fixed(drawn.width, 1) + " mm wide and " +
+                      fixed(drawn.depth, 2) + " mm deep");
+    }
     terminal.json(nlohmann::ordered_json{
         {"schema", "qchopper-sample-1"},
         {"specimen", arguments.specimen},
@@ -31,6 +38,9 @@ int run(const SampleArguments& arguments, Terminal& terminal) {
         {"faces", mesh.triangles.size()},
         {"vertices", mesh.points.size()},
         {"holes", arguments.holes},
+        {"marks", drawn.lines.size()},
+        {"mark_width_mm", drawn.width},
+        {"mark_depth_mm", drawn.depth},
         {"units", "mm"},
         {"size",
          size}}.dump(1));

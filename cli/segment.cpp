@@ -57,9 +57,11 @@ void check_together(const SegmentArguments& a, const std::string& action, bool i
 
 void check_project(const SegmentArguments& a, const std::string& action) {
     const std::pair<bool, const char*> fixed_ones[] = {
-        {a.units.has_value(), "--units"},         {a.scale.has_value(), "--scale"},    {a.cell.has_value(), "--cell"},
-        {a.preset.has_value(), "--preset"},       {a.crumbs.has_value(), "--crumbs"},  {a.out.has_value(), "--out"},
-        {a.fragility.has_value(), "--fragility"}, {a.replayed.has_value(), "--replay"}};
+        {a.units.has_value(), "--units"},         {a.scale.has_value(), "--scale"},
+        {a.cell.has_value(), "--cell"},           {a.preset.has_value(), "--preset"},
+        {a.crumbs.has_value(), "--crumbs"},       {a.out.has_value(), "--out"},
+        {a.fragility.has_value(), "--fragility"}, {a.replayed.has_value(), "--replay"},
+        {is_any_given(a), "a choice of repair"}};
     for (const auto& [is_given, name] : fixed_ones) {
         if (is_given) {
             refuse(a.input.string() + " is a project: " + name + " belongs to a new one",
@@ -76,7 +78,7 @@ void check_scan(const SegmentArguments& a, const std::string& action) {
         refuse(a.input.string() + " is a scan: " + action + " needs a project",
                "make one first: qchopper segment " + a.input.string() + " --units UNIT -o NAME.qch");
     }
-    if (!a.units) refuse("the scan has no unit", "say --units mm, cm, m or in");
+    check_unit(a.input, a);
     if (!a.out) refuse("no project folder is named", "say -o NAME.qch");
     if (a.fits_cell && !a.cell) refuse("--fits-cell needs a cell", "say --cell FILE, for example cells/foam-1.toml");
 }

@@ -2,7 +2,10 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "cam/job/text.h"
+#include "cli/repair_report.h"
 #include "cli/segment_values.h"
 #include "segment/error.h"
 #include "segment/intake/inspect.h"
@@ -29,20 +32,19 @@ SearchSettings settings_of(const ProjectArguments& a, double scan_volume_mm3) {
     return settings;
 }
 
-Intake take_in_as(const fs::path& scan, Unit unit, double scale, Terminal& terminal) {
-    IntakeOptions options;
-    options.mm_per_unit = mm_per(unit);
-    options.scale = scale;
-    return take_in(scan, options, terminal.context());
+RepairChoices repair_of(const ProjectArguments& a) {
+    RepairChoices choices = repair_choices(a);
+    choices.resolve_self_intersections = a.resolve_self_intersections;
+    return choices;
 }
 
 void tell_intake(const fs::path& scan, const Intake& intake, Terminal& terminal) {
-    const IntakeReport& r = intake.report;
+    const RepairReport& r = intake.report.repair;
     std::string line = scan.filename().string() + ": " + with_commas(intake.mesh.triangles.size()) + " faces, " +
                        size_in_words(bounds(intake.mesh).size()) + ".";
     if (r.holes_filled > 0) line += " " + with_commas(r.holes_filled) + " holes closed.";
-    if (r.collapsed_dropped > 0) line += " " + with_commas(r.collapsed_dropped) + " collapsed faces dropped.";
-    if (r.pinched_split > 0) line += " " + with_commas(r.pinched_split) + " pinched points split.";
+    if (r.collapsed > 0) line += " " + with_commas(r.collapsed) + " collapsed faces dropped.";
+    if (r.points_copied > 0) line += " " + with_commas(r.points_copied) + " pinched points split.";
     if (r.shells_turned > 0) line += " " + with_commas(r.shells_turned) + " shells turned outwards.";
     terminal.say(line);
 }
@@ -84,8 +86,33 @@ void check_output(const fs::path& out) {
     }
 }
 
+bool is_any_given(const ProjectArguments& a) {
+    return a.weld_mm || a.fill || a.smooth_marks || a.wrap_mm || a.resolve_self_intersections;
+}
+
+IntakeOptions options_of(const ScanSource& scan) {
+    IntakeOptions options;
+    options.mm_per_unit = mm_per(scan.unit);
+    options.scale = scan.scale;
+    options.repair = options_of(scan.repair);
+    return options;
+}
+
+void check_unit(const fs::path& scan, const ProjectArguments& a) {
+    if (a.units || scan == "-" || read_mesh(scan).mm_per_unit) return;
+    throw InputError(InputFault::use, "the scan has no unit", "say --units mm, cm, m or in");
+}
+
 Intake take_in_scan(const fs::path& scan, const ProjectArguments& a, Terminal& terminal) {
-    Intake intake = take_in_as(scan, unit_named(*a.units), a.scale.value_or(1), terminal);
+    if (scan == "-") {
+        throw InputError(InputFault::use, "a project needs its scan again, and standard input is read only once",
+                         "save the scan in a file and name that");
+    }
+    IntakeOptions options;
+    if (a.units) options.mm_per_unit = mm_per(unit_named(*a.units));
+    options.scale = a.scale.value_or(1);
+    options.repair = options_of(repair_of(a));
+    Intake intake = take_in(scan, options, terminal.context());
     tell_intake(scan, intake, terminal);
     for (const std::string& warning : intake.report.warnings) terminal.warn(warning);
     return intake;
@@ -93,7 +120,7 @@ Intake take_in_scan(const fs::path& scan, const ProjectArguments& a, Terminal& t
 
 Intake take_in_scan(const Project& project, Terminal& terminal) {
     const ScanSource& s = project.scan;
-    Intake intake = take_in_as(s.path, s.unit, s.scale, terminal);
+    Intake intake = take_in(s.path, options_of(s), terminal.context());
     if (to_hex(intake.sha256) != s.sha256) {
         throw InputError(InputFault::mesh, s.path.string() + " is not the scan that the project was made from",
                          "put that scan back, or prepare this one as a new project");
@@ -105,7 +132,8 @@ Intake take_in_scan(const Project& project, Terminal& terminal) {
 Project new_project(const fs::path& scan, const Intake& intake, const ProjectArguments& a) {
     Project project;
     project.scan.path = fs::absolute(scan);
-    project.scan.unit = unit_named(*a.units);
+    project.scan.unit = unit_of(intake.mm_per_unit);
+    project.scan.repair = repair_of(a);
     project.scan.scale = a.scale.value_or(1);
     project.scan.sha256 = to_hex(intake.sha256);
     project.scan.centre = intake.centre;
@@ -144,8 +172,12 @@ std::string cut_line(const Cut& cut) {
     const Terms& t = cut.chosen.terms;
     std::string made;
     for (const std::string& name : cut.pieces) made += (made.empty() ? "" : ", ") + name;
-    const std::string which =
-        cut.chosen.normal < 0 ? "given plane" : "best of " + std::to_string(cut.candidates) + " planes";
+    // Another than the best may have been accepted; the best is then among those that were passed over.
+    const bool is_best = std::all_of(cut.runners_up.begin(), cut.runners_up.end(),
+                                     [&](const Ranked& r) { return r.terms.total >= t.total; });
+    const std::string which = cut.chosen.normal < 0
+                                  ? "given plane"
+                                  : (is_best ? "best of " : "one of ") + std::to_string(cut.candidates) + " planes";
     return "cut " + std::to_string(cut.number) + " on piece " + cut.piece + ": " + which + ", total " +
            fixed(t.total, 3) + " (face ratio " + fixed(t.face_ratio, 2) + ", fragility " + fixed(t.fragility, 3) +
            ", piece count " + fixed(t.piece_count, 0) + ", undercut " + fixed(t.undercut, 3) + "); makes " + made +

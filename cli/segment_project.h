@@ -24,6 +24,15 @@ std::filesystem::path without_slash(const std::filesystem::path& folder);
 // Throws InputError (create) if there is something already, or nothing can be made there.
 void check_output(const std::filesystem::path& out);
 
+// Whether anything is said about how the scan becomes a solid.
+bool is_any_given(const ProjectArguments& arguments);
+
+// Throws InputError (use) if neither the arguments nor the scan say what one unit of it is.
+void check_unit(const std::filesystem::path& scan, const ProjectArguments& arguments);
+
+// How the scan of a project is taken in again.
+IntakeOptions options_of(const ScanSource& scan);
+
 // The scan as the arguments say; tells what was done to it.
 Intake take_in_scan(const std::filesystem::path& scan, const ProjectArguments& arguments, Terminal& terminal);
 // The scan of a project. Throws InputError (mesh) if it is another one now.

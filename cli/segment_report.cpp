@@ -90,9 +90,11 @@ std::vector<std::string> standing_lines(const Project& project) {
                         fixed(p.volume_mm3 / 1e6, 3)});
     }
     std::vector<std::string> text = columns(rows);
-    text.push_back(std::to_string(project.pieces.size()) + " pieces by " + std::to_string(project.cuts.size()) +
-                   " cuts, " + with_commas(project.crumb_list.size()) +
-                   " crumbs. Weights: " + weights_in_words(project.settings.objectives.weights) + ".");
+    text.push_back(std::to_string(project.pieces.size()) + (project.pieces.size() == 1 ? " piece by " : " pieces by ") +
+                   std::to_string(project.cuts.size()) + (project.cuts.size() == 1 ? " cut, " : " cuts, ") +
+                   with_commas(project.crumb_list.size()) +
+                   (project.crumb_list.size() == 1 ? " crumb. Weights: " : " crumbs. Weights: ") +
+                   weights_in_words(project.settings.objectives.weights) + ".");
     for (const auto& [option, what] : {std::pair{"--undo", undo_in_words(project)}, {"--redo", redo_in_words(project)}})
         if (!what.empty()) text.push_back(std::string(option) + ": " + what);
     return text;

@@ -9,6 +9,7 @@
 
 #include "cam/job/ticket.h"
 #include "segment/error.h"
+#include "segment/files/zip.h"
 
 namespace qchopper {
 namespace {
@@ -28,43 +29,14 @@ using Archive = std::unique_ptr<zip_t, DiscardArchive>;
 using Source = std::unique_ptr<zip_source_t, FreeSource>;
 using OpenFile = std::unique_ptr<zip_file_t, CloseFile>;
 
-// Writing to memory fails only for want of it.
-void must(bool done) {
-    if (!done) throw std::bad_alloc();
-}
-
 // The bytes stay the caller's.
 Source view_of(const Bytes& bytes) {
     zip_error_t error;
     zip_error_init(&error);
     Source source(zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error));
     zip_error_fini(&error);
-    must(source != nullptr);
+    if (!source) throw std::bad_alloc();
     return source;
-}
-
-void add(zip_t* archive, const std::string& name, const Bytes& bytes) {
-    Source source = view_of(bytes);
-    const zip_int64_t index = zip_file_add(archive, name.c_str(), source.get(), ZIP_FL_ENC_UTF_8);
-    must(index >= 0);
-    source.release();  // the archive owns it now
-    const auto entry = static_cast<zip_uint64_t>(index);
-    must(zip_set_file_compression(archive, entry, ZIP_CM_STORE, 0) == 0);
-    constexpr zip_uint16_t first_of_january_1980 = (1 << 5) | 1;
-    must(zip_file_set_dostime(archive, entry, 0, first_of_january_1980, 0) == 0);
-    constexpr zip_uint32_t plain_file = 0100644u << 16;
-    must(zip_file_set_external_attributes(archive, entry, 0, ZIP_OPSYS_UNIX, plain_file) == 0);
-}
-
-Bytes content(zip_source_t* source) {
-    must(zip_source_open(source) == 0);
-    must(zip_source_seek(source, 0, SEEK_END) == 0);
-    Bytes bytes(static_cast<std::size_t>(zip_source_tell(source)));
-    must(zip_source_seek(source, 0, SEEK_SET) == 0);
-    const zip_int64_t got = zip_source_read(source, bytes.data(), bytes.size());
-    zip_source_close(source);
-    must(got == static_cast<zip_int64_t>(bytes.size()));
-    return bytes;
 }
 
 [[noreturn]] void refuse(const std::string& source, const std::string& why) {
@@ -93,19 +65,10 @@ Bytes read_entry(zip_t* archive, zip_uint64_t index, std::uint64_t size, const s
 
 }  // namespace
 
-Bytes zip(const std::map<std::string, Bytes>& entries) {
-    zip_error_t error;
-    zip_error_init(&error);
-    const Source target(zip_source_buffer_create(nullptr, 0, 0, &error));
-    must(target != nullptr);
-    zip_source_keep(target.get());  // closing the archive drops one reference; the bytes are read after that
-    Archive archive(zip_open_from_source(target.get(), ZIP_CREATE | ZIP_TRUNCATE, &error));
-    zip_error_fini(&error);
-    must(archive != nullptr);
-    for (const auto& [name, bytes] : entries) add(archive.get(), name, bytes);
-    must(zip_close(archive.get()) == 0);
-    archive.release();
-    return content(target.get());
+Bytes zip(const std::map<std::string, Bytes>& files) {
+    std::vector<ZipEntry> entries;
+    for (const auto& [name, bytes] : files) entries.push_back(zip_entry(name, bytes));
+    return zip(entries);
 }
 
 std::map<std::string, Bytes> unzip(const Bytes& bytes, const std::string& source) {

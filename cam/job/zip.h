@@ -13,7 +13,7 @@
 
 namespace qchopper {
 
-Bytes zip(const std::map<std::string, Bytes>& entries);
+Bytes zip(const std::map<std::string, Bytes>& files);
 
 // Throws InputError (mesh) naming `source` if it is cut short, damaged, compressed, or holds a name that is not
 // plain (is_job_file_name).

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "cam/cell/cell.h"
-#include "cam/setup/pose.h"
 #include "segment/cut/piece.h"
 #include "segment/mesh/measure.h"
+#include "segment/mesh/pose.h"
 
 namespace qchopper {
 

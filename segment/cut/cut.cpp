@@ -5,6 +5,7 @@
 
 #include "segment/cut/cap.h"
 #include "segment/error.h"
+#include "segment/files/huge_pages.h"
 #include "segment/mesh/frame.h"
 
 namespace qchopper {
@@ -122,20 +123,20 @@ std::vector<Point2> flattened(const std::vector<Vec3>& points, Vec3 normal) {
 class HalfWriter {
  public:
     HalfWriter(const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_above, bool above, std::size_t extra)
-        : mesh_(mesh), number_(mesh.points.size()) {
+        : mesh_(mesh), number_(huge<std::uint32_t>(mesh.points.size())) {
         std::uint32_t count = 0;
         for (std::size_t v = 0; v < mesh.points.size(); ++v) {
             if ((is_above[v] != 0) == above) number_[v] = count++;
         }
-        half_.mesh.points.reserve(count + extra);
+        reserve_huge(half_.mesh.points, count + extra);
         for (std::size_t v = 0; v < mesh.points.size(); ++v) {
             if ((is_above[v] != 0) == above) half_.mesh.points.push_back(mesh.points[v]);
         }
         first_cap_point_ = count;
         const std::size_t triangles = 2 * count + 4 * extra;
-        half_.mesh.triangles.reserve(triangles);
-        half_.mesh.cap_of.reserve(triangles);
-        half_.parent.reserve(triangles);
+        reserve_huge(half_.mesh.triangles, triangles);
+        reserve_huge(half_.mesh.cap_of, triangles);
+        reserve_huge(half_.parent, triangles);
     }
 
     void whole(std::uint32_t t) {

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "segment/error.h"
+#include "segment/files/huge_pages.h"
 
 namespace qchopper {
 namespace {
@@ -69,10 +70,13 @@ Bytes read_file(const std::filesystem::path& path) {
     if (::fstat(file.fd, &info) == 0 && S_ISDIR(info.st_mode)) {
         throw InputError(InputFault::missing, path.string() + " is a folder, not a file", "name the file itself");
     }
-    Bytes bytes(static_cast<std::size_t>(info.st_size > 0 ? info.st_size : 0));
+    const std::size_t room = static_cast<std::size_t>(info.st_size > 0 ? info.st_size : 0) + 1;  // to see the end
+    Bytes bytes;
+    reserve_huge(bytes, room);
+    bytes.resize(room);
     std::size_t filled = 0;
     while (true) {
-        if (filled == bytes.size()) bytes.resize(filled + 65536);  // a pipe has no size; one read past the end
+        if (filled == bytes.size()) bytes.resize(filled + 65536);  // a pipe has no size
         const ssize_t got = ::read(file.fd, bytes.data() + filled, bytes.size() - filled);
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) throw InputError(InputFault::missing, path.string() + " cannot be read: " + reason());

@@ -1,58 +1,76 @@
 // Takes in a scan: the whole way from a file to a closed solid in millimetres about its own centre.
 //
 // The mesh that comes out is closed, its outer shells face outwards, and mesh point + centre is the file's point times
-// mm_per_unit and scale (tests/segment/intake/intake_test.cpp). Nothing is moved but by that shift.
+// mm_per_unit and scale (tests/segment/intake/intake_test.cpp). The scan is repaired as the file has it, in its own
+// unit and place; then nothing is moved but by that shift.
 
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "segment/context.h"
 #include "segment/files/sha256.h"
+#include "segment/intake/read_mesh.h"
 #include "segment/mesh/triangle_mesh.h"
+#include "segment/repair/repair.h"
 
 namespace qchopper {
 
-enum class Unit { mm, cm, m, in };
+enum class Unit { mm, cm, m, in, ft, um };
 
 double mm_per(Unit unit);
 std::string name_of(Unit unit);
 
-// "mm", "cm", "m" or "in". Throws InputError (use) for anything else.
+// "mm", "cm", "m", "in", "ft" or "um". Throws InputError (use) for anything else.
 Unit unit_named(std::string_view name);
+// The one of that length. Throws InputError (use) if there is none.
+Unit unit_of(double mm);
+
+// What one unit of a scan is in mm: what its file says or, where that says nothing, what the operator says. Throws
+// InputError (use) if both say something and not the same.
+std::optional<double> agreed_mm_per_unit(std::optional<double> in_file, std::optional<double> given,
+                                         const std::string& name);
 
 struct IntakeOptions {
-    double mm_per_unit = 1;  // what one unit of the file is; mm_per(unit_named(...))
-    double scale = 1;        // the operator's enlargement; other than 1 it is reported as a warning
+    std::optional<double> mm_per_unit;  // what one unit of the file is; nothing: what the file itself says
+    double scale = 1;                   // the operator's enlargement; other than 1 it is reported as a warning
+    RepairOptions repair = {};          // its mm_per_unit is set by the file
+    bool may_lack_unit = false;         // a scan without a unit is taken as if it were in mm
 };
 
+// A scan as its file has it, in the unit of the file, repaired.
+struct RepairedScan {
+    TriangleMesh mesh;
+    RepairReport report;
+    MeshFormat format = MeshFormat::ply_ascii;
+    std::optional<double> mm_per_unit;  // nothing: nobody knows
+    Sha256 sha256{};                    // of the file's bytes, and of those of the files that belong to it
+    Box scanned;                        // of the points in use, before the repair
+    std::vector<std::string> warnings;  // whole sentences for the operator
+};
+
+// Throws InputError: (missing) no such file, (mesh) a scan that is wrong or cannot be made a solid, (use) impossible
+// options, or no unit. With Fill::none a scan may stay open.
+RepairedScan repair_scan(const std::filesystem::path& path, const IntakeOptions& options, const Context& context = {});
+
 struct IntakeReport {
-    std::size_t faces_in = 0;              // triangles, after polygons are split
-    std::size_t points_in = 0;             // as the file has them
-    std::size_t welded = 0;                // points that became one with another
-    std::size_t collapsed_dropped = 0;     // triangles with two corners in one point
-    std::size_t unreferenced_dropped = 0;  // points in no triangle
-    std::size_t pinched_split = 0;         // copies made of points where surfaces only touch
-    std::size_t shells = 0;
-    std::size_t cavities = 0;       // shells that face inwards, kept so
-    std::size_t shells_turned = 0;  // outer shells that were inside out
-    std::size_t holes_filled = 0;
-    std::size_t triangles_added = 0;
+    RepairReport repair;
     std::vector<std::string> warnings;  // whole sentences for the operator
 };
 
 struct Intake {
     TriangleMesh mesh;  // mm, about its own centre
     Vec3 centre;        // mm: what was subtracted, the middle of the scan's box
-    Sha256 sha256{};    // of the file's bytes
+    double mm_per_unit = 1;
+    Sha256 sha256{};
     IntakeReport report;
 };
 
-// Throws InputError: (missing) no such file, (mesh) a scan that is wrong or cannot be closed, (use) impossible options.
+// Throws what repair_scan throws, and InputError (mesh) for a scan that stays open.
 Intake take_in(const std::filesystem::path& path, const IntakeOptions& options, const Context& context = {});
 
 }  // namespace qchopper

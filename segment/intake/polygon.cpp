@@ -21,43 +21,81 @@ double turn(Vec3 normal, Vec3 a, Vec3 b, Vec3 c) {
     return dot(normal, cross(b - a, c - a));
 }
 
-// An ear turns left and holds no other corner of what is left of the polygon.
-bool is_ear(const std::vector<Vec3>& points, const std::vector<std::uint32_t>& ring, std::size_t tip, Vec3 normal) {
-    const std::size_t n = ring.size();
-    const std::uint32_t before = ring[(tip + n - 1) % n];
-    const std::uint32_t after = ring[(tip + 1) % n];
-    const Vec3 a = points[before];
-    const Vec3 b = points[ring[tip]];
-    const Vec3 c = points[after];
-    if (!(turn(normal, a, b, c) > 0)) return false;
-    for (const std::uint32_t corner : ring) {
-        if (corner == before || corner == ring[tip] || corner == after) continue;
-        const Vec3 p = points[corner];
-        if (turn(normal, a, b, p) >= 0 && turn(normal, b, c, p) >= 0 && turn(normal, c, a, p) >= 0) return false;
+// What is left of a polygon while ears are cut off.
+class Ring {
+ public:
+    Ring(const std::vector<Vec3>& points, std::span<const std::uint32_t> corners)
+        : points_(points), normal_(mean_normal(points, corners)), ring_(corners.begin(), corners.end()) {
+        for (std::size_t i = 0; i < ring_.size(); ++i) blocks_.push_back(!is_convex(i));
+        tests_left_ = 4 * ring_.size() * ring_.size();
     }
-    return true;
-}
+
+    std::size_t size() const { return ring_.size(); }
+
+    // An ear turns left and holds no other corner; only corners that do not turn left can lie in one.
+    bool is_ear(std::size_t tip) {
+        if (!is_convex(tip)) return false;
+        const Triangle t = triangle(tip);
+        const Vec3 a = points_[t[0]];
+        const Vec3 b = points_[t[1]];
+        const Vec3 c = points_[t[2]];
+        for (std::size_t i = 0; i < ring_.size(); ++i) {
+            const std::uint32_t corner = ring_[i];
+            if (!blocks_[i] || corner == t[0] || corner == t[1] || corner == t[2]) continue;
+            if (tests_left_ > 0) --tests_left_;
+            const Vec3 p = points_[corner];
+            if (turn(normal_, a, b, p) >= 0 && turn(normal_, b, c, p) >= 0 && turn(normal_, c, a, p) >= 0) return false;
+        }
+        return true;
+    }
+
+    // Polygons that cross themselves everywhere are not searched for ears for ever.
+    bool is_tired() const { return tests_left_ == 0; }
+
+    Triangle triangle(std::size_t tip) const {
+        const std::size_t n = ring_.size();
+        return {ring_[(tip + n - 1) % n], ring_[tip], ring_[(tip + 1) % n]};
+    }
+
+    void cut_off(std::size_t tip) {
+        ring_.erase(ring_.begin() + static_cast<std::ptrdiff_t>(tip));
+        blocks_.erase(blocks_.begin() + static_cast<std::ptrdiff_t>(tip));
+        const std::size_t n = ring_.size();
+        for (const std::size_t beside : {(tip + n - 1) % n, tip % n}) blocks_[beside] = !is_convex(beside);
+    }
+
+ private:
+    bool is_convex(std::size_t tip) const {
+        const Triangle t = triangle(tip);
+        return turn(normal_, points_[t[0]], points_[t[1]], points_[t[2]]) > 0;
+    }
+
+    const std::vector<Vec3>& points_;
+    Vec3 normal_;
+    std::vector<std::uint32_t> ring_;
+    std::vector<bool> blocks_;  // per corner of the ring
+    std::size_t tests_left_ = 0;
+};
 
 }  // namespace
 
 void split_polygon(const std::vector<Vec3>& points, std::span<const std::uint32_t> corners,
                    std::vector<Triangle>& triangles) {
-    const Vec3 normal = mean_normal(points, corners);
-    std::vector<std::uint32_t> ring(corners.begin(), corners.end());
+    Ring ring(points, corners);
     std::size_t tip = 1;  // of a convex polygon: the fan about the first corner
     while (ring.size() > 3) {
         const std::size_t n = ring.size();
         std::size_t tries = 0;
-        while (tries < n && !is_ear(points, ring, tip % n, normal)) {
+        while (tries < n && !ring.is_tired() && !ring.is_ear(tip % n)) {
             ++tip;
             ++tries;
         }
         tip %= n;  // without any ear this is where it was: the polygon is split anyway
-        triangles.push_back({ring[(tip + n - 1) % n], ring[tip], ring[(tip + 1) % n]});
-        ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(tip));
+        triangles.push_back(ring.triangle(tip));
+        ring.cut_off(tip);
         if (tip == 0) tip = 1;
     }
-    triangles.push_back({ring[0], ring[1], ring[2]});
+    triangles.push_back(ring.triangle(1));
 }
 
 }  // namespace qchopper

@@ -1,13 +1,16 @@
 #include "segment/intake/read_stl.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
 #include <string_view>
 
 #include "segment/error.h"
+#include "segment/files/huge_pages.h"
 #include "segment/intake/text.h"
+#include "segment/mesh/point_table.h"
 
 namespace qchopper {
 namespace {
@@ -111,6 +114,67 @@ class AsciiStl {
     const std::string& name_;
 };
 
+class BinaryStl {
+ public:
+    BinaryStl(const Bytes& bytes, const std::string& name, std::uint32_t count)
+        : bytes_(bytes), name_(name), count_(count) {}
+
+    void read(TriangleMesh& mesh) const {
+        reserve_huge(mesh.points, 3 * std::size_t{count_});
+        for (std::uint32_t t = 0; t < count_; ++t) {
+            for (std::uint32_t corner = 0; corner < 3; ++corner) mesh.points.push_back(point(t, corner));
+            mesh.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+        }
+    }
+
+    void read_welded(RawMesh& scan) const {
+        std::vector<Vec3>& points = scan.mesh.points;
+        const std::size_t usual = count_ / 2 + 2;  // of a closed surface
+        reserve_huge(points, usual + usual / 16);
+        PointTable table(usual);
+        constexpr std::uint32_t batch = 16;  // triangles whose slots are asked for ahead of their use
+        std::array<Vec3, 3 * batch> corners;
+        std::array<std::uint64_t, 3 * batch> hash{};
+        for (std::uint32_t begin = 0; begin < count_; begin += batch) {
+            const std::uint32_t size = std::min(batch, count_ - begin);
+            for (std::uint32_t i = 0; i < 3 * size; ++i) {
+                corners[i] = positive_zeros(point(begin + i / 3, i % 3));
+                hash[i] = PointTable::hash_of(corners[i]);
+                table.prefetch(hash[i]);
+            }
+            const auto number = [&](std::uint32_t i) {
+                const auto next = static_cast<std::uint32_t>(points.size());
+                const std::uint32_t found = table.find_or_note(points, corners[i], hash[i], next);
+                if (found == next) points.push_back(corners[i]);
+                return found;
+            };
+            for (std::uint32_t i = 0; i < 3 * size; i += 3) {
+                const std::uint32_t a = number(i);
+                const std::uint32_t b = number(i + 1);
+                scan.mesh.triangles.push_back({a, b, number(i + 2)});
+            }
+        }
+        scan.welded = 3 * std::size_t{count_} - points.size();
+    }
+
+ private:
+    Vec3 point(std::uint32_t triangle, std::uint32_t corner) const {
+        const std::size_t at = start_of_triangles + triangle_size * triangle + 12 + 12 * corner;
+        const Vec3 p{float_at(bytes_, at), float_at(bytes_, at + 4), float_at(bytes_, at + 8)};
+        if (!is_finite(p)) {
+            throw InputError(InputFault::mesh,
+                             name_ + ": vertex " + std::to_string(corner) + " of triangle " + std::to_string(triangle) +
+                                 " (byte " + std::to_string(at) + ") has a coordinate that is not a finite number",
+                             "export the scan again");
+        }
+        return p;
+    }
+
+    const Bytes& bytes_;
+    const std::string& name_;
+    std::uint32_t count_;
+};
+
 }  // namespace
 
 bool is_binary_stl(const Bytes& bytes) {
@@ -134,7 +198,7 @@ std::string why_no_binary_stl(const Bytes& bytes) {
            std::to_string(bytes.size());
 }
 
-RawMesh parse_binary_stl(const Bytes& bytes, const std::string& name) {
+RawMesh parse_binary_stl(const Bytes& bytes, const std::string& name, bool weld) {
     assert(is_binary_stl(bytes));
     const std::uint32_t count = u32_at(bytes, header_size);
     constexpr std::uint32_t too_many = 0x55555555;  // half-edges are numbered in 32 bits
@@ -142,21 +206,12 @@ RawMesh parse_binary_stl(const Bytes& bytes, const std::string& name) {
     RawMesh scan;
     scan.format = MeshFormat::stl_binary;
     scan.faces_in_file = count;
-    scan.mesh.points.reserve(3 * std::size_t{count});
-    scan.mesh.triangles.reserve(count);
-    for (std::uint32_t t = 0; t < count; ++t) {
-        for (std::uint32_t corner = 0; corner < 3; ++corner) {
-            const std::size_t at = start_of_triangles + triangle_size * t + 12 + 12 * corner;
-            const Vec3 point{float_at(bytes, at), float_at(bytes, at + 4), float_at(bytes, at + 8)};
-            if (!is_finite(point)) {
-                throw InputError(InputFault::mesh,
-                                 name + ": vertex " + std::to_string(corner) + " of triangle " + std::to_string(t) +
-                                     " (byte " + std::to_string(at) + ") has a coordinate that is not a finite number",
-                                 "export the scan again");
-            }
-            scan.mesh.points.push_back(point);
-        }
-        scan.mesh.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    reserve_huge(scan.mesh.triangles, count);
+    const BinaryStl file(bytes, name, count);
+    if (weld) {
+        file.read_welded(scan);
+    } else {
+        file.read(scan.mesh);
     }
     return scan;
 }

@@ -16,8 +16,9 @@ std::string why_no_binary_stl(const Bytes& bytes);
 // Whether it begins with "solid" and goes on as text.
 bool is_ascii_stl(const Bytes& bytes);
 
-// Throw InputError (mesh) for anything that is not such a file. The binary one must be is_binary_stl.
-RawMesh parse_binary_stl(const Bytes& bytes, const std::string& name);
+// Throw InputError (mesh) for anything that is not such a file. The binary one must be is_binary_stl. With `weld` its
+// equal points become one, the first, as they are read.
+RawMesh parse_binary_stl(const Bytes& bytes, const std::string& name, bool weld = false);
 RawMesh parse_ascii_stl(const Bytes& bytes, const std::string& name);
 
 }  // namespace qchopper

@@ -28,6 +28,7 @@ struct DisjointSets {
     }
 
     void unite(std::uint32_t a, std::uint32_t b) {
+        if (parent[a] == parent[b]) return;  // most often, and without a walk
         a = root(a);
         b = root(b);
         if (a != b) parent[std::max(a, b)] = std::min(a, b);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "segment/files/huge_pages.h"
+
 namespace qchopper {
 namespace {
 
@@ -42,7 +44,7 @@ std::vector<std::uint64_t> by_smaller_end(const TriangleMesh& mesh, std::vector<
         for (std::size_t k = 0; k < 3; ++k) ++first[std::min(t[k], t[(k + 1) % 3]) + std::size_t{2}];
     }
     for (std::size_t v = 2; v < first.size(); ++v) first[v] += first[v - 1];
-    std::vector<std::uint64_t> sorted(3 * mesh.triangles.size());
+    auto sorted = huge<std::uint64_t>(3 * mesh.triangles.size());
     std::uint32_t id = 0;
     for (const Triangle& t : mesh.triangles) {
         for (std::size_t k = 0; k < 3; ++k, ++id) {
@@ -61,7 +63,7 @@ Edges edges(const TriangleMesh& mesh) {
     std::vector<std::uint32_t> first;
     std::vector<std::uint64_t> sorted = by_smaller_end(mesh, first);
     Edges result;
-    result.twin.assign(sorted.size(), no_twin);
+    result.twin = huge(sorted.size(), no_twin);
     EdgeFaults& faults = result.faults;
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
         std::uint64_t* const end = sorted.data() + first[v + 1];

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "segment/files/huge_pages.h"
 #include "segment/mesh/measure.h"
 
 namespace qchopper {
@@ -34,7 +35,7 @@ struct Keyed {
 
 // Counting sort by one digit of the key after the other; ties keep their order.
 void sort_by_key(std::vector<Keyed>& points) {
-    std::vector<Keyed> other(points.size());
+    auto other = huge<Keyed>(points.size());
     for (unsigned digit = 0; digit < 3; ++digit) {
         const auto digit_of = [&](const Keyed& p) { return (p.key >> (digit * bits_per_axis)) & (keys - 1); };
         std::array<std::uint32_t, keys + 1> first{};
@@ -51,7 +52,7 @@ std::vector<std::uint32_t> along_curve(const TriangleMesh& mesh) {
     const Vec3 size = box.size();
     const double longest = std::max({size.x, size.y, size.z});
     const double scale = longest > 0 ? static_cast<double>(keys - 1) / longest : 0;
-    std::vector<Keyed> order(mesh.points.size());
+    auto order = huge<Keyed>(mesh.points.size());
     for (std::uint32_t v = 0; v < order.size(); ++v) {
         const Vec3 p = scale * (mesh.points[v] - box.min);
         order[v] = {spread(static_cast<std::uint64_t>(p.x)) | spread(static_cast<std::uint64_t>(p.y)) << 1 |
@@ -59,7 +60,7 @@ std::vector<std::uint32_t> along_curve(const TriangleMesh& mesh) {
                     v};
     }
     sort_by_key(order);
-    std::vector<std::uint32_t> place(order.size());
+    auto place = huge<std::uint32_t>(order.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i].point] = i;
     return place;
 }
@@ -70,7 +71,7 @@ std::vector<std::uint32_t> sorted_by(const std::vector<std::uint32_t>& numbers, 
     std::vector<std::uint32_t> first(end + 1, 0);
     for (const std::uint32_t n : numbers) ++first[n + 1];
     for (std::size_t n = 1; n <= end; ++n) first[n] += first[n - 1];
-    std::vector<std::uint32_t> result(things.size());
+    auto result = huge<std::uint32_t>(things.size());
     for (const std::uint32_t thing : things) result[first[numbers[thing]]++] = thing;
     return result;
 }
@@ -80,7 +81,7 @@ std::vector<std::uint32_t> divide(const TriangleMesh& mesh, const std::vector<st
                                   std::size_t& count) {
     std::vector<std::uint32_t> size;
     std::vector<std::uint32_t> at_point(mesh.points.size(), none);
-    std::vector<std::uint32_t> patch(mesh.triangles.size());
+    auto patch = huge<std::uint32_t>(mesh.triangles.size());
     for (const std::uint32_t t : order) {
         std::uint32_t chosen = none;
         for (const std::uint32_t v : mesh.triangles[t]) {
@@ -105,7 +106,7 @@ std::vector<std::uint32_t> divide(const TriangleMesh& mesh, const std::vector<st
 
 TriangleMesh in_memory_order(const TriangleMesh& mesh) {
     const std::vector<std::uint32_t> place = along_curve(mesh);
-    std::vector<std::uint32_t> least(mesh.triangles.size());
+    auto least = huge<std::uint32_t>(mesh.triangles.size());
     std::vector<std::uint32_t> order(mesh.triangles.size());
     std::iota(order.begin(), order.end(), 0U);
     for (std::size_t t = 0; t < least.size(); ++t) {
@@ -116,8 +117,8 @@ TriangleMesh in_memory_order(const TriangleMesh& mesh) {
     order = sorted_by(least, mesh.points.size(), order);
     const std::vector<std::uint32_t> patch = divide(mesh, order, patches);
     TriangleMesh result;
-    result.points.reserve(mesh.points.size());
-    result.triangles.reserve(mesh.triangles.size());
+    reserve_huge(result.points, mesh.points.size());
+    reserve_huge(result.triangles, mesh.triangles.size());
     std::vector<std::uint32_t> number(mesh.points.size(), none);
     const auto numbered = [&](std::uint32_t v) {
         if (number[v] == none) {

@@ -135,61 +135,61 @@ void try_triangle(Search& search, const TriangleMesh& mesh, const LineFrame& fra
     search.is_hit = true;
 }
 
-void grow(Box& box, const Box& other) {
-    box.min = {std::min(box.min.x, other.min.x), std::min(box.min.y, other.min.y), std::min(box.min.z, other.min.z)};
-    box.max = {std::max(box.max.x, other.max.x), std::max(box.max.y, other.max.y), std::max(box.max.z, other.max.z)};
-}
-
-// Triangles of one shell that follow each other.
-struct Run {
-    Box box;
-    Vec3 origin;  // of the cones whose volumes are added up
-    double volume = 0;
-    Run(Vec3 first, Vec3 cones) : box{first, first}, origin(cones) {}
-    void add(const TriangleMesh& mesh, const Triangle& t) {
-        const Vec3 a = mesh.points[t[0]];
-        const Vec3 b = mesh.points[t[1]];
-        const Vec3 c = mesh.points[t[2]];
-        volume += dot(a - origin, cross(b - origin, c - origin)) / 6;
-        for (const Vec3& p : {a, b, c}) grow(box, {p, p});
-    }
-};
-
 }  // namespace
 
 Shells shells(const TriangleMesh& mesh) {
+    const auto grow = [](Box& box, Vec3 p) {
+        box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y), std::min(box.min.z, p.z)};
+        box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y), std::max(box.max.z, p.z)};
+    };
     DisjointSets sets(mesh.points.size());
     for (const Triangle& t : mesh.triangles) {
         sets.unite(t[0], t[1]);
         sets.unite(t[0], t[2]);
     }
+    // a parent is never larger, so one pass makes it the root
+    for (std::uint32_t& parent : sets.parent) parent = sets.parent[parent];
     Shells result;
     result.shell_of.resize(mesh.triangles.size());
     std::vector<std::uint32_t> number(mesh.points.size(), none);
     std::vector<Vec3> origin;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const Vec3 a = mesh.points[mesh.triangles[t][0]];
-        std::uint32_t& shell = number[sets.root(mesh.triangles[t][0])];
-        if (shell == none) {
-            shell = static_cast<std::uint32_t>(origin.size());
-            origin.push_back(a);
-            result.volume.push_back(0);
-            result.box.push_back({a, a});
-        }
-        result.shell_of[t] = shell;
-    }
     for (std::size_t begin = 0; begin < mesh.triangles.size(); begin += triangles_per_block) {
-        const std::size_t end = std::min(begin + triangles_per_block, mesh.triangles.size());
-        const Vec3 first = mesh.points[mesh.triangles[begin][0]];
-        result.block.push_back({first, first});
-        for (std::size_t t = begin; t < end;) {
-            const std::uint32_t shell = result.shell_of[t];
-            Run run(mesh.points[mesh.triangles[t][0]], origin[shell]);
-            for (; t < end && result.shell_of[t] == shell; ++t) run.add(mesh, mesh.triangles[t]);
-            result.volume[shell] += run.volume;
-            grow(result.box[shell], run.box);
-            grow(result.block.back(), run.box);
+        const std::size_t end = std::min(mesh.triangles.size(), begin + triangles_per_block);
+        const Vec3 start = mesh.points[mesh.triangles[begin][0]];
+        Box block{start, start};
+        Box run;  // of the triangles of one shell that follow each other
+        std::uint32_t shell_of_run = none;
+        const auto end_run = [&] {
+            if (shell_of_run == none) return;
+            for (const Vec3& p : {run.min, run.max}) {
+                grow(result.box[shell_of_run], p);
+                grow(block, p);
+            }
+        };
+        for (std::size_t t = begin; t < end; ++t) {
+            const Triangle& triangle = mesh.triangles[t];
+            std::uint32_t& shell = number[sets.parent[triangle[0]]];
+            const Vec3 a = mesh.points[triangle[0]];
+            if (shell == none) {
+                shell = static_cast<std::uint32_t>(origin.size());
+                origin.push_back(a);
+                result.volume.push_back(0);
+                result.box.push_back({a, a});
+            }
+            result.shell_of[t] = shell;
+            if (shell != shell_of_run) {
+                end_run();
+                shell_of_run = shell;
+                run = {a, a};
+            }
+            const Vec3 o = origin[shell];
+            const Vec3 b = mesh.points[triangle[1]];
+            const Vec3 c = mesh.points[triangle[2]];
+            result.volume[shell] += dot(a - o, cross(b - o, c - o)) / 6;
+            for (const Vec3& p : {a, b, c}) grow(run, p);
         }
+        end_run();
+        result.block.push_back(block);
     }
     return result;
 }

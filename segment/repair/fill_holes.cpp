@@ -10,8 +10,13 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/boost/graph/graph_traits_TriMesh_ArrayKernelT.h>
 
+#include <algorithm>
 #include <iterator>
+#include <optional>
+#include <utility>
 
+#include "segment/mesh/measure.h"
+#include "segment/repair/fair_hole.h"
 #include "segment/repair/manifold.h"
 
 namespace qchopper {
@@ -52,36 +57,116 @@ std::vector<Surface::FaceHandle> fill(Surface& surface, Surface::HalfedgeHandle 
     return added;
 }
 
-}  // namespace
-
-FilledHoles fill_holes(TriangleMesh& mesh) {
-    FilledHoles result;
-    const std::vector<std::vector<std::uint32_t>> loops = border_loops(mesh, unpaired(mesh, edges(mesh)).open);
-    if (loops.empty()) return result;
-    Surface surface;
-    const bool is_built = build(mesh, surface);
-    std::vector<Triangle> added;
-    for (const std::vector<std::uint32_t>& loop : loops) {
-        std::vector<Surface::FaceHandle> faces;
-        if (is_built) faces = fill(surface, border_half_edge(surface, mesh, loop.front()), loop.size());
-        if (faces.empty()) {
-            result.left.push_back({centre_of(mesh, loop), loop.size()});
-            continue;
+// The triangles that close the loop flat; empty if there are none.
+std::vector<Triangle> flat_triangles(Surface& surface, const TriangleMesh& mesh,
+                                     const std::vector<std::uint32_t>& loop) {
+    std::vector<Triangle> triangles;
+    for (const Surface::FaceHandle face : fill(surface, border_half_edge(surface, mesh, loop.front()), loop.size())) {
+        Triangle triangle{};
+        std::size_t i = 0;
+        for (const Surface::VertexHandle corner : surface.fv_range(face)) {
+            triangle[i++] = static_cast<std::uint32_t>(corner.idx());
         }
-        ++result.filled;
-        for (const Surface::FaceHandle face : faces) {
-            Triangle triangle{};
-            std::size_t i = 0;
-            for (const Surface::VertexHandle corner : surface.fv_range(face)) {
-                triangle[i++] = static_cast<std::uint32_t>(corner.idx());
-            }
-            added.push_back(triangle);
+        triangles.push_back(triangle);
+    }
+    return triangles;
+}
+
+// The longest edge that the filling lays across the hole; its border does not count.
+double longest_chord(const TriangleMesh& mesh, const std::vector<std::uint32_t>& loop,
+                     const std::vector<Triangle>& filling) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> border;
+    for (const std::uint32_t h : loop) border.emplace_back(end_of(mesh, h), start_of(mesh, h));
+    std::sort(border.begin(), border.end());
+    double longest = 0;
+    for (const Triangle& t : filling) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = t[i];
+            const std::uint32_t b = t[(i + 1) % 3];
+            if (std::binary_search(border.begin(), border.end(), std::pair{a, b})) continue;
+            longest = std::max(longest, norm(mesh.points[a] - mesh.points[b]));
         }
     }
-    result.triangles = added.size();
-    mesh.triangles.insert(mesh.triangles.end(), added.begin(), added.end());
-    if (!mesh.cap_of.empty()) mesh.cap_of.resize(mesh.triangles.size(), no_cap);
-    return result;
+    return longest;
+}
+
+class Filling {
+ public:
+    Filling(TriangleMesh& mesh, const FillOptions& options)
+        : mesh_(mesh), options_(options), flat_chord_(options.flat_chord_share * norm(bounds(mesh).size())) {}
+
+    FilledHoles run(const std::vector<std::vector<std::uint32_t>>& loops, const Context& context) {
+        is_built_ = build(mesh_, surface_);
+        for (const std::vector<std::uint32_t>& loop : loops) {
+            context.check_cancelled();
+            if (!close(loop)) result_.left.push_back({centre_of(mesh_, loop), loop.size()});
+            ++result_.filled;
+        }
+        result_.filled -= result_.left.size();
+        result_.triangles = triangles_.size();
+        result_.points = points_.size();
+        mesh_.points.insert(mesh_.points.end(), points_.begin(), points_.end());
+        mesh_.triangles.insert(mesh_.triangles.end(), triangles_.begin(), triangles_.end());
+        if (!mesh_.cap_of.empty()) mesh_.cap_of.resize(mesh_.triangles.size(), no_cap);
+        return std::move(result_);
+    }
+
+ private:
+    bool close(const std::vector<std::uint32_t>& loop) {
+        if (!is_built_) return false;
+        const std::vector<Triangle> flat = flat_triangles(surface_, mesh_, loop);
+        const bool is_fair = options_.fill == Fill::fair ||
+                             (options_.fill == Fill::by_size && longest_chord(mesh_, loop, flat) > flat_chord_);
+        if ((is_fair || flat.empty()) && options_.fill != Fill::flat && fair(loop)) return true;
+        triangles_.insert(triangles_.end(), flat.begin(), flat.end());
+        return !flat.empty() || (options_.fill != Fill::flat && fan(loop));
+    }
+
+    // Where every way across is taken by an edge that is there: around a point in the middle.
+    bool fan(const std::vector<std::uint32_t>& loop) {
+        if (loop.size() < 3) return false;
+        const auto middle = static_cast<std::uint32_t>(mesh_.points.size() + points_.size());
+        points_.push_back(centre_of(mesh_, loop));
+        for (const std::uint32_t h : loop) triangles_.push_back({end_of(mesh_, h), start_of(mesh_, h), middle});
+        return true;
+    }
+
+    bool fair(const std::vector<std::uint32_t>& loop) {
+        const std::optional<FairPatch> patch = fair_hole(mesh_, loop);
+        if (!patch) return false;
+        const auto own = static_cast<std::uint32_t>(mesh_.points.size());
+        for (Triangle t : patch->triangles) {
+            for (std::uint32_t& v : t) v += v < own ? 0 : static_cast<std::uint32_t>(points_.size());
+            triangles_.push_back(t);
+        }
+        points_.insert(points_.end(), patch->points.begin(), patch->points.end());
+        ++result_.faired;
+        return true;
+    }
+
+    TriangleMesh& mesh_;
+    const FillOptions& options_;
+    double flat_chord_;
+    Surface surface_;
+    bool is_built_ = false;
+    std::vector<Triangle> triangles_;
+    std::vector<Vec3> points_;
+    FilledHoles result_;
+};
+
+}  // namespace
+
+FilledHoles fill_holes(TriangleMesh& mesh, const FillOptions& options, const Context& context) {
+    const std::vector<std::vector<std::uint32_t>> loops = border_loops(mesh, unpaired(mesh, edges(mesh)).open);
+    if (loops.empty()) return {};
+    if (options.fill == Fill::none) {
+        FilledHoles result;
+        for (const std::vector<std::uint32_t>& loop : loops) {
+            result.left.push_back({centre_of(mesh, loop), loop.size()});
+        }
+        return result;
+    }
+    return Filling(mesh, options).run(loops, context);
 }
 
 }  // namespace qchopper

@@ -1,7 +1,7 @@
-// Closes the open border loops of a mesh by adding triangles, never points.
+// Closes the open border loops of a mesh: small holes flat, adding no point, large ones with a faired patch.
 //
-// Existing points and triangles keep their order and their bits; the new triangles come last and no_cap is what
-// cap_of says of them. The bunny of the Stanford scanning repository comes out with 69,664 faces
+// Existing points and triangles keep their order and their bits; the new ones come last and no_cap is what cap_of says
+// of the new triangles. The bunny of the Stanford scanning repository comes out with 69,664 faces
 // (tests/segment/repair/fill_holes_test.cpp).
 
 #pragma once
@@ -9,9 +9,23 @@
 #include <cstddef>
 #include <vector>
 
+#include "segment/context.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {
+
+// How holes are closed.
+enum class Fill {
+    by_size,  // flat where no edge across the hole is longer than flat_chord_share of the box's diagonal, else fair
+    flat,     // with triangles between the points of the border
+    fair,     // refined to the density of the border and faired to go on as the surface around it bends
+    none
+};
+
+struct FillOptions {
+    Fill fill = Fill::by_size;
+    double flat_chord_share = 0.1;
+};
 
 // A loop that could not be closed.
 struct OpenHole {
@@ -21,12 +35,14 @@ struct OpenHole {
 
 struct FilledHoles {
     std::size_t filled = 0;
+    std::size_t faired = 0;     // of these
     std::size_t triangles = 0;  // added
+    std::size_t points = 0;     // added
     std::vector<OpenHole> left;
 };
 
 // The mesh must be manifold apart from its borders, with no border loop touching itself or another one in a point
 // (see split_pinched in manifold.h).
-FilledHoles fill_holes(TriangleMesh& mesh);
+FilledHoles fill_holes(TriangleMesh& mesh, const FillOptions& options = {}, const Context& context = {});
 
 }  // namespace qchopper

@@ -12,12 +12,14 @@ struct Start {
     std::uint32_t shell = 0;
 };
 
-// The middle of each shell's largest triangle: never a point where two shells touch. Sorted by x.
-std::vector<Start> ray_starts(const TriangleMesh& mesh, const Shells& shells) {
+// The middle of the largest triangle of each shell that is asked about: never a point where two shells touch. Sorted by
+// x.
+std::vector<Start> ray_starts(const TriangleMesh& mesh, const Shells& shells, const std::vector<bool>& asked) {
     std::vector<double> largest(shells.count(), -1);
     std::vector<Start> starts(shells.count());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const std::uint32_t shell = shells.shell_of[t];
+        if (!asked[shell]) continue;
         const double area = norm(area_vector(mesh, t));
         if (!(area > largest[shell])) continue;
         largest[shell] = area;
@@ -25,6 +27,7 @@ std::vector<Start> ray_starts(const TriangleMesh& mesh, const Shells& shells) {
         const Vec3 sum = mesh.points[corner[0]] + mesh.points[corner[1]] + mesh.points[corner[2]];
         starts[shell] = {(1.0 / 3) * sum, shell};
     }
+    std::erase_if(starts, [&](const Start& start) { return largest[start.shell] < 0; });
     std::sort(starts.begin(), starts.end(), [](const Start& a, const Start& b) {
         return a.point.x != b.point.x ? a.point.x < b.point.x : a.shell < b.shell;
     });
@@ -54,21 +57,41 @@ void toggle(std::vector<std::uint32_t>& set, std::uint32_t shell) {
     }
 }
 
+// Those that a triangle in this box may lie above, into `below`.
+void find_below(const std::vector<Start>& starts, const Box& box, std::vector<Start>& below) {
+    below.clear();
+    auto start = std::lower_bound(starts.begin(), starts.end(), box.min.x,
+                                  [](const Start& s, double x) { return s.point.x < x; });
+    for (; start != starts.end() && start->point.x <= box.max.x; ++start) {
+        const Vec3 p = start->point;
+        if (p.y >= box.min.y && p.y <= box.max.y && p.z <= box.max.z) below.push_back(*start);
+    }
+}
+
 }  // namespace
 
-std::vector<std::vector<std::uint32_t>> shells_around(const TriangleMesh& mesh, const Shells& shells) {
+std::vector<std::vector<std::uint32_t>> shells_around(const TriangleMesh& mesh, const Shells& shells,
+                                                      const std::vector<bool>& asked) {
     std::vector<std::vector<std::uint32_t>> around(shells.count());
     if (shells.count() < 2) return around;
-    const std::vector<Start> starts = ray_starts(mesh, shells);
+    const std::vector<Start> starts =
+        ray_starts(mesh, shells, asked.empty() ? std::vector<bool>(shells.count(), true) : asked);
+    std::vector<Start> below;  // of the block in hand
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const std::array<Vec3, 3> corner{mesh.points[mesh.triangles[t][0]], mesh.points[mesh.triangles[t][1]],
-                                         mesh.points[mesh.triangles[t][2]]};
-        const double min_x = std::min({corner[0].x, corner[1].x, corner[2].x});
-        const double max_x = std::max({corner[0].x, corner[1].x, corner[2].x});
-        auto start = std::lower_bound(starts.begin(), starts.end(), min_x,
-                                      [](const Start& s, double x) { return s.point.x < x; });
-        for (; start != starts.end() && start->point.x <= max_x; ++start) {
-            const std::uint32_t shell = shells.shell_of[t];
+        if (t % triangles_per_block == 0) {
+            find_below(starts, shells.block[t / triangles_per_block], below);
+            if (below.empty()) {
+                t += triangles_per_block - 1;
+                continue;
+            }
+        }
+        const std::uint32_t shell = shells.shell_of[t];
+        const Triangle& v = mesh.triangles[t];
+        const std::array<Vec3, 3> corner{mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
+        const auto [min_x, max_x] = std::minmax({corner[0].x, corner[1].x, corner[2].x});
+        auto start =
+            std::lower_bound(below.begin(), below.end(), min_x, [](const Start& s, double x) { return s.point.x < x; });
+        for (; start != below.end() && start->point.x <= max_x; ++start) {
             if (start->shell == shell || !meets(start->point, corner[0], corner[1], corner[2])) continue;
             toggle(around[start->shell], shell);
         }

@@ -12,7 +12,9 @@
 
 namespace qchopper {
 
-// Per shell, the shells around it in ascending order.
-std::vector<std::vector<std::uint32_t>> shells_around(const TriangleMesh& mesh, const Shells& shells);
+// Per shell, the shells around it in ascending order. With `asked` only for the shells that are marked in it; the
+// others have none.
+std::vector<std::vector<std::uint32_t>> shells_around(const TriangleMesh& mesh, const Shells& shells,
+                                                      const std::vector<bool>& asked = {});
 
 }  // namespace qchopper

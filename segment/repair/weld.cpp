@@ -1,51 +1,52 @@
 #include "segment/repair/weld.h"
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cstdint>
-#include <limits>
 #include <vector>
+
+#include "segment/files/huge_pages.h"
+#include "segment/mesh/point_table.h"
 
 namespace qchopper {
 namespace {
 
-constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
-
-std::uint64_t mixed(std::uint64_t x) {
-    x ^= x >> 30;
-    x *= 0xbf58476d1ce4e5b9U;
-    x ^= x >> 27;
-    x *= 0x94d049bb133111ebU;
-    return x ^ x >> 31;
-}
-
-std::uint64_t hash_of(Vec3 p) {
-    std::uint64_t h = mixed(std::bit_cast<std::uint64_t>(p.x));
-    h = mixed(h + std::bit_cast<std::uint64_t>(p.y));
-    return mixed(h + std::bit_cast<std::uint64_t>(p.z));
-}
-
-// Per point, the first point with the same coordinates. Open addressing at half load.
+// Per point, the first point with the same coordinates.
 std::vector<std::uint32_t> first_equal(const std::vector<Vec3>& points) {
-    const std::size_t slots = std::bit_ceil(2 * points.size() + 2);
-    std::vector<std::uint32_t> slot(slots, nobody);
-    std::vector<std::uint32_t> first(points.size());
-    for (std::uint32_t v = 0; v < points.size(); ++v) {
-        std::size_t at = hash_of(points[v]) & (slots - 1);
-        while (slot[at] != nobody && points[slot[at]] != points[v]) at = (at + 1) & (slots - 1);
-        if (slot[at] == nobody) slot[at] = v;
-        first[v] = slot[at];
+    constexpr std::size_t batch = 16;  // slots are asked for so many points ahead of their use
+    std::array<std::uint64_t, batch> hash{};
+    // How many points repeat is seen in the first part: six triangles of an STL file share a point, in a PLY file none
+    // may repeat.
+    const std::size_t sample = points.size() / 16;
+    PointTable table(sample);
+    std::vector<std::uint32_t> first;
+    reserve_huge(first, points.size());
+    first.resize(points.size());
+    for (std::size_t begin = 0; begin < points.size(); begin += batch) {
+        const std::size_t end = std::min(points.size(), begin + batch);
+        if (begin <= sample && sample < end) {
+            table.widen(points, std::min(points.size(), 17 * table.size() + points.size() / 64));
+        }
+        for (std::size_t v = begin; v < end; ++v) {
+            hash[v - begin] = PointTable::hash_of(points[v]);
+            table.prefetch(hash[v - begin]);
+        }
+        for (std::size_t v = begin; v < end; ++v) {
+            first[v] = table.find_or_note(points, points[v], hash[v - begin], static_cast<std::uint32_t>(v));
+        }
     }
     return first;
 }
 
-// Names the first of equal points everywhere and drops the triangles that this collapses.
-std::size_t drop_collapsed(TriangleMesh& mesh, const std::vector<std::uint32_t>& first) {
+// Names the first of equal points everywhere, drops the triangles that this collapses and marks the points in use.
+std::size_t drop_collapsed(TriangleMesh& mesh, const std::vector<std::uint32_t>& first,
+                           std::vector<std::uint8_t>& is_used) {
     std::size_t kept = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const Triangle& old = mesh.triangles[t];
         const Triangle triangle{first[old[0]], first[old[1]], first[old[2]]};
         if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) continue;
+        for (const std::uint32_t corner : triangle) is_used[corner] = 1;
         mesh.triangles[kept] = triangle;
         if (!mesh.cap_of.empty()) mesh.cap_of[kept] = mesh.cap_of[t];
         ++kept;
@@ -56,18 +57,15 @@ std::size_t drop_collapsed(TriangleMesh& mesh, const std::vector<std::uint32_t>&
     return collapsed;
 }
 
-// Closes the gaps that points without a triangle leave.
-void drop_unreferenced(TriangleMesh& mesh) {
-    std::vector<std::uint32_t> place(mesh.points.size(), nobody);
-    for (const Triangle& t : mesh.triangles) {
-        for (const std::uint32_t corner : t) place[corner] = 0;
-    }
+// Closes the gaps that points without a triangle leave. `place` is memory that may be written over.
+void drop_unused(TriangleMesh& mesh, const std::vector<std::uint8_t>& is_used, std::vector<std::uint32_t>& place) {
     std::uint32_t kept = 0;
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-        if (place[v] == nobody) continue;
+        if (is_used[v] == 0) continue;
         mesh.points[kept] = mesh.points[v];
         place[v] = kept++;
     }
+    if (kept == mesh.points.size()) return;
     mesh.points.resize(kept);
     for (Triangle& t : mesh.triangles) {
         for (std::uint32_t& corner : t) corner = place[corner];
@@ -77,13 +75,14 @@ void drop_unreferenced(TriangleMesh& mesh) {
 }  // namespace
 
 WeldCounts weld(TriangleMesh& mesh) {
-    for (Vec3& p : mesh.points) p = p + Vec3{};  // -0.0 + 0.0 is 0.0; every other number stays
+    for (Vec3& p : mesh.points) p = positive_zeros(p);
     WeldCounts counts;
-    const std::vector<std::uint32_t> first = first_equal(mesh.points);
+    std::vector<std::uint32_t> first = first_equal(mesh.points);
     for (std::size_t v = 0; v < first.size(); ++v) counts.welded += first[v] != v;
     const std::size_t different = mesh.points.size() - counts.welded;
-    counts.collapsed = drop_collapsed(mesh, first);
-    drop_unreferenced(mesh);
+    std::vector<std::uint8_t> is_used(mesh.points.size());
+    counts.collapsed = drop_collapsed(mesh, first, is_used);
+    drop_unused(mesh, is_used, first);
     counts.unreferenced = different - mesh.points.size();
     return counts;
 }

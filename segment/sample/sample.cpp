@@ -38,6 +38,10 @@ void check(const SampleOptions& options) {
         throw InputError(InputFault::use, "a sample has 0 to " + std::to_string(most_sample_holes) + " holes, not " +
                                               std::to_string(options.holes));
     }
+    if (options.marks < 0 || options.marks > most_sample_marks) {
+        throw InputError(InputFault::use, "a sample has 0 to " + std::to_string(most_sample_marks) + " marks, not " +
+                                              std::to_string(options.marks));
+    }
 }
 
 // The lattice that gives a little fewer triangles than asked for: their number goes with 1 / spacing squared, nearly.
@@ -76,7 +80,7 @@ std::optional<Specimen> specimen_named(std::string_view name) {
     return {};
 }
 
-TriangleMesh sample(Specimen specimen, const SampleOptions& options, const Context& context) {
+TriangleMesh sample(Specimen specimen, const SampleOptions& options, const Context& context, DrawnMarks* drawn) {
     check(options);
     const std::size_t faces = options.faces - options.faces % 2;
     const Bone bone = bone_of(specimen);
@@ -95,6 +99,12 @@ TriangleMesh sample(Specimen specimen, const SampleOptions& options, const Conte
         throw InputError(InputFault::use,
                          "there is room for " + std::to_string(taken) + " holes, not " + std::to_string(options.holes),
                          "ask for more faces or fewer holes");
+    }
+    if (options.marks > 0) {
+        DrawOptions lines;
+        lines.marks = options.marks;
+        const DrawnMarks made = draw_marks(mesh, lines);
+        if (drawn != nullptr) *drawn = made;
     }
     return mesh;
 }

@@ -13,6 +13,7 @@
 
 #include "segment/context.h"
 #include "segment/mesh/triangle_mesh.h"
+#include "segment/sample/draw_marks.h"
 
 namespace qchopper {
 
@@ -25,17 +26,20 @@ enum class Specimen {
 struct SampleOptions {
     std::size_t faces = 100000;  // of the closed specimen; an odd number means the even one below
     int holes = 0;               // this many patches of faces are taken out, each leaves one border loop
+    int marks = 0;               // this many lines are drawn on it, each a narrow shallow dent (draw_marks.h)
 };
 
 constexpr std::size_t fewest_sample_faces = 2000;
 constexpr std::size_t most_sample_faces = 50'000'000;
 constexpr int most_sample_holes = 100;
+constexpr int most_sample_marks = 100;
 
 // "vertebra", "femur" or "skull"; nothing for any other word.
 std::optional<Specimen> specimen_named(std::string_view name);
 
 // Throws InputError (use) for fewer than fewest_sample_faces or more than most_sample_faces, or for more holes than
-// the surface has room for.
-TriangleMesh sample(Specimen specimen, const SampleOptions& options, const Context& context = {});
+// the surface has room for. Marks change no triangle; `drawn` (may be null) tells of them.
+TriangleMesh sample(Specimen specimen, const SampleOptions& options, const Context& context = {},
+                    DrawnMarks* drawn = nullptr);
 
 }  // namespace qchopper

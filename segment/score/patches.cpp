@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "segment/files/huge_pages.h"
 #include "segment/mesh/order.h"
 
 namespace qchopper {
@@ -13,11 +14,11 @@ constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 // Where runs of triangles begin. A run goes on while the next triangle shares a point with it and there is room.
 void divide(Patches& patches, const TriangleMesh& mesh) {
-    std::vector<std::uint32_t> last(mesh.points.size(), none);  // the patch that had a point last
-    patches.neighbour.resize(mesh.points.size());
-    for (std::uint32_t v = 0; v < mesh.points.size(); ++v) patches.neighbour[v] = {v, v};
-    patches.patch.reserve(mesh.triangles.size() / (triangles_per_patch / 2));
-    patches.point.reserve(mesh.triangles.size() + mesh.triangles.size() / 8);
+    auto last = huge(mesh.points.size(), none);  // the patch that had a point last
+    reserve_huge(patches.neighbour, mesh.points.size());
+    for (std::uint32_t v = 0; v < mesh.points.size(); ++v) patches.neighbour.push_back({v, v});
+    reserve_huge(patches.patch, mesh.triangles.size() / (triangles_per_patch / 2));
+    reserve_huge(patches.point, mesh.triangles.size() + mesh.triangles.size() / 8);
     std::uint32_t p = none;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         const Triangle& v = mesh.triangles[t];

@@ -32,8 +32,8 @@ struct Patch {
 };
 
 struct Patches {
-    std::vector<Patch> patch;              // and one more, where the last one ends
-    std::vector<std::uint32_t> point;      // patch by patch, each point of it once
+    std::vector<Patch> patch;          // and one more, where the last one ends
+    std::vector<std::uint32_t> point;  // patch by patch, each point of it once
     // Per point of the mesh, of the earlier ones on a common edge, the nearest in memory and the farthest; or itself.
     std::vector<std::array<std::uint32_t, 2>> neighbour;
     std::size_t count() const { return patch.empty() ? 0 : patch.size() - 1; }

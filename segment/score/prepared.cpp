@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "segment/files/huge_pages.h"
 #include "segment/mesh/normals.h"
 
 namespace qchopper {
@@ -24,7 +25,7 @@ std::vector<std::uint16_t> bases(const Piece& piece) {
 }
 
 std::vector<TriangleSums> triangle_sums(const TriangleMesh& mesh, Vec3 origin) {
-    std::vector<TriangleSums> sums(mesh.triangles.size());
+    auto sums = huge<TriangleSums>(mesh.triangles.size());
     for (std::size_t t = 0; t < sums.size(); ++t) {
         const Vec3 area = area_vector(mesh, t);
         sums[t] = {area, dot(mesh.points[mesh.triangles[t][0]] - origin, area) / 3};

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "segment/files/huge_pages.h"
 #include "segment/mesh/disjoint_sets.h"
 #include "segment/mesh/frame.h"
 
@@ -61,13 +62,13 @@ class Pass {
           offsets_(offsets),
           frame_(frame_across(normal)),
           packing_(offsets.size() + 1),
-          word_(mesh_.points.size()) {
+          word_(huge<std::uint32_t>(mesh_.points.size())) {
         out_.layout.bases = prepared.up.size();
         width_ = out_.layout.width();
         // Room that is not used costs nothing; growing does.
-        out_.straddlers.reserve(mesh_.triangles.size() / 2);
-        out_.point.reserve(mesh_.triangles.size() / 2);
-        out_.exit.reserve(mesh_.triangles.size() / 2);
+        reserve_huge(out_.straddlers, mesh_.triangles.size() / 2);
+        reserve_huge(out_.point, mesh_.triangles.size() / 2);
+        reserve_huge(out_.exit, mesh_.triangles.size() / 2);
     }
 
     Slabs run() {

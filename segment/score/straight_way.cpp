@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "segment/cut/plane.h"
+#include "segment/files/huge_pages.h"
 #include "segment/mesh/frame.h"
 
 namespace qchopper {
@@ -157,7 +158,7 @@ std::vector<double> straight_ways(const TriangleMesh& mesh, Vec3 normal, std::sp
     const PlaneFrame frame = frame_across(normal);
     const Grid grid_up(normal, frame, queries, true);
     const Grid grid_down(normal, frame, queries, false);
-    std::vector<Seen> seen(mesh.points.size());
+    auto seen = huge<Seen>(mesh.points.size());
     tbb::parallel_for(std::size_t{0}, shares, [&](std::size_t s) {
         const std::size_t end = seen.size() * (s + 1) / shares;
         for (std::size_t p = seen.size() * s / shares; p < end; ++p)

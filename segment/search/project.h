@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "segment/intake/intake.h"
+#include "segment/repair/choices.h"
 #include "segment/search/decisions.h"
 #include "segment/search/search.h"
 
@@ -37,6 +38,7 @@ struct ScanSource {
     std::size_t faces = 0;
     double volume_mm3 = 0;
     std::vector<std::string> warnings = {};  // what intake said
+    RepairChoices repair = {};               // how it was made a solid
     bool operator==(const ScanSource&) const = default;
 };
 

@@ -168,11 +168,32 @@ std::vector<SolidRecord> solids_from(const Json& json) {
     return solids;
 }
 
+Json to_json(const RepairChoices& repair) {
+    return {{"weld_mm", repair.weld_mm},
+            {"fill", name_of(repair.fill)},
+            {"resolve_self_intersections", repair.resolve_self_intersections},
+            {"smooth_marks", repair.smooth_marks},
+            {"wrap_mm", repair.wrap_mm}};
+}
+
+RepairChoices repair_from(const Json& json) {
+    RepairChoices repair;
+    repair.weld_mm = json.at("weld_mm").get<double>();
+    const std::optional<Fill> fill = fill_named(json.at("fill").get<std::string>());
+    if (!fill) throw InputError(InputFault::config, "\"" + json.at("fill").get<std::string>() + "\" fills no hole");
+    repair.fill = *fill;
+    repair.resolve_self_intersections = json.at("resolve_self_intersections").get<bool>();
+    repair.smooth_marks = json.at("smooth_marks").get<bool>();
+    repair.wrap_mm = json.at("wrap_mm").get<double>();
+    return repair;
+}
+
 Json to_json(const ScanSource& scan) {
     return {{"path", scan.path.string()},        {"sha256", scan.sha256},
             {"units", name_of(scan.unit)},       {"scale", scan.scale},
             {"centre_mm", to_json(scan.centre)}, {"faces", scan.faces},
-            {"volume_mm3", scan.volume_mm3},     {"warnings", scan.warnings}};
+            {"volume_mm3", scan.volume_mm3},     {"warnings", scan.warnings},
+            {"repair", to_json(scan.repair)}};
 }
 
 ScanSource scan_from(const Json& json) {
@@ -185,6 +206,7 @@ ScanSource scan_from(const Json& json) {
     scan.faces = json.at("faces").get<std::size_t>();
     scan.volume_mm3 = json.at("volume_mm3").get<double>();
     scan.warnings = json.at("warnings").get<std::vector<std::string>>();
+    if (json.contains("repair")) scan.repair = repair_from(json.at("repair"));  // older projects have none
     return scan;
 }
 

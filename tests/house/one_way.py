@@ -13,8 +13,8 @@ ROOMS = ["segment", "cam", "devices", "sim", "cli"]
 
 # Inside these rooms the sub-rooms stand in a row as well.
 SUB_ROOMS = {
-    "segment": ["files", "mesh", "sample", "repair", "intake", "cut", "picture", "score", "search"],
-    "cam": ["cell", "setup", "job"],
+    "segment": ["files", "mesh", "sample", "repair", "intake", "cut", "simplify", "picture", "score", "search"],
+    "cam": ["cell", "setup", "job", "export"],
 }
 
 # Headers beside the sub-rooms that every file of the house may include, and that include nothing of the house.
@@ -35,15 +35,16 @@ FREE_OF_CGAL = ["devices", "sim"]
 
 # Heavy headers: seen by sources only, and by no more of them than this.
 HEAVY = {
-    "CGAL": (r"CGAL/", 3),
-    "OpenMesh": (r"OpenMesh/", 1),
+    "CGAL": (r"CGAL/", 7),
+    "OpenMesh": (r"OpenMesh/", 2),
     "Embree": (r"embree3/", 1),
-    "tinygltf": (r"(.*/)?tiny_gltf\.h$", 1),
+    "tinygltf": (r"(.*/)?tiny_gltf\.h$", 2),
     "libmodbus": (r"(modbus/)?modbus(-.*)?\.h$", 1),
     "toml++": (r"toml\+\+/", 2),
-    "JSON": (r"nlohmann/(?!json_fwd\.hpp)", 13),
+    "JSON": (r"nlohmann/(?!json_fwd\.hpp)", 16),
     "CLI11": (r"CLI/", 1),
-    "libzip": (r"zip\.h$", 1),
+    "libzip": (r"zip\.h$", 3),
+    "expat": (r"expat\.h$", 1),
     "libpng": (r"png\.h$", 1),
 }
 

@@ -34,7 +34,7 @@ PLANTED = {
     ),
     "sim sees cli": ("sim/cell_sim.cpp", '#include "cli/terminal.h"', "cli comes after sim"),
     "CGAL in a header": ("segment/cut/cap.h", "#include <CGAL/Surface_mesh.h>", "a header must not include CGAL"),
-    "CGAL in one more source": ("segment/cut/cut.cpp", "#  include <CGAL/Surface_mesh.h>", "4 files, 3 are allowed"),
+    "CGAL in one more source": ("segment/cut/cut.cpp", "#  include <CGAL/Surface_mesh.h>", "8 files, 7 are allowed"),
     "Embree in one more source": ("segment/picture/light.cpp", "#include <embree3/rtcore.h>", "seen by 2 files"),
     "JSON in a header": ("cli/columns.h", "#include <nlohmann/json.hpp>", "a header must not include JSON"),
     "the option parser in a header": ("cli/arguments.h", "#include <CLI/CLI.hpp>", "must not include CLI11"),

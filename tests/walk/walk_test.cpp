@@ -31,7 +31,7 @@ TEST(Walk, ASampleScanBecomesJobsThatEnd) {
         sampling.holes = holes;
         write_file(folder.path / "scan.ply", to_ply(sample(specimen, sampling)));
         const Intake intake = take_in_as(folder.path / "scan.ply", Unit::mm);
-        EXPECT_EQ(intake.report.holes_filled, static_cast<std::size_t>(holes));
+        EXPECT_EQ(intake.report.repair.holes_filled, static_cast<std::size_t>(holes));
         SearchSettings settings;
         settings.stop.min_cuts = 2;
         const Segmentation segmentation = walk::cut_up(intake.mesh, settings);
@@ -46,7 +46,7 @@ TEST(Walk, TheBunnyBecomesFourPiecesOrMoreAndTheirJobsEnd) {
     const walk::Folder folder;
     const Intake intake = take_in_as(scan, Unit::m);
     EXPECT_EQ(intake.mesh.triangles.size(), 69'664U);
-    EXPECT_EQ(intake.report.holes_filled, 5U);
+    EXPECT_EQ(intake.report.repair.holes_filled, 5U);
     const std::optional<SearchSettings> settings = preset("bunny");
     ASSERT_TRUE(settings);
     const Segmentation segmentation = walk::cut_up(intake.mesh, *settings);
@@ -60,7 +60,7 @@ TEST(Walk, AHeadOf222ShellsBecomesClosedPiecesAndListedCrumbs) {
     NEEDS_SCAN("ct_head_371k.ply");
     const walk::Folder folder;
     const Intake intake = take_in_as(scan, Unit::mm);
-    EXPECT_EQ(intake.report.shells, 222U);
+    EXPECT_EQ(intake.report.repair.shells, 222U);
     SearchSettings settings;
     settings.stop.min_cuts = 1;
     settings.candidates.offsets_per_normal = 8;  // the law is about the pieces, not about the choice

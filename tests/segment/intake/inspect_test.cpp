@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "segment/intake/write_stl.h"
+#include "segment/repair/weld.h"
 #include "tests/segment/intake/help.h"
 #include "tests/shapes.h"
 
@@ -73,6 +76,100 @@ TEST(Inspect, TellsCavitiesFromShellsThatAreInsideOut) {
     EXPECT_EQ(hollow.inside_out, 0U);
     EXPECT_EQ(hollow.cavities, 1U);
     EXPECT_EQ(hollow.shells, 2U);
+}
+
+TEST(Inspect, TellsTheLongestHoleAndWhereItIs) {
+    TriangleMesh mesh = shapes::box({0, 0, 0}, {8, 8, 8}, 8);
+    EXPECT_EQ(inspect(raw(mesh)).longest_hole(), nullptr);
+    const auto lies_in = [&](const Triangle& t, double low, double high) {
+        return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
+            const Vec3 p = mesh.points[v];
+            return p.z == 8 && p.x >= low && p.x <= high && p.y >= low && p.y <= high;
+        });
+    };
+    std::erase_if(mesh.triangles, [&](const Triangle& t) { return lies_in(t, 1, 2) || lies_in(t, 4, 6); });
+    const Inspection found = inspect(raw(mesh));
+    EXPECT_EQ(found.holes.size(), 2U);
+    ASSERT_NE(found.longest_hole(), nullptr);
+    EXPECT_EQ(found.longest_hole()->edges, 8U);
+    EXPECT_DOUBLE_EQ(found.longest_hole()->length, 8);
+    EXPECT_EQ(found.longest_hole()->centre, (Vec3{5, 5, 8}));
+    EXPECT_EQ(found.sheets, 0U);
+}
+
+TEST(Inspect, CountsCrumbsWithTheirCavities) {
+    const TriangleMesh large = shapes::box({0, 0, 0}, {100, 100, 100});
+    const TriangleMesh crumb = shapes::box({200, 0, 0}, {202, 2, 2});
+    const TriangleMesh piece = shapes::box({300, 0, 0}, {303, 3, 3});
+    const TriangleMesh thin = shapes::joined(  // 27 mm3 in all, but only 7 of them are solid
+        {shapes::box({400, 0, 0}, {403, 3, 3}),
+         shapes::turned_inside_out(shapes::box({400.15, 0.15, 0.15}, {402.85, 2.85, 2.85}))});
+    const Inspection found = inspect(raw(shapes::joined({large, crumb, piece, thin})));
+    EXPECT_EQ(found.crumbs, 2U);
+    const double area = 24 + 54 + 6 * 2.7 * 2.7;
+    EXPECT_NEAR(found.crumb_area_share, (area - 0) / (60'000 + 24 + 54 + 54 + 6 * 2.7 * 2.7), 1e-12);
+    EXPECT_EQ(judge(found).verdict, Verdict::ready);
+}
+
+TEST(Inspect, DeepFindsSelfIntersections) {
+    const TriangleMesh crossed = shapes::joined({shapes::box({0, 0, 0}, {4, 4, 4}), shapes::box({3, 1, 1}, {6, 3, 3})});
+    EXPECT_FALSE(inspect(raw(crossed)).self_intersected);
+    InspectOptions deep;
+    deep.deep = true;
+    const Inspection found = inspect(raw(crossed), deep);
+    ASSERT_TRUE(found.self_intersected);
+    EXPECT_GT(found.self_intersected->pairs, 0U);
+    EXPECT_FALSE(found.self_intersected->places.empty());
+    EXPECT_LE(found.self_intersected->places.size(), 10U);
+    EXPECT_EQ(judge(found).verdict, Verdict::to_repair);
+    // Surfaces that touch in a point are no fault of that kind.
+    const TriangleMesh touching =
+        shapes::joined({shapes::box({0, 0, 0}, {1, 1, 1}), shapes::box({1, 1, 1}, {2, 2, 2})});
+    EXPECT_EQ(inspect(raw(touching), deep).self_intersected->pairs, 0U);
+}
+
+TEST(Inspect, JudgesWhatItSees) {
+    for (const shapes::Named& shape : shapes::all_closed()) {
+        const Judgement judged = judge(inspect(raw(shape.mesh)));
+        EXPECT_EQ(judged.verdict, Verdict::ready) << shape.name;
+        EXPECT_TRUE(judged.reasons.empty()) << shape.name;
+    }
+    TriangleMesh mesh = shapes::box({0, 0, 0}, {2, 2, 2}, 2);
+    mesh.triangles.pop_back();
+    EXPECT_EQ(judge(inspect(raw(mesh))).verdict, Verdict::to_repair);
+    EXPECT_EQ(judge(inspect(raw(mesh))).reasons, (std::vector<std::string>{"1 hole is closed."}));
+    EXPECT_EQ(judge(inspect(raw(shapes::turned_inside_out(shapes::box({0, 0, 0}, {1, 1, 1}))))).verdict,
+              Verdict::to_repair);
+    mesh.triangles.resize(1);
+    EXPECT_EQ(judge(inspect(raw(mesh))).verdict, Verdict::hopeless);
+    TriangleMesh line;
+    line.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+    line.triangles = {{0, 1, 2}};
+    EXPECT_EQ(judge(inspect(raw(line))).verdict, Verdict::hopeless);
+    line.triangles = {{0, 0, 1}};
+    const Inspection nothing = inspect(raw(line));
+    EXPECT_EQ(nothing.triangles, 0U);
+    EXPECT_EQ(judge(nothing).verdict, Verdict::hopeless);
+}
+
+// Reading and welding in one gives what reading, then welding gives.
+TEST(Inspect, SaysTheSameOfAnStlFileThatIsWeldedWhileItIsRead) {
+    for (const shapes::Named& shape : shapes::all_closed()) {
+        TriangleMesh mesh = shape.mesh;
+        for (std::size_t v = 0; v < mesh.points.size(); v += 3) mesh.points[v].x *= -0.0;
+        const Bytes bytes = to_stl(mesh);
+        RawMesh apart = parse_mesh(bytes, shape.name);
+        RawMesh together = parse_mesh(bytes, shape.name, {}, {.weld = true});
+        EXPECT_EQ(together.mesh.points.size() + together.welded, apart.mesh.points.size()) << shape.name;
+        const Inspection a = inspect(apart);
+        const Inspection b = inspect(together);
+        EXPECT_EQ(a.points_in_file, b.points_in_file) << shape.name;
+        EXPECT_EQ(a.welded, b.welded) << shape.name;
+        EXPECT_EQ(a.collapsed, b.collapsed) << shape.name;
+        weld(apart.mesh);
+        weld(together.mesh);
+        EXPECT_EQ(apart.mesh, together.mesh) << shape.name;
+    }
 }
 
 TEST(Inspect, DescribesTheRealScansWithoutAWord) {

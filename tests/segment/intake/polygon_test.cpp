@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <numeric>
+#include <random>
 
 #include "segment/mesh/measure.h"
 
@@ -39,6 +41,29 @@ TEST(Polygon, PiecesAddUpToTheWholeAndFaceOneWay) {
             EXPECT_GE(dot(area_vector(mesh, t), {0, -0.8, 0.6}), -1e-12);
         }
     }
+}
+
+// Every choice of an ear is a search, so what has none must not be searched again and again.
+TEST(Polygon, OfAThousandTangledCornersIsSplitAtOnce) {
+    std::mt19937 random(5);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 1000; ++i) {
+        points.push_back({static_cast<double>(random() % 1000), static_cast<double>(random() % 1000), 0});
+    }
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < 10; ++i) EXPECT_EQ(split(points).triangles.size(), 998U);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+}
+
+TEST(Polygon, WithAHoleOnABridgeKeepsItsArea) {
+    // a square with a square hole; the bridge 3-7 is walked both ways
+    const TriangleMesh square{
+        {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}, {4, 4, 0}, {6, 4, 0}, {6, 6, 0}, {4, 6, 0}}, {}, {}};
+    const std::vector<std::uint32_t> corners{0, 1, 2, 3, 7, 6, 5, 4, 7, 3};
+    TriangleMesh mesh = square;
+    split_polygon(mesh.points, corners, mesh.triangles);
+    EXPECT_EQ(mesh.triangles.size(), 8U);
+    EXPECT_NEAR(area_mm2(mesh), 96, 1e-9);
 }
 
 TEST(Polygon, WithoutAPlaneIsSplitAllTheSame) {

@@ -44,7 +44,9 @@ TEST(FillHoles, FillsEdgesMinusTwoTrianglesPerHoleAndNoPoint) {
     const std::size_t border = edges(box).faults.open;
     ASSERT_EQ(border, 32U);
     const TriangleMesh open = box;
-    const FilledHoles holes = fill_holes(box);
+    FillOptions flat;
+    flat.fill = Fill::flat;
+    const FilledHoles holes = fill_holes(box, flat);
     EXPECT_EQ(holes.filled, 1U);
     EXPECT_EQ(holes.triangles, border - 2);
     expect_starts_with(box, open);

@@ -1,0 +1,51 @@
+#include "bench/child.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "bench/clock.h"
+
+extern char** environ;
+
+namespace qchopper::bench {
+
+namespace fs = std::filesystem;
+
+TemporaryFolder::TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "bench-XXXXXX").string();
+    path_ = ::mkdtemp(name.data()) != nullptr ? name : std::string();
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove_all(path_, ignored);
+}
+
+Ended run(const std::vector<std::string>& command) {
+    std::vector<char*> arguments;
+    for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    Ended ended;
+    const double started = wall_s();
+    pid_t child = 0;
+    posix_spawn_file_actions_t streams;
+    ::posix_spawn_file_actions_init(&streams);
+    ::posix_spawn_file_actions_addopen(&streams, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    const int fault = ::posix_spawnp(&child, arguments[0], &streams, nullptr, arguments.data(), environ);
+    ::posix_spawn_file_actions_destroy(&streams);
+    if (fault != 0) return ended;
+    rusage usage{};
+    if (::wait4(child, &ended.status, 0, &usage) != child) return ended;
+    ended.wall = wall_s() - started;
+    ended.peak_bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
+    const auto seconds = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    ended.cpu = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+    return ended;
+}
+
+}  // namespace qchopper::bench

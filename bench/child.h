@@ -1,0 +1,34 @@
+// A program of its own: how long it took and how much memory it had at most. And a folder for its files.
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace qchopper::bench {
+
+// Removed at the end.
+class TemporaryFolder {
+ public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+ private:
+    std::filesystem::path path_;
+};
+
+struct Ended {
+    int status = -1;
+    double peak_bytes = 0;
+    double wall = 0;
+    double cpu = 0;  // of all its threads, in the program and for it
+};
+
+// Its stdout is thrown away.
+Ended run(const std::vector<std::string>& command);
+
+}  // namespace qchopper::bench

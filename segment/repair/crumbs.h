@@ -1,0 +1,25 @@
+// Finds the solids of a scan that are too small to become pieces: dust that the scanner saw.
+//
+// A crumb goes whole, with the cavities in it (tests/segment/repair/crumbs_test.cpp).
+
+#pragma once
+
+#include <cstddef>
+
+#include "segment/mesh/triangle_mesh.h"
+
+namespace qchopper {
+
+struct CrumbCounts {
+    std::size_t crumbs = 0;
+    std::size_t faces = 0;
+    double area_share = 0;  // of the surface of the mesh
+};
+
+// Solids with less volume than this share of the whole. The mesh must be closed and face outwards.
+CrumbCounts count_crumbs(const TriangleMesh& mesh, double volume_share);
+
+// The same counts, and the crumbs are gone.
+CrumbCounts drop_crumbs(TriangleMesh& mesh, double volume_share);
+
+}  // namespace qchopper

@@ -1,0 +1,28 @@
+// All half-edges of a mesh, grouped by the edge that they run along, whichever way.
+//
+// For meshes that are not manifold: edges.h pairs what is sound and only counts the rest
+// (tests/segment/repair/sheets_test.cpp).
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "segment/mesh/triangle_mesh.h"
+
+namespace qchopper {
+
+// Groups are in the order of their smaller, then of their larger end point; half-edges in a group are ascending.
+struct EdgeGroups {
+    std::vector<std::uint32_t> half_edges;
+    std::vector<std::uint32_t> begin;  // per group, and one more for the end
+    std::size_t count() const { return begin.size() - 1; }
+    std::span<const std::uint32_t> operator[](std::size_t group) const {
+        return std::span(half_edges).subspan(begin[group], begin[group + 1] - begin[group]);
+    }
+};
+EdgeGroups edge_groups(const TriangleMesh& mesh);
+
+}  // namespace qchopper

@@ -1,0 +1,198 @@
+#include "segment/repair/faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "segment/mesh/disjoint_sets.h"
+#include "segment/mesh/edges.h"
+#include "segment/mesh/measure.h"
+#include "segment/repair/edge_groups.h"
+#include "segment/repair/manifold.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+constexpr double flat_share = 1e-6;  // of the diagonal: a sheet thinner than that encloses nothing
+
+// A triangle by its corners in ascending order, and which way it turns.
+struct Corners {
+    Triangle sorted;
+    std::uint32_t triangle;
+    bool is_turned;
+    bool operator<(const Corners& b) const { return sorted != b.sorted ? sorted < b.sorted : triangle < b.triangle; }
+};
+
+Corners corners_of(const TriangleMesh& mesh, std::uint32_t triangle) {
+    Triangle t = mesh.triangles[triangle];
+    bool is_turned = false;
+    const auto order = [&](std::size_t i, std::size_t j) {
+        if (t[i] <= t[j]) return;
+        std::swap(t[i], t[j]);
+        is_turned = !is_turned;
+    };
+    order(0, 1);
+    order(1, 2);
+    order(0, 1);
+    return {t, triangle, is_turned};
+}
+
+// Without faulty edges two faces can only be one on the other when they are each other's neighbours three times.
+bool may_repeat(const TriangleMesh& mesh) {
+    const Edges found = edges(mesh);
+    if (found.faults.non_manifold + found.faults.inconsistent > 0) return true;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const std::uint32_t twin = found.twin[3 * t];
+        if (twin == no_twin || found.twin[3 * t + 1] == no_twin) continue;
+        if (twin / 3 == found.twin[3 * t + 1] / 3) return true;
+    }
+    return false;
+}
+
+// The pairs of faces that lie on each other, hanging together where they share an edge.
+class DoubleSheets {
+ public:
+    DoubleSheets(const TriangleMesh& mesh, const std::vector<std::uint32_t>& opposite)
+        : mesh_(mesh), opposite_(opposite), sheet_(mesh.triangles.size()), balance_(mesh.triangles.size()) {
+        const EdgeGroups groups = edge_groups(mesh);
+        for (std::size_t g = 0; g < groups.count(); ++g) join(groups[g]);
+        for (std::size_t g = 0; g < groups.count(); ++g) weigh(groups[g]);
+        measure();
+    }
+
+    // Whether one side of the sheet that this face belongs to must stay.
+    bool is_needed(std::uint32_t triangle) {
+        const Balance& b = balance_[sheet_.root(triangle)];
+        if (b.is_attached) return b.open_with < b.open_without;
+        return !b.is_flat;
+    }
+
+ private:
+    struct Balance {
+        std::size_t open_with = 0;     // edges with an odd number of faces when one side stays
+        std::size_t open_without = 0;  // and when both go
+        bool is_attached = false;
+        bool is_flat = true;
+        std::uint32_t largest = nobody;
+        double area = -1;
+    };
+
+    void join(std::span<const std::uint32_t> group) {
+        std::uint32_t first = nobody;
+        for (const std::uint32_t h : group) {
+            if (opposite_[h / 3] == nobody) continue;
+            if (first == nobody) first = h / 3;
+            sheet_.unite(first, h / 3);
+        }
+    }
+
+    void weigh(std::span<const std::uint32_t> group) {
+        std::size_t faces = 0;
+        std::uint32_t one = nobody;
+        for (const std::uint32_t h : group) {
+            if (opposite_[h / 3] == nobody) continue;
+            ++faces;
+            one = h / 3;
+        }
+        if (one == nobody) return;
+        Balance& b = balance_[sheet_.root(one)];
+        const std::size_t others = group.size() - faces;
+        b.is_attached = b.is_attached || others > 0;
+        b.open_without += others % 2;
+        b.open_with += (others + faces / 2) % 2;
+    }
+
+    // Flat is what lies in the plane of its largest face.
+    void measure() {
+        const double thin = flat_share * norm(bounds(mesh_).size());
+        const auto for_each_face = [&](const auto& action) {
+            for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+                if (opposite_[t] != nobody) action(t, balance_[sheet_.root(t)]);
+            }
+        };
+        for_each_face([&](std::uint32_t t, Balance& b) {
+            const double area = norm(area_vector(mesh_, t));
+            if (area > b.area) {
+                b.area = area;
+                b.largest = t;
+            }
+        });
+        for_each_face([&](std::uint32_t t, Balance& b) {
+            const Vec3 normal = normalized(area_vector(mesh_, b.largest));
+            const Vec3 origin = mesh_.points[mesh_.triangles[b.largest][0]];
+            for (const std::uint32_t corner : mesh_.triangles[t]) {
+                if (std::abs(dot(normal, mesh_.points[corner] - origin)) > thin) b.is_flat = false;
+            }
+        });
+    }
+
+    const TriangleMesh& mesh_;
+    const std::vector<std::uint32_t>& opposite_;  // per triangle the one on its other side, or nobody
+    DisjointSets sheet_;
+    std::vector<Balance> balance_;
+};
+
+}  // namespace
+
+void keep_triangles(TriangleMesh& mesh, const std::vector<bool>& is_kept) {
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (!is_kept[t]) continue;
+        mesh.triangles[kept] = mesh.triangles[t];
+        if (!mesh.cap_of.empty()) mesh.cap_of[kept] = mesh.cap_of[t];
+        ++kept;
+    }
+    mesh.triangles.resize(kept);
+    if (!mesh.cap_of.empty()) mesh.cap_of.resize(kept);
+}
+
+RepeatedFaces drop_repeated_faces(TriangleMesh& mesh) {
+    RepeatedFaces counts;
+    if (!may_repeat(mesh)) return counts;
+    std::vector<Corners> all;
+    all.reserve(mesh.triangles.size());
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) all.push_back(corners_of(mesh, t));
+    std::sort(all.begin(), all.end());
+    std::vector<bool> is_kept(mesh.triangles.size(), true);
+    for (std::size_t i = 0, end = 0; i < all.size(); i = end) {
+        bool has[2] = {};
+        for (end = i; end < all.size() && all[end].sorted == all[i].sorted; ++end) {
+            bool& is_there = has[all[end].is_turned ? 1 : 0];
+            if (is_there) is_kept[all[end].triangle] = false;
+            counts.repeated += is_there;
+            is_there = true;
+        }
+    }
+    std::vector<std::uint32_t> place(mesh.triangles.size());  // after the repeated ones are gone
+    for (std::uint32_t t = 0, kept = 0; t < place.size(); ++t) place[t] = is_kept[t] ? kept++ : nobody;
+    keep_triangles(mesh, is_kept);
+
+    std::vector<std::uint32_t> opposite(mesh.triangles.size(), nobody);
+    bool is_any = false;
+    for (std::size_t i = 0, end = 0; i < all.size(); i = end) {
+        std::uint32_t side[2] = {nobody, nobody};
+        for (end = i; end < all.size() && all[end].sorted == all[i].sorted; ++end) {
+            if (place[all[end].triangle] != nobody) side[all[end].is_turned ? 1 : 0] = place[all[end].triangle];
+        }
+        if (side[0] == nobody || side[1] == nobody) continue;
+        opposite[side[0]] = side[1];
+        opposite[side[1]] = side[0];
+        is_any = true;
+    }
+    if (!is_any) return counts;
+    DoubleSheets sheets(mesh, opposite);
+    is_kept.assign(mesh.triangles.size(), true);
+    for (std::uint32_t t = 0; t < opposite.size(); ++t) {
+        if (opposite[t] == nobody) continue;
+        const bool is_needed = sheets.is_needed(t);
+        is_kept[t] = is_needed && t < opposite[t];
+        counts.repeated += is_needed && !is_kept[t];
+        counts.of_sheets += !is_needed;
+    }
+    keep_triangles(mesh, is_kept);
+    return counts;
+}
+
+}  // namespace qchopper

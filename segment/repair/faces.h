@@ -1,0 +1,28 @@
+// Drops faces that say nothing: those that repeat another one, and flat double sheets.
+//
+// Faces that stay keep their order, points keep theirs; a point that loses its last face is dropped by the next weld.
+// Doing it twice is doing it once (tests/segment/repair/faces_test.cpp).
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "segment/mesh/triangle_mesh.h"
+
+namespace qchopper {
+
+struct RepeatedFaces {
+    std::size_t repeated = 0;   // with the corners of another one: one of them stays
+    std::size_t of_sheets = 0;  // of flat double sheets (a wall between two solids, a fin): both sides go
+    bool operator==(const RepeatedFaces&) const = default;
+};
+
+// Equal points must have been welded. Of faces that turn the same way the first stays. Two that turn opposite ways both
+// go where the surface around them closes without them, and one of them stays where it needs one.
+RepeatedFaces drop_repeated_faces(TriangleMesh& mesh);
+
+// Keeps the triangles that are marked, in their order, with their cap_of.
+void keep_triangles(TriangleMesh& mesh, const std::vector<bool>& is_kept);
+
+}  // namespace qchopper

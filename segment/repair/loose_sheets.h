@@ -1,0 +1,26 @@
+// Tells solids from sheets: any border can be closed somehow, but a sheet that is closed so has no inside.
+//
+// A shell is a sheet when what closes its holes is larger than 80 % of what was scanned of it
+// (tests/segment/repair/loose_sheets_test.cpp).
+
+#pragma once
+
+#include <cstddef>
+
+#include "segment/mesh/triangle_mesh.h"
+
+namespace qchopper {
+
+struct Sheets {
+    std::size_t dropped = 0;        // small ones beside a solid: taken away with what closed them
+    std::size_t dropped_faces = 0;  // of the scan
+    std::size_t left = 0;
+    Vec3 first;  // the middle of the first one left
+    double added_area_share = 0;
+};
+
+// Triangles that were added are no_cap in cap_of. Sheets go when all together have at most `drop_share` of the scanned
+// surface and something else is left.
+Sheets judge_sheets(TriangleMesh& mesh, double drop_share);
+
+}  // namespace qchopper

@@ -1,0 +1,181 @@
+#include "segment/repair/report.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace qchopper {
+namespace {
+
+constexpr double warn_added_share = 0.05;
+
+std::string counted(std::size_t count, const std::string& one, const std::string& many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+std::string in_digits(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3g", value);
+    return text.data();
+}
+
+// "2 holes closed, 5 faces dropped": what did not happen is left out.
+class Words {
+ public:
+    Words& add(std::size_t count, const std::string& one, const std::string& many) {
+        if (count > 0) add(counted(count, one, many));
+        return *this;
+    }
+    Words& add(const std::string& words) {
+        text_ += (text_.empty() ? "" : ", ") + words;
+        return *this;
+    }
+    std::string text() const { return text_.empty() ? "nothing to do" : text_; }
+
+ private:
+    std::string text_;
+};
+
+std::string filling(const RepairReport& r) {
+    Words words;
+    words.add(r.holes_filled, "hole closed", "holes closed");
+    if (r.holes_filled > 0) words.add("with " + counted(r.faces_added, "face", "faces"));
+    words.add(r.holes_faired, "of them faired", "of them faired");
+    words.add(r.points_added, "point added", "points added");
+    words.add(r.left_open.size(), "hole left open", "holes left open");
+    words.add(r.loose_sheets, "loose sheet taken away", "loose sheets taken away");
+    return words.text();
+}
+
+std::string crumbs(const RepairReport& r) {
+    if (r.crumbs == 0) return "none";
+    return counted(r.crumbs, "crumb", "crumbs") + " with " + in_digits(100 * r.crumb_area_share) +
+           " % of the surface " + (r.crumbs_dropped ? "dropped" : "kept");
+}
+
+std::string resolving(const RepairReport& r) {
+    if (!r.resolved) return "not asked for";
+    if (r.resolved->pairs == 0) return "nothing to do";
+    return counted(r.resolved->places, "place", "places") + " mended, " +
+           counted(r.resolved->left, "pair of faces", "pairs of faces") + " left of " +
+           std::to_string(r.resolved->pairs) + (r.resolving_undone ? "; undone" : "");
+}
+
+std::string smoothing(const RepairReport& r) {
+    if (!r.marks) return "not asked for";
+    if (r.marks->marks == 0) return "no marks found";
+    return counted(r.marks->marks, "mark", "marks") + " lifted, " + in_digits(r.marks->area_mm2) + " mm2, at most " +
+           in_digits(r.marks->most_depth) + " mm deep";
+}
+
+}  // namespace
+
+std::vector<RepairStep> steps(const RepairReport& r) {
+    std::vector<RepairStep> all;
+    all.push_back({"weld", r.welded + r.collapsed + r.unreferenced,
+                   Words()
+                       .add(r.welded, "point welded", "points welded")
+                       .add(r.collapsed, "collapsed face dropped", "collapsed faces dropped")
+                       .add(r.unreferenced, "unused point dropped", "unused points dropped")
+                       .text()});
+    all.push_back({"weld_borders", r.border_welded,
+                   Words().add(r.border_welded, "border point welded", "border points welded").text()});
+    all.push_back(
+        {"faces", r.repeated + r.of_double_sheets,
+         Words()
+             .add(r.repeated, "repeated face dropped", "repeated faces dropped")
+             .add(r.of_double_sheets, "face of flat double sheets dropped", "faces of flat double sheets dropped")
+             .text()});
+    all.push_back({"split", r.edges_split + r.edges_cut + r.points_copied,
+                   Words()
+                       .add(r.edges_split, "edge of more than two faces split", "edges of more than two faces split")
+                       .add(r.edges_cut, "edge cut open", "edges cut open")
+                       .add(r.points_copied, "copy of a point made", "copies of points made")
+                       .text()});
+    all.push_back({"orient", r.faces_turned,
+                   Words()
+                       .add(r.faces_turned, "face turned to agree with its neighbours",
+                            "faces turned to agree with their neighbours")
+                       .text()});
+    all.push_back({"stitch", r.stitched, Words().add(r.stitched, "edge stitched", "edges stitched").text()});
+    all.push_back({"no_area", r.no_area_removed,
+                   Words()
+                       .add(r.no_area_removed, "face without area removed", "faces without area removed")
+                       .add(r.no_area_left, "face without area left", "faces without area left")
+                       .text()});
+    all.push_back({"fill", r.holes_filled + r.loose_sheets, filling(r)});
+    all.push_back({"outwards", r.shells_turned,
+                   Words().add(r.shells_turned, "shell turned outwards", "shells turned outwards").text()});
+    all.push_back({"crumbs", r.crumbs, crumbs(r)});
+    all.push_back({"resolve", r.resolved ? r.resolved->places : 0, resolving(r)});
+    all.push_back({"marks", r.marks ? r.marks->marks : 0, smoothing(r)});
+    all.push_back({"wrap", r.wrapped ? std::size_t{1} : 0,
+                   r.wrapped ? "wrapped with a ball of " + in_digits(r.wrapped->alpha_mm) + " mm, " +
+                                   in_digits(r.wrapped->offset_mm) + " mm outside"
+                             : "not asked for"});
+    return all;
+}
+
+std::vector<std::string> warnings(const RepairReport& r) {
+    std::vector<std::string> all;
+    if (r.border_welded > 0) {
+        all.push_back(counted(r.border_welded, "border point", "border points") + " moved up to " +
+                      in_digits(r.border_moved_mm) + " mm onto another one.");
+    }
+    if (r.edges_split > 0) {
+        all.push_back(counted(r.edges_split, "edge belonged", "edges belonged") +
+                      " to three faces or more; the surface was parted there.");
+    }
+    if (r.edges_cut > 0) {
+        all.push_back(counted(r.edges_cut, "edge was", "edges were") +
+                      " cut open, because the faces there cannot be made to agree.");
+    }
+    if (r.faces_turned > 0) {
+        all.push_back(counted(r.faces_turned, "face was", "faces were") + " turned to agree with the neighbours.");
+    }
+    if (r.repeated + r.of_double_sheets > 0) {
+        all.push_back(counted(r.repeated + r.of_double_sheets, "face", "faces") + " that lay on another one dropped.");
+    }
+    if (r.holes_filled > 0) {
+        all.push_back(counted(r.holes_filled, "hole", "holes") + " closed with " +
+                      counted(r.faces_added, "face", "faces") + ".");
+    }
+    if (r.added_area_share > warn_added_share) {
+        all.push_back("What closes the holes makes up " + in_digits(std::round(100 * r.added_area_share)) +
+                      " % of the surface: compare the picture with the bone.");
+    }
+    if (r.loose_sheets > 0) {
+        all.push_back(counted(r.loose_sheets, "small loose sheet was", "small loose sheets were") + " taken away (" +
+                      counted(r.loose_sheet_faces, "face", "faces") + ").");
+    }
+    if (r.shells_turned > 0) {
+        all.push_back(counted(r.shells_turned, "shell was", "shells were") + " inside out and turned.");
+    }
+    if (r.overlapping > 0) {
+        all.push_back(counted(r.overlapping, "shell lies", "shells lie") +
+                      " inside another one that faces the same way: the scan overlaps itself there.");
+    }
+    if (r.crumbs_dropped && r.crumbs > 0) {
+        all.push_back(counted(r.crumbs, "crumb was", "crumbs were") + " dropped.");
+    }
+    if (r.resolving_undone) {
+        all.push_back("The places where the scan runs through itself are left: mending them would have opened it.");
+    } else if (r.resolved && r.resolved->left > 0) {
+        all.push_back("The scan still runs through itself: " +
+                      counted(r.resolved->left, "pair of faces", "pairs of faces") + ".");
+    }
+    if (r.marks && r.marks->marks > 0) {
+        all.push_back(counted(r.marks->marks, "mark was", "marks were") + " lifted by up to " +
+                      in_digits(r.marks->most_depth) + " mm.");
+    }
+    if (r.marks && r.marks->is_too_coarse) {
+        all.emplace_back("The faces are too large to tell a marker's line: no mark was looked for.");
+    }
+    if (r.wrapped) {
+        all.push_back("The scan was wrapped: no point of it is in the result, and gaps narrower than " +
+                      in_digits(2 * r.wrapped->alpha_mm) + " mm are closed.");
+    }
+    return all;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,283 @@
+// The way of M. Attene, "A lightweight approach to repairing digitized polygon meshes" (2010), in small: take out,
+// close, look again, and widen what does not come out right.
+
+#include "segment/repair/resolve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "segment/mesh/disjoint_sets.h"
+#include "segment/mesh/measure.h"
+#include "segment/repair/exact_pair.h"
+#include "segment/repair/fill_loop.h"
+#include "segment/repair/manifold.h"
+#include "segment/repair/patch.h"
+#include "segment/repair/self_intersections.h"
+#include "segment/repair/triangle_tree.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::size_t most_triangles_of_patch = 20'000;
+constexpr std::size_t most_edges_of_loop = 400;
+constexpr std::size_t most_places_told = 10;
+
+std::size_t count_of(const SelfIntersections& found) {
+    return found.pairs.size() + found.without_area.size();
+}
+
+void grow(Box& box, Vec3 p) {
+    for (int axis = 0; axis < 3; ++axis) {
+        box.min[axis] = std::min(box.min[axis], p[axis]);
+        box.max[axis] = std::max(box.max[axis], p[axis]);
+    }
+}
+
+bool do_meet(const Box& a, const Box& b) {
+    return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y && a.min.z <= b.max.z &&
+           b.min.z <= a.max.z;
+}
+
+// Triangles that hang together through pairs that meet or through shared points: one place each, by first triangle.
+std::vector<std::vector<std::uint32_t>> places_of(const TriangleMesh& mesh, const SelfIntersections& found) {
+    std::vector<std::uint32_t> triangles = found.without_area;
+    for (const auto& [a, b] : found.pairs) {
+        triangles.push_back(a);
+        triangles.push_back(b);
+    }
+    std::sort(triangles.begin(), triangles.end());
+    triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+    const auto number = [&](std::uint32_t t) {
+        return static_cast<std::uint32_t>(std::lower_bound(triangles.begin(), triangles.end(), t) - triangles.begin());
+    };
+    DisjointSets sets(triangles.size());
+    for (const auto& [a, b] : found.pairs) sets.unite(number(a), number(b));
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> corners;
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+        for (const std::uint32_t corner : mesh.triangles[triangles[i]]) corners.emplace_back(corner, i);
+    }
+    std::sort(corners.begin(), corners.end());
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+        if (corners[i].first == corners[i - 1].first) sets.unite(corners[i].second, corners[i - 1].second);
+    }
+    std::vector<std::vector<std::uint32_t>> places;
+    std::vector<std::size_t> place_of(triangles.size());
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+        const std::uint32_t root = sets.root(i);
+        if (root == i) {
+            place_of[i] = places.size();
+            places.emplace_back();
+        }
+        places[place_of[root]].push_back(triangles[i]);
+    }
+    return places;
+}
+
+// One pass over all places of a mesh. Places that come near one that was mended in this pass wait for the next.
+class Pass {
+ public:
+    Pass(const TriangleMesh& mesh, const ResolveOptions& options)
+        : mesh_(mesh), options_(options), around_(mesh), tree_(mesh), is_removed_(mesh.triangles.size()) {
+        most_extent_ = options.most_extent * norm(bounds(mesh).size());
+    }
+
+    // Whether the place came right.
+    bool mend(const std::vector<std::uint32_t>& place) {
+        SurfacePatch patch(around_, place);
+        for (int round = 0; round < options_.rounds; ++round) {
+            if (round > 0) patch.grow();
+            patch.tidy();
+            const Box box = box_of(patch);
+            if (patch.triangles().size() > most_triangles_of_patch || norm(box.size()) > most_extent_) return false;
+            if (std::any_of(mended_.begin(), mended_.end(), [&](const Box& b) { return do_meet(b, box); }))
+                return false;
+            const std::optional<std::vector<Triangle>> filling = filling_of(patch);
+            if (!filling) continue;
+            for (const std::uint32_t t : patch.triangles()) is_removed_[t] = true;
+            removed += patch.triangles().size();
+            added_.insert(added_.end(), filling->begin(), filling->end());
+            mended_.push_back(box);
+            return true;
+        }
+        return false;
+    }
+
+    TriangleMesh result() const {
+        TriangleMesh mesh;
+        mesh.points = mesh_.points;
+        for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+            if (is_removed_[t]) continue;
+            mesh.triangles.push_back(mesh_.triangles[t]);
+            if (!mesh_.cap_of.empty()) mesh.cap_of.push_back(mesh_.cap_of[t]);
+        }
+        mesh.triangles.insert(mesh.triangles.end(), added_.begin(), added_.end());
+        if (!mesh_.cap_of.empty()) mesh.cap_of.resize(mesh.triangles.size(), no_cap);
+        return mesh;
+    }
+
+    std::size_t removed = 0;
+    std::size_t added() const { return added_.size(); }
+
+ private:
+    Box box_of(const SurfacePatch& patch) const {
+        const Vec3 first = mesh_.points[mesh_.triangles[patch.triangles()[0]][0]];
+        Box box{first, first};
+        for (const std::uint32_t t : patch.triangles()) {
+            for (const std::uint32_t corner : mesh_.triangles[t]) grow(box, mesh_.points[corner]);
+        }
+        return box;
+    }
+
+    // Triangles that close the patch's borders and meet nothing.
+    std::optional<std::vector<Triangle>> filling_of(const SurfacePatch& patch) const {
+        const auto loops = patch.loops();
+        if (!loops) return std::nullopt;
+        std::vector<Triangle> filling;
+        for (const std::vector<std::uint32_t>& loop : *loops) {
+            if (loop.size() > most_edges_of_loop) return std::nullopt;
+            std::vector<Vec3> points;
+            std::vector<Vec3> beyond;
+            for (const std::uint32_t h : loop) {
+                points.push_back(mesh_.points[start_of(mesh_, h)]);
+                beyond.push_back(mesh_.points[opposite_corner(around_.twin[h])]);
+            }
+            const std::vector<Triangle> triangles = fill_loop(points, beyond);
+            if (triangles.size() + 2 != loop.size()) return std::nullopt;
+            for (const Triangle& t : triangles) {
+                filling.push_back(
+                    {start_of(mesh_, loop[t[0]]), start_of(mesh_, loop[t[1]]), start_of(mesh_, loop[t[2]])});
+            }
+        }
+        if (!is_manifold(patch, filling) || meets_anything(patch, filling)) return std::nullopt;
+        return filling;
+    }
+
+    // The corner of a triangle that is not on this edge of it.
+    std::uint32_t opposite_corner(std::uint32_t half_edge) const {
+        return mesh_.triangles[half_edge / 3][(half_edge % 3 + 2) % 3];
+    }
+
+    // Every directed edge at most once, together with the triangles that stay.
+    bool is_manifold(const SurfacePatch& patch, const std::vector<Triangle>& filling) const {
+        std::vector<std::array<std::uint32_t, 2>> runs;
+        for (const Triangle& t : filling) {
+            for (std::size_t k = 0; k < 3; ++k) runs.push_back({t[k], t[(k + 1) % 3]});
+        }
+        std::sort(runs.begin(), runs.end());
+        if (std::adjacent_find(runs.begin(), runs.end()) != runs.end()) return false;
+        return std::all_of(runs.begin(), runs.end(), [&](const std::array<std::uint32_t, 2>& run) {
+            bool is_free = true;
+            around_.for_each_at(run[0], [&](std::uint32_t t) {
+                if (patch.has(t)) return;
+                const Triangle& other = mesh_.triangles[t];
+                for (std::size_t k = 0; k < 3; ++k) {
+                    if (other[k] == run[0] && other[(k + 1) % 3] == run[1]) is_free = false;
+                }
+            });
+            return is_free;
+        });
+    }
+
+    bool meets_anything(const SurfacePatch& patch, const std::vector<Triangle>& filling) const {
+        std::vector<Corners> corners;
+        std::vector<FloatBox> boxes;
+        for (const Triangle& t : filling) {
+            corners.push_back({mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]});
+            if (!has_area(corners.back())) return true;
+            boxes.push_back(tree_.box_of(corners.back()));
+        }
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            for (std::size_t j = i + 1; j < corners.size(); ++j) {
+                if (qchopper::do_meet(boxes[i], boxes[j]) && qchopper::do_meet(corners[i], corners[j])) return true;
+            }
+            bool is_met = false;
+            tree_.for_each_near(boxes[i], [&](std::uint32_t t) {
+                if (is_met || is_removed_[t] || patch.has(t)) return;
+                const Corners other = corners_of(mesh_, t);
+                is_met = has_area(other) && qchopper::do_meet(corners[i], other);
+            });
+            if (is_met) return true;
+        }
+        return false;
+    }
+
+    const TriangleMesh& mesh_;
+    const ResolveOptions& options_;
+    const PatchSurroundings around_;
+    const TriangleTree tree_;
+    std::vector<bool> is_removed_;
+    double most_extent_ = 0;
+    std::vector<Box> mended_;  // around what was mended
+    std::vector<Triangle> added_;
+};
+
+// Points that no triangle uses go; the others keep their order.
+std::size_t drop_unused(TriangleMesh& mesh, const std::vector<bool>& was_used) {
+    constexpr std::uint32_t gone = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> place(mesh.points.size(), gone);
+    for (const Triangle& t : mesh.triangles) {
+        for (const std::uint32_t corner : t) place[corner] = 0;
+    }
+    std::uint32_t kept = 0;
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+        if (place[v] == gone && was_used[v]) continue;
+        mesh.points[kept] = mesh.points[v];
+        place[v] = kept++;
+    }
+    const std::size_t dropped = mesh.points.size() - kept;
+    mesh.points.resize(kept);
+    for (Triangle& t : mesh.triangles) {
+        for (std::uint32_t& corner : t) corner = place[corner];
+    }
+    return dropped;
+}
+
+std::vector<Vec3> some_places(const TriangleMesh& mesh, const SelfIntersections& found) {
+    std::vector<Vec3> some;
+    for (const std::vector<std::uint32_t>& place : places_of(mesh, found)) {
+        if (some.size() == most_places_told) break;
+        const auto pair = std::find_if(found.pairs.begin(), found.pairs.end(),
+                                       [&](const auto& p) { return p[0] == place[0] || p[1] == place[0]; });
+        some.push_back(pair != found.pairs.end() ? meeting_place(mesh, *pair)
+                                                 : mesh.points[mesh.triangles[place[0]][0]]);
+    }
+    return some;
+}
+
+}  // namespace
+
+Resolved resolve_self_intersections(TriangleMesh& mesh, const ResolveOptions& options, const Context& context) {
+    Resolved result;
+    const SelfIntersectionOptions limits{options.most_pairs};
+    SelfIntersections found = self_intersections(mesh, limits, context);
+    result.pairs = result.left = count_of(found);
+    if (found.is_free()) return result;
+    std::vector<bool> was_used(mesh.points.size());
+    for (const Triangle& t : mesh.triangles) {
+        for (const std::uint32_t corner : t) was_used[corner] = true;
+    }
+    for (std::size_t pass = 0; pass < options.passes && found.is_complete && result.left > 0; ++pass) {
+        Pass mending(mesh, options);
+        const auto places = places_of(mesh, found);
+        std::size_t mended = 0;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            context.check_cancelled();
+            mended += mending.mend(places[i]);
+            context.progress("self-intersecting places looked at", i + 1, places.size());
+        }
+        if (mended == 0) break;
+        mesh = mending.result();
+        result.places += mended;
+        result.removed += mending.removed;
+        result.added += mending.added();
+        found = self_intersections(mesh, limits, context);
+        result.left = count_of(found);
+    }
+    result.where_left = some_places(mesh, found);
+    if (result.places > 0) result.dropped = drop_unused(mesh, was_used);
+    return result;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,296 @@
+// At an edge of many faces those are paired that bound the same wedge of material, as in A. Gueziec, G. Taubin,
+// F. Lazarus and B. Horn, "Cutting and stitching" (2001); the faces of each part are first made to agree.
+
+#include "segment/repair/sheets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "segment/mesh/disjoint_sets.h"
+#include "segment/mesh/edges.h"
+#include "segment/repair/edge_groups.h"
+#include "segment/repair/manifold.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+constexpr int most_rounds = 16;  // of taking apart what still meets twice; then faces there stand alone
+
+// Sets of triangles of which it is known whether two of them are turned against each other.
+class TurnSets {
+ public:
+    explicit TurnSets(std::size_t size) : parent_(size), is_against_(size) {
+        for (std::uint32_t t = 0; t < size; ++t) parent_[t] = t;
+    }
+    struct Root {
+        std::uint32_t root;
+        bool is_against;  // the member is turned against its root
+    };
+    Root find(std::uint32_t t) const {
+        bool against = false;
+        while (parent_[t] != t) {
+            against ^= static_cast<bool>(is_against_[t]);
+            t = parent_[t];
+        }
+        return {t, against};
+    }
+    // False if it contradicts what is known.
+    bool unite(std::uint32_t a, std::uint32_t b, bool is_against) {
+        const Root x = find(a);
+        const Root y = find(b);
+        if (x.root == y.root) return (x.is_against ^ y.is_against) == is_against;
+        const bool between = x.is_against ^ y.is_against ^ is_against;
+        const bool x_is_larger = size_of(x.root) >= size_of(y.root);
+        const std::uint32_t upper = x_is_larger ? x.root : y.root;
+        const std::uint32_t lower = x_is_larger ? y.root : x.root;
+        size_[upper] = size_of(upper) + size_of(lower);
+        parent_[lower] = upper;
+        is_against_[lower] = between;
+        return true;
+    }
+    bool are_together(std::uint32_t a, std::uint32_t b) const { return find(a).root == find(b).root; }
+
+ private:
+    std::uint32_t& size_of(std::uint32_t root) {
+        if (size_.empty()) size_.assign(parent_.size(), 1);
+        return size_[root];
+    }
+    std::vector<std::uint32_t> parent_;
+    std::vector<std::uint8_t> is_against_;
+    std::vector<std::uint32_t> size_;
+};
+
+class Separation {
+ public:
+    Separation(TriangleMesh& mesh, const SheetOptions& options)
+        : mesh_(mesh),
+          options_(options),
+          groups_(edge_groups(mesh)),
+          partner_(3 * mesh.triangles.size(), nobody),
+          turns_(mesh.triangles.size()) {}
+
+    SheetCounts run() {
+        pair_neighbours();
+        is_turned_ = smaller_parts();
+        pair_wedges();
+        if (options_.turn) is_turned_ = smaller_parts();
+        turn();
+        part();
+        return counts_;
+    }
+
+ private:
+    std::uint32_t from(std::uint32_t h) const { return start_of(mesh_, h); }
+    void pair(std::uint32_t a, std::uint32_t b) {
+        partner_[a] = b;
+        partner_[b] = a;
+    }
+
+    // Edges of two faces. Where two faces turn opposite ways one of them will be turned.
+    void pair_neighbours() {
+        for (std::size_t g = 0; g < groups_.count(); ++g) {
+            const std::span<const std::uint32_t> group = groups_[g];
+            if (group.size() != 2) continue;
+            const bool is_against = from(group[0]) == from(group[1]);
+            const bool agrees = (options_.turn || !is_against) && turns_.unite(group[0] / 3, group[1] / 3, is_against);
+            if (agrees) {
+                pair(group[0], group[1]);
+            } else {
+                ++counts_.edges_cut;
+            }
+        }
+    }
+
+    // In every set the fewest faces; of equal numbers not the first face.
+    std::vector<bool> smaller_parts() const {
+        std::vector<bool> result(mesh_.triangles.size());
+        if (!options_.turn) return result;
+        std::vector<std::int64_t> balance(mesh_.triangles.size());
+        std::vector<std::uint32_t> first(mesh_.triangles.size(), nobody);
+        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+            const auto [root, is_against] = turns_.find(t);
+            balance[root] += is_against ? 1 : -1;
+            first[root] = std::min(first[root], t);
+        }
+        for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+            const auto [root, is_against] = turns_.find(t);
+            const bool first_is_against = turns_.find(first[root]).is_against;
+            const bool root_is_turned = balance[root] != 0 ? balance[root] > 0 : first_is_against;
+            result[t] = is_against != root_is_turned;
+        }
+        return result;
+    }
+
+    // Whether the half-edge runs away from the smaller end of its edge once its face is turned as decided.
+    bool runs_up(std::uint32_t h) const { return (from(h) < end_of(mesh_, h)) != is_turned_[h / 3]; }
+
+    // Around the edge, seen along it from the smaller end to the larger: ascending angles turn left.
+    std::vector<std::uint32_t> around(std::span<const std::uint32_t> group) const {
+        const std::uint32_t a = std::min(from(group[0]), end_of(mesh_, group[0]));
+        const std::uint32_t b = std::max(from(group[0]), end_of(mesh_, group[0]));
+        const Vec3 axis = normalized(mesh_.points[b] - mesh_.points[a]);
+        const auto side = [&](std::uint32_t h) {
+            const Vec3 d = mesh_.points[mesh_.triangles[h / 3][(h % 3 + 2) % 3]] - mesh_.points[a];
+            return d - dot(axis, d) * axis;
+        };
+        const Vec3 u = normalized(side(group[0]));
+        const Vec3 v = cross(axis, u);
+        std::vector<std::pair<double, std::uint32_t>> sorted;
+        for (const std::uint32_t h : group) {
+            const Vec3 d = side(h);
+            const double angle = h == group[0] ? 0 : std::atan2(dot(v, d), dot(u, d));
+            sorted.emplace_back(angle, h);
+        }
+        std::sort(sorted.begin(), sorted.end());
+        std::vector<std::uint32_t> result;
+        for (const auto& [angle, h] : sorted) result.push_back(h);
+        return result;
+    }
+
+    // A face that runs down has material on its left, one that runs up on its right: they match like brackets.
+    void pair_wedges() {
+        for (std::size_t g = 0; g < groups_.count(); ++g) {
+            if (groups_[g].size() < 3) continue;
+            ++counts_.edges_split;
+            std::vector<std::uint32_t> ring = around(groups_[g]);
+            std::vector<std::uint32_t> open;
+            std::vector<std::uint32_t> closing;
+            for (const std::uint32_t h : ring) {
+                if (!runs_up(h)) {
+                    open.push_back(h);
+                } else if (open.empty()) {
+                    closing.push_back(h);
+                } else {
+                    pair_wedge(open.back(), h);
+                    open.pop_back();
+                }
+            }
+            for (const std::uint32_t h : closing) {  // the bracket was opened before the ring was cut
+                if (open.empty()) break;
+                pair_wedge(open.back(), h);
+                open.pop_back();
+            }
+            if (options_.stitch) stitch(ring);
+        }
+    }
+
+    void pair_wedge(std::uint32_t a, std::uint32_t b) {
+        const bool is_against = from(a) == from(b);
+        if (turns_.unite(a / 3, b / 3, is_against)) pair(a, b);
+    }
+
+    // What no wedge has taken and hangs on nothing that contradicts becomes neighbours as the ring has it.
+    void stitch(const std::vector<std::uint32_t>& ring) {
+        std::uint32_t last = nobody;
+        for (const std::uint32_t h : ring) {
+            if (partner_[h] != nobody) continue;
+            const bool is_against = last != nobody && from(last) == from(h);
+            const bool is_free =
+                last != nobody && !turns_.are_together(last / 3, h / 3) && (options_.turn || !is_against);
+            if (is_free && turns_.unite(last / 3, h / 3, is_against)) {
+                pair(last, h);
+                ++counts_.stitched;
+                last = nobody;
+            } else {
+                last = h;
+            }
+        }
+    }
+
+    // Swaps the last two corners; the first and the last half-edge change places.
+    void turn() {
+        const auto moved = [&](std::uint32_t h) { return is_turned_[h / 3] ? h - h % 3 + (2 - h % 3) : h; };
+        std::vector<std::uint32_t> partner(partner_.size(), nobody);
+        for (std::uint32_t h = 0; h < partner_.size(); ++h) {
+            if (partner_[h] != nobody) partner[moved(h)] = moved(partner_[h]);
+        }
+        partner_ = std::move(partner);
+        for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+            if (!is_turned_[t]) continue;
+            std::swap(mesh_.triangles[t][1], mesh_.triangles[t][2]);
+            ++counts_.faces_turned;
+        }
+    }
+
+    // Gives every fan a point of its own.
+    void part() {
+        TriangleMesh parted = copied();
+        for (int round = 0; !take_apart(parted, round >= most_rounds); ++round) parted = copied();
+        counts_.copies = parted.points.size() - mesh_.points.size();
+        mesh_ = std::move(parted);
+    }
+
+    TriangleMesh copied() const {
+        DisjointSets corners(partner_.size());
+        const auto next = [](std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; };
+        for (std::uint32_t h = 0; h < partner_.size(); ++h) {
+            if (partner_[h] != nobody) corners.unite(h, next(partner_[h]));
+        }
+        TriangleMesh result = mesh_;
+        std::vector<std::uint32_t> point_of(partner_.size(), nobody);  // per root
+        std::vector<bool> is_taken(mesh_.points.size());
+        for (std::uint32_t h = 0; h < partner_.size(); ++h) {
+            std::uint32_t& point = point_of[corners.root(h)];
+            if (point == nobody) {
+                point = from(h);
+                if (is_taken[point]) {
+                    result.points.push_back(mesh_.points[point]);
+                    point = static_cast<std::uint32_t>(result.points.size() - 1);
+                } else {
+                    is_taken[point] = true;
+                }
+            }
+            result.triangles[h / 3][h % 3] = point;
+        }
+        return result;
+    }
+
+    // Sheets may meet in both ends of an edge and nowhere in between: there all faces at the edge part. True if there
+    // was nothing to do.
+    bool take_apart(const TriangleMesh& parted, bool wholly) {
+        const EdgeGroups groups = edge_groups(parted);
+        bool is_sound = true;
+        for (std::size_t g = 0; g < groups.count(); ++g) {
+            const std::span<const std::uint32_t> group = groups[g];
+            if (group.size() == 1) continue;
+            if (group.size() == 2 && from(group[0]) != from(group[1])) continue;
+            is_sound = false;
+            for (const std::uint32_t h : group) {
+                for (std::uint32_t i = 0; i < 3; ++i) {
+                    const std::uint32_t at = wholly ? h - h % 3 + i : h;
+                    if (partner_[at] == nobody) continue;
+                    partner_[partner_[at]] = nobody;
+                    partner_[at] = nobody;
+                }
+            }
+        }
+        return is_sound;
+    }
+
+    TriangleMesh& mesh_;
+    const SheetOptions& options_;
+    EdgeGroups groups_;
+    std::vector<std::uint32_t> partner_;  // per half-edge the one on the other side of its edge, or nobody
+    TurnSets turns_;
+    std::vector<bool> is_turned_;
+    SheetCounts counts_;
+};
+
+}  // namespace
+
+SheetCounts separate_sheets(TriangleMesh& mesh, const SheetOptions& options) {
+    const Edges found = edges(mesh);
+    if (found.faults.non_manifold + found.faults.inconsistent == 0) {
+        SheetCounts counts;
+        counts.copies = split_pinched(mesh, found);
+        return counts;
+    }
+    return Separation(mesh, options).run();
+}
+
+}  // namespace qchopper

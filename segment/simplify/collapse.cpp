@@ -1,0 +1,153 @@
+#include "segment/simplify/collapse.h"
+
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
+#include <OpenMesh/Tools/Decimater/ModHausdorffT.hh>
+#include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
+#include <OpenMesh/Tools/Decimater/Observer.hh>
+
+#include <algorithm>
+
+namespace qchopper {
+namespace {
+
+struct Doubles : OpenMesh::DefaultTraits {
+    using Point = OpenMesh::Vec3d;
+    using Normal = OpenMesh::Vec3d;
+    VertexAttributes(OpenMesh::Attributes::Status);
+    EdgeAttributes(OpenMesh::Attributes::Status);
+    FaceAttributes(OpenMesh::Attributes::Status);
+    HalfedgeAttributes(OpenMesh::Attributes::Status | OpenMesh::Attributes::PrevHalfedge);
+};
+using Surface = OpenMesh::TriMesh_ArrayKernelT<Doubles>;
+using Corners = std::array<OpenMesh::Vec3d, 3>;
+
+OpenMesh::Vec3d normal_of(const Corners& c) {
+    return (c[1] - c[0]) % (c[2] - c[0]);
+}
+
+// 1 for an equilateral triangle, 0 for one without area.
+double roundness(const Corners& c) {
+    constexpr double two_root_3 = 3.4641016151377544;
+    const double sides = (c[1] - c[0]).sqrnorm() + (c[2] - c[1]).sqrnorm() + (c[0] - c[2]).sqrnorm();
+    return sides > 0 ? two_root_3 * normal_of(c).norm() / sides : 0;
+}
+
+// A needle's normal means nothing, so none may come to be; one that is there already may get better.
+bool is_sound(const Corners& before, const Corners& after) {
+    constexpr double least_roundness = 0.03;
+    constexpr double least_cosine = 0.5;
+    const double round_now = roundness(after);
+    if (!(round_now > 1e-6) || round_now < std::min(least_roundness, roundness(before))) return false;
+    const OpenMesh::Vec3d a = normal_of(before);
+    const OpenMesh::Vec3d b = normal_of(after);
+    return (a | b) >= least_cosine * a.norm() * b.norm();
+}
+
+template <class MeshT>
+class KeepSound : public OpenMesh::Decimater::ModBaseT<MeshT> {
+ public:
+    DECIMATING_MODULE(KeepSound, MeshT, Sound);
+
+    explicit KeepSound(MeshT& mesh) : Base(mesh, true) {}
+
+    float collapse_priority(const CollapseInfo& info) override {
+        const MeshT& mesh = Base::mesh();
+        for (auto face = mesh.cvf_iter(info.v0); face.is_valid(); ++face) {
+            if (*face == info.fl || *face == info.fr) continue;
+            Corners before;
+            Corners after;
+            std::size_t i = 0;
+            for (auto corner = mesh.cfv_iter(*face); corner.is_valid(); ++corner, ++i) {
+                before[i] = mesh.point(*corner);
+                after[i] = *corner == info.v0 ? info.p1 : before[i];
+            }
+            if (!is_sound(before, after)) return Base::ILLEGAL_COLLAPSE;
+        }
+        return Base::LEGAL_COLLAPSE;
+    }
+};
+
+class Reporter : public OpenMesh::Decimater::Observer {
+ public:
+    Reporter(const Context& context, std::size_t points) : Observer(1000), context_(context), points_(points) {}
+    void notify(std::size_t step) override { context_.progress("points taken out", step, points_); }
+    bool abort() const override { return context_.cancelled != nullptr && context_.cancelled->load(); }
+
+ private:
+    const Context& context_;
+    std::size_t points_;
+};
+
+bool build(const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_locked, Surface& surface) {
+    omerr().disable();  // it would print what the caller is told
+    surface.reserve(mesh.points.size(), 3 * mesh.triangles.size() / 2 + 1, mesh.triangles.size());
+    for (const Vec3& p : mesh.points) surface.add_vertex({p.x, p.y, p.z});
+    for (const Triangle& t : mesh.triangles) {
+        const auto corner = [&](std::size_t i) { return surface.vertex_handle(t[i]); };
+        if (!surface.add_face(corner(0), corner(1), corner(2)).is_valid()) return false;
+    }
+    for (std::size_t i = 0; i < is_locked.size(); ++i) {
+        if (is_locked[i] != 0) surface.status(surface.vertex_handle(static_cast<unsigned>(i))).set_locked(true);
+    }
+    return true;
+}
+
+// A collapse renames a corner of the faces around, so each is read again, from the corner that it began with or the
+// one that took its place.
+TriangleMesh result_of(const Surface& surface, const TriangleMesh& mesh) {
+    TriangleMesh result;
+    std::vector<std::uint32_t> number(mesh.points.size(), 0);
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+        const auto vertex = surface.vertex_handle(static_cast<unsigned>(i));
+        if (surface.status(vertex).deleted() || surface.is_isolated(vertex)) continue;
+        number[i] = static_cast<std::uint32_t>(result.points.size());
+        result.points.push_back(mesh.points[i]);
+    }
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto face = surface.face_handle(static_cast<unsigned>(t));
+        if (surface.status(face).deleted()) continue;
+        Triangle corners{};
+        std::size_t i = 0;
+        for (auto corner = surface.cfv_iter(face); corner.is_valid(); ++corner, ++i) {
+            corners[i] = static_cast<std::uint32_t>(corner->idx());
+        }
+        const auto first = std::find(corners.begin(), corners.end(), mesh.triangles[t][0]);
+        if (first != corners.end()) std::rotate(corners.begin(), first, corners.end());
+        result.triangles.push_back({number[corners[0]], number[corners[1]], number[corners[2]]});
+        if (!mesh.cap_of.empty()) result.cap_of.push_back(mesh.cap_of[t]);
+    }
+    return result;
+}
+
+}  // namespace
+
+bool collapse_edges(TriangleMesh& mesh, const std::vector<std::uint8_t>& is_locked, const CollapseLimits& limits,
+                    const Context& context) {
+    Surface surface;
+    if (!build(mesh, is_locked, surface)) return false;
+    using namespace OpenMesh::Decimater;
+    DecimaterT<Surface> decimater(surface);
+    typename ModQuadricT<Surface>::Handle quadric;
+    typename KeepSound<Surface>::Handle sound;
+    typename ModHausdorffT<Surface>::Handle close;
+    decimater.add(quadric);
+    decimater.add(sound);
+    if (limits.distance) {
+        const double error = limits.planes * *limits.distance;
+        decimater.module(quadric).set_max_err(error * error, false);
+        decimater.add(close);
+        decimater.module(close).set_tolerance(*limits.distance);
+    } else {
+        decimater.module(quadric).unset_max_err();
+    }
+    if (!decimater.initialize()) return false;
+    Reporter reporter(context, mesh.points.size());
+    decimater.set_observer(&reporter);
+    decimater.decimate_to_faces(0, limits.most_faces);
+    context.check_cancelled();
+    mesh = result_of(surface, mesh);
+    return true;
+}
+
+}  // namespace qchopper
