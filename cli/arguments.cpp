@@ -184,6 +184,10 @@ struct Parser {
             ->check(one_of({"keep", "drop"}));
         c->add_flag("--keep-self-intersections", repair.keep_self_intersections,
                     "leave places where the scan runs through itself");
+        c->add_option("--mark-width", repair.mark_width, "with --smooth-marks: the widest line, in mm (6)")
+            ->check(CLI::PositiveNumber);
+        c->add_option("--mark-depth", repair.mark_depth, "with --smooth-marks: the deepest, in mm (1)")
+            ->check(CLI::PositiveNumber);
         c->add_option("--skip", repair.skipped, "leave steps out: faces, split, orient, stitch, no_area, outwards")
             ->delimiter(',')
             ->check(one_of({"faces", "split", "orient", "stitch", "no_area", "outwards"}));

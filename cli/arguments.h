@@ -41,6 +41,8 @@ struct RepairArguments : RepairChoiceArguments {
     std::optional<std::string> units;
     std::optional<std::string> crumbs;  // keep | drop
     bool keep_self_intersections = false;
+    std::optional<double> mark_width;  // mm, of the widest mark
+    std::optional<double> mark_depth;  // mm, of the deepest
     std::vector<std::string> skipped;  // names of steps
 };
 

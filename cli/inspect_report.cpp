@@ -69,6 +69,10 @@ void add_holes(std::vector<std::string>& text, const Inspection& i, const std::s
 void add_self_intersections(std::vector<std::string>& text, const Inspection& i) {
     if (!i.self_intersected) return;
     const SelfIntersected& found = *i.self_intersected;
+    if (found.pairs == 0) {
+        text.push_back("             it runs through itself nowhere");
+        return;
+    }
     text.push_back("runs through itself at " + std::string(found.is_complete ? "" : "more than ") +
                    with_commas(found.pairs) + (found.pairs == 1 ? " pair of faces" : " pairs of faces"));
     for (const Vec3& at : found.places) text.push_back("             around " + place(at));
@@ -150,6 +154,7 @@ std::string document(const InspectedFile& file) {
                     {"holes", holes},
                     {"longest_hole", longest == nullptr ? Json() : hole_document(*longest)},
                     {"non_manifold_edges", i.non_manifold},
+                    {"touching_edges", i.touching},
                     {"inconsistent_edges", i.inconsistent},
                     {"pinched_vertices", i.pinched},
                     {"repeated_faces", i.repeated},

@@ -11,6 +11,10 @@ namespace qchopper {
 namespace {
 
 IntakeOptions options_of(const RepairArguments& a) {
+    if ((a.mark_width || a.mark_depth) && !a.smooth_marks) {
+        throw InputError(InputFault::use, "--mark-width and --mark-depth tell what --smooth-marks looks for",
+                         "say --smooth-marks too");
+    }
     const auto is_skipped = [&](const std::string& step) {
         return std::find(a.skipped.begin(), a.skipped.end(), step) != a.skipped.end();
     };
@@ -20,6 +24,8 @@ IntakeOptions options_of(const RepairArguments& a) {
     RepairChoices choices = repair_choices(a);
     choices.resolve_self_intersections = !a.keep_self_intersections;
     options.repair = qchopper::options_of(choices);
+    options.repair.marks.most_width = a.mark_width.value_or(options.repair.marks.most_width);
+    options.repair.marks.most_depth = a.mark_depth.value_or(options.repair.marks.most_depth);
     options.repair.drop_repeated = !is_skipped("faces");
     options.repair.split = !is_skipped("split");
     options.repair.orient = !is_skipped("orient");

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 #include "segment/mesh/shells.h"
 #include "segment/repair/links.h"
@@ -80,6 +81,7 @@ class Inspecting {
         result_.open_edges = links_.faults.open;
         result_.inconsistent = links_.faults.inconsistent;
         result_.non_manifold = links_.faults.non_manifold;
+        result_.touching = count_touching();
         result_.pinched = links_.extra_fans.size();
         result_.repeated = links_.repeated;
         // As repair counts shells: surfaces that only touch in points are two. At faulty edges they would fall to
@@ -94,6 +96,19 @@ class Inspecting {
             }
             result_.holes.push_back(hole);
         }
+    }
+
+    // A wall between two solids, or a solid that touches itself along an edge: parted, nothing is open.
+    std::size_t count_touching() const {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> ways;
+        for (const std::uint32_t h : links_.faulty) {
+            const std::uint32_t from = start_of(mesh_, h);
+            const std::uint32_t to = end_of(mesh_, h);
+            std::pair<std::size_t, std::size_t>& way = ways[std::minmax(from, to)];
+            ++(from < to ? way.first : way.second);
+        }
+        return static_cast<std::size_t>(std::count_if(
+            ways.begin(), ways.end(), [](const auto& edge) { return edge.second.first == edge.second.second; }));
     }
 
     void look_at_shells() {
@@ -248,16 +263,22 @@ Judgement judge(const Inspection& i) {
                         " with more missing than there is: scan the other side too.");
     }
     if (i.is_closed() && i.volume == 0) return hopeless("It has no volume.");
-    const auto add = [&](std::size_t count, const char* one, const char* many) {
+    const auto tell = [&](std::size_t count, const char* one, const char* many) {
         if (count > 0) judgement.reasons.push_back(counted(count, one, many));
     };
-    add(i.collapsed, "face is collapsed to a line or point and dropped.",
-        "faces are collapsed to a line or point and dropped.");
+    const auto add = [&](std::size_t count, const char* one, const char* many) {
+        tell(count, one, many);
+        if (count > 0) judgement.verdict = Verdict::to_repair;
+    };
+    tell(i.collapsed, "face is collapsed to a line or point and dropped.",
+         "faces are collapsed to a line or point and dropped.");
+    tell(i.touching, "edge where solids only touch is parted.", "edges where solids only touch are parted.");
+    tell(i.pinched, "point where surfaces only touch is parted.", "points where surfaces only touch are parted.");
     add(i.repeated, "face lies on another one and is dropped.", "faces lie on others and are dropped.");
-    add(i.non_manifold, "edge of more than two faces is split.", "edges of more than two faces are split.");
+    add(i.non_manifold - std::min(i.non_manifold, i.touching), "edge of more than two faces is split.",
+        "edges of more than two faces are split.");
     add(i.inconsistent, "edge has faces turned against each other, which are turned.",
         "edges have faces turned against each other, which are turned.");
-    add(i.pinched, "point where surfaces only touch is split.", "points where surfaces only touch are split.");
     add(i.no_area, "face has no area and is taken away.", "faces have no area and are taken away.");
     add(i.sheets, "small loose sheet is dropped.", "small loose sheets are dropped.");
     add(i.holes.size() - std::min(i.holes.size(), i.sheets), "hole is closed.", "holes are closed.");
@@ -265,8 +286,8 @@ Judgement judge(const Inspection& i) {
     if (i.self_intersected && i.self_intersected->pairs > 0) {
         judgement.reasons.push_back(counted(i.self_intersected->pairs, "pair of faces runs", "pairs of faces run") +
                                     " through each other; repair mends what lies close together.");
+        judgement.verdict = Verdict::to_repair;
     }
-    if (!judgement.reasons.empty()) judgement.verdict = Verdict::to_repair;
     return judgement;
 }
 

@@ -58,6 +58,7 @@ struct Inspection {
     std::size_t open_edges = 0;     // edges of one triangle
     std::size_t inconsistent = 0;   // edges that both triangles run the same way
     std::size_t non_manifold = 0;   // edges of three triangles or more
+    std::size_t touching = 0;       // of these, edges with as many faces one way as the other: solids that only touch
     std::size_t pinched = 0;        // points where surfaces only touch
     std::vector<BorderLoop> holes;  // in order of their first edge
     double volume = 0;              // signed, file unit cubed; means something only when closed
@@ -76,12 +77,12 @@ struct InspectOptions {
 Inspection inspect(RawMesh scan, const InspectOptions& options = {}, const Context& context = {});
 
 enum class Verdict {
-    ready,      // a solid as it stands
+    ready,      // a solid as it stands, or once what always happens on the way in has happened
     to_repair,  // prepare and repair make a solid of it
     hopeless    // there is no solid in it
 };
 
-// What stands between the scan and a solid, in whole sentences; empty when it is ready.
+// What stands between the scan and a solid, in whole sentences; when it is ready, what happens on the way in.
 struct Judgement {
     Verdict verdict = Verdict::ready;
     std::vector<std::string> reasons;

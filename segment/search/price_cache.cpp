@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // To be raised whenever candidates or prices come out differently for the same piece.
-constexpr std::uint32_t version_of_prices = 1;
+constexpr std::uint32_t version_of_prices = 2;
 
 class Writer {
  public:

@@ -69,6 +69,23 @@ TEST(Inspect, CountsEveryFault) {
     EXPECT_EQ(inspect(raw(flat)).no_area, 1U);
 }
 
+TEST(Inspect, CallsSolidsThatOnlyTouchReady) {
+    const TriangleMesh at_an_edge =
+        shapes::joined({shapes::box({0, 0, 0}, {1, 1, 1}), shapes::box({1, 1, 0}, {2, 2, 1})});
+    const Inspection found = inspect(raw(at_an_edge));
+    EXPECT_EQ(found.non_manifold, 1U);
+    EXPECT_EQ(found.touching, 1U);
+    EXPECT_EQ(judge(found).verdict, Verdict::ready);
+    EXPECT_EQ(judge(found).reasons.size(), 1U);  // that the edge is parted
+
+    TriangleMesh with_fin = shapes::box({0, 0, 0}, {1, 1, 1});
+    with_fin.points.push_back({2, 2, 0.5});
+    const Triangle first = with_fin.triangles[0];
+    with_fin.triangles.push_back({first[0], first[1], static_cast<std::uint32_t>(with_fin.points.size() - 1)});
+    EXPECT_EQ(inspect(raw(with_fin)).touching, 0U);
+    EXPECT_EQ(judge(inspect(raw(with_fin))).verdict, Verdict::to_repair);
+}
+
 TEST(Inspect, TellsCavitiesFromShellsThatAreInsideOut) {
     const TriangleMesh ball = shapes::turned_inside_out(shapes::ball({5, 5, 5}, 2));
     EXPECT_EQ(inspect(raw(ball)).inside_out, 1U);

@@ -11,6 +11,7 @@
 
 #include "segment/cut/cut.h"
 #include "segment/cut/nudge.h"
+#include "segment/intake/inspect.h"
 #include "segment/intake/intake.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
@@ -203,6 +204,11 @@ TEST_P(Nasty, IsRepairedOrRefusedWithWords) {
     EXPECT_EQ(words, row.words);
     expect_untouched(scan, read_mesh(path()).mesh);
     expect_a_solid_once_and_for_all(scan.mesh, {});
+    RawMesh result;
+    result.mesh = scan.mesh;
+    if (scan.report.no_area_left == 0) {
+        EXPECT_EQ(judge(inspect(result)).verdict, Verdict::ready);
+    }
 }
 
 TEST_P(Nasty, StaysASolidWhenSelfIntersectionsAreResolved) {
