@@ -196,10 +196,11 @@ void measure(const Choice& choice, Figures& figures) {
         scan = {"skull", folder.path() / "skull.ply"};
         write_file(scan.file, to_ply(sample(Specimen::skull, options)));
     }
+    // First: a child counts the memory that this program has when it is started.
+    if (choice.wants("memory") && !choice.program.empty()) measure_memory(choice, scan, figures);
     if (choice.wants("inspect")) measure_inspect(scan, figures);
     if (choice.wants("stl")) measure_stl(scan, figures);
     if (choice.wants("deep")) measure_deep(scan, figures);
-    if (choice.wants("memory") && !choice.program.empty()) measure_memory(choice, scan, figures);
     if (choice.wants("holes")) measure_holes(choice, figures);
 }
 
