@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/repair_report.h"
+#include "cli/segment_project.h"
 #include "segment/intake/intake.h"
 #include "segment/intake/write_ply.h"
 #include "segment/intake/write_stl.h"
@@ -51,7 +52,9 @@ int run(const RepairArguments& arguments, Terminal& terminal) {
         throw InputError(InputFault::use, arguments.out.string() + " ends neither in .ply nor in .stl",
                          "name a .ply file");
     }
-    RepairedScan scan = repair_scan(arguments.scan, options_of(arguments), terminal.context());
+    const IntakeOptions options = options_of(arguments);
+    check_output(arguments.out);
+    RepairedScan scan = repair_scan(arguments.scan, options, terminal.context());
     if (is_stl && !is_single_precision(scan.mesh)) {
         scan.warnings.emplace_back("STL holds single precision: points are rounded; a .ply file keeps every bit.");
     }

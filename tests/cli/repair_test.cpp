@@ -82,14 +82,16 @@ TEST_F(Repair, WhatIsNoSolidIsRefusedAndNothingIsWritten) {
     program::put(folder.path / "old.ply", "what was there");
     const program::Contents before = program::contents(folder.path);
     const std::pair<program::Arguments, ExitCode> cases[] = {
-        {{"repair", "sheet.ply", "-o", "old.ply"}, exit_mesh},
-        {{"repair", "nowhere.ply", "-o", "old.ply"}, exit_missing},
-        {{"repair", "scan.ply", "-o", "old.obj"}, exit_use},
+        {{"repair", "sheet.ply", "-o", "new.ply"}, exit_mesh},
+        {{"repair", "nowhere.ply", "-o", "new.ply"}, exit_missing},
+        {{"repair", "scan.ply", "-o", "new.obj"}, exit_use},
         {{"repair", "scan.ply"}, exit_use},
-        {{"repair", "scan.ply", "-o", "old.ply", "--fill", "putty"}, exit_use},
-        {{"repair", "scan.ply", "-o", "old.ply", "--skip", "everything"}, exit_use},
-        {{"repair", "scan.ply", "-o", "old.ply", "--weld", "-1", "--units", "mm"}, exit_use},
-        {{"repair", "scan.ply", "-o", "old.ply", "--weld", "1"}, exit_use},  // of what unit?
+        {{"repair", "scan.ply", "-o", "new.ply", "--fill", "putty"}, exit_use},
+        {{"repair", "scan.ply", "-o", "new.ply", "--skip", "everything"}, exit_use},
+        {{"repair", "scan.ply", "-o", "new.ply", "--weld", "-1", "--units", "mm"}, exit_use},
+        {{"repair", "scan.ply", "-o", "new.ply", "--weld", "1"}, exit_use},  // of what unit?
+        {{"repair", "scan.ply", "-o", "old.ply"}, exit_create},
+        {{"repair", "scan.ply", "-o", "scan.ply"}, exit_create},
         {{"repair", "scan.ply", "-o", "no/such/folder.ply"}, exit_create}};
     for (const auto& [arguments, code] : cases) {
         const Ended ended = run(arguments);
