@@ -10,14 +10,13 @@
 #include "segment/error.h"
 #include "segment/intake/inspect.h"
 #include "segment/mesh/measure.h"
+#include "segment/repair/crumbs.h"
 #include "segment/search/presets.h"
 
 namespace qchopper {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double crumb_share = 1e-5;  // of the scan's volume
 
 SearchSettings settings_of(const ProjectArguments& a, double scan_volume_mm3) {
     SearchSettings settings = a.preset ? *preset(*a.preset) : SearchSettings{};

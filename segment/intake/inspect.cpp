@@ -7,7 +7,9 @@
 #include <map>
 
 #include "segment/mesh/shells.h"
+#include "segment/repair/crumbs.h"
 #include "segment/repair/links.h"
+#include "segment/repair/loose_sheets.h"
 #include "segment/repair/manifold.h"
 #include "segment/repair/nesting.h"
 #include "segment/repair/self_intersections.h"
@@ -16,9 +18,6 @@
 namespace qchopper {
 namespace {
 
-constexpr double crumb_share = 1e-5;          // of the volume, as prepare has it
-constexpr double most_fill_of_surface = 0.8;  // of a shell's area: beyond this it is a sheet, as repair has it
-constexpr double most_loose_sheets = 0.01;    // of the whole area: repair drops so much
 constexpr std::size_t most_places = 10;
 constexpr double places_apart = 0.01;  // of the diagonal
 
@@ -258,7 +257,7 @@ Judgement judge(const Inspection& i) {
         return judgement;
     };
     if (i.triangles == i.no_area) return hopeless("No face has an area.");
-    if (i.sheet_area_share > most_loose_sheets) {
+    if (i.sheet_area_share > loose_sheet_share) {
         return hopeless(counted(i.sheets, "part of it is a sheet", "parts of it are sheets") +
                         " with more missing than there is: scan the other side too.");
     }

@@ -10,6 +10,8 @@
 
 namespace qchopper {
 
+constexpr double crumb_share = 1e-5;  // of the volume: a solid with less is too small to be a piece
+
 struct CrumbCounts {
     std::size_t crumbs = 0;
     std::size_t faces = 0;

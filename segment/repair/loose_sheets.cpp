@@ -7,12 +7,6 @@
 #include "segment/repair/faces.h"
 
 namespace qchopper {
-namespace {
-
-constexpr double most_fill_of_surface = 0.8;
-
-}  // namespace
-
 Sheets judge_sheets(TriangleMesh& mesh, double drop_share) {
     Sheets result;
     const Shells found = shells(mesh);

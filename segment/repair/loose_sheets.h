@@ -11,6 +11,9 @@
 
 namespace qchopper {
 
+constexpr double most_fill_of_surface = 0.8;  // of a shell's area: beyond this it is a sheet, not a solid
+constexpr double loose_sheet_share = 0.01;    // of the scanned surface: so much may go as loose sheets
+
 struct Sheets {
     std::size_t dropped = 0;        // small ones beside a solid: taken away with what closed them
     std::size_t dropped_faces = 0;  // of the scan

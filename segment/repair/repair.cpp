@@ -23,8 +23,6 @@ namespace {
 
 constexpr std::size_t most_passes = 12;
 constexpr int most_resolvings = 4;
-constexpr double loose_sheet_share = 0.01;  // of the scanned surface
-constexpr double crumb_share = 1e-5;        // of the volume
 
 void check(const RepairOptions& o) {
     const auto is_length = [](double x) { return std::isfinite(x) && x >= 0; };
