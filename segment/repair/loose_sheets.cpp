@@ -7,6 +7,7 @@
 #include "segment/repair/faces.h"
 
 namespace qchopper {
+
 Sheets judge_sheets(TriangleMesh& mesh, double drop_share) {
     Sheets result;
     const Shells found = shells(mesh);
