@@ -88,8 +88,7 @@ Listener listen_on(const ModbusServerOptions& options) {
     }
     const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> guard(found, &freeaddrinfo);
     if (!is_loopback(host) && options.allow.empty()) {
-        refuse(options, "others could reach it, and no list says who may",
-               "Listen on 127.0.0.1, or name the peers that may connect.");
+        refuse(options, "others could reach it, and no list says who may", "Listen on 127.0.0.1.");
     }
     const int fd = socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     if (fd < 0) refuse(options, std::strerror(errno), "", InputFault::create);

@@ -28,10 +28,6 @@ class RayTree {
     // The first surface that the ray meets, from either side.
     std::optional<RayHit> first_hit(Vec3 origin, Vec3 direction) const;
 
-    // The first surface that the ray leaves through (its outward normal along the ray). A ray that starts on a
-    // triangle and goes inwards does not see that triangle, so no safety distance is needed.
-    std::optional<RayHit> first_exit(Vec3 origin, Vec3 direction) const;
-
  private:
     struct Tree;
     std::unique_ptr<Tree> tree_;

@@ -1,8 +1,8 @@
 // How far one can go straight along or against a normal inside a closed mesh, for many points at once.
 //
 // All ways of one normal are parallel, so no ray tree is needed: the points are sorted into a grid across the normal
-// and the triangles pass over it once. Exact to double rounding; lengths in mm. Held against Embree's rays
-// (tests/segment/score/straight_way_test.cpp).
+// and the triangles pass over it once. Exact to double rounding; lengths in mm. Held against the definition, one
+// triangle at a time (tests/segment/score/straight_way_test.cpp).
 
 #pragma once
 

@@ -38,10 +38,4 @@ std::optional<SearchSettings> preset(std::string_view name) {
     return std::nullopt;
 }
 
-std::vector<std::string> preset_names() {
-    std::vector<std::string> names;
-    for (const Preset& p : presets) names.emplace_back(p.name);
-    return names;
-}
-
 }  // namespace qchopper

@@ -3,15 +3,12 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "segment/search/search.h"
 
 namespace qchopper {
 
 std::optional<SearchSettings> preset(std::string_view name);
-std::vector<std::string> preset_names();
 
 }  // namespace qchopper
