@@ -2,8 +2,8 @@
 
 #include "bench/clock.h"
 #include "bench/measures.h"
-#include "bench/threads.h"
 #include "segment/mesh/oriented_box.h"
+#include "segment/parallel.h"
 #include "segment/score/fragility_sweep.h"
 #include "segment/score/sweep.h"
 #include "segment/search/search.h"
@@ -91,7 +91,7 @@ std::vector<Step> profile(const Measured& m, int runs) {
 }  // namespace
 
 void measure_decision(const Measured& m, const Base& base, const Effort& effort, Figures& figures) {
-    const Threads one_thread(1);
+    const ThreadLimit one_thread(1);
     const int runs = std::min(effort.runs, 3);
     const double whole = best_of(runs, cpu_s, [&] { return decide(m); });
     figures.tell(m.name, "first decision", time_text(whole));

@@ -11,13 +11,13 @@
 #include "bench/figures.h"
 #include "bench/other_readers.h"
 #include "bench/specimens.h"
-#include "bench/threads.h"
 #include "segment/error.h"
 #include "segment/files/file.h"
 #include "segment/intake/inspect.h"
 #include "segment/intake/read_mesh.h"
 #include "segment/intake/write_ply.h"
 #include "segment/intake/write_stl.h"
+#include "segment/parallel.h"
 #include "segment/repair/fill_holes.h"
 #include "segment/repair/manifold.h"
 #include "segment/repair/self_intersections.h"
@@ -127,7 +127,7 @@ void measure_deep(const Scan& scan, Figures& figures) {
     weld(mesh);
     split_pinched(mesh, edges(mesh));
     const CgalSurface surface(mesh);
-    const Threads one(1);
+    const ThreadLimit one(1);
     const Compared all = compare(
         3, [&] { return self_intersections(mesh); }, [&] { return surface.self_intersections(); });
     figures.tell(scan.name, "all self-intersections, and by CGAL (self_intersections)", both(all));

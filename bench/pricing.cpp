@@ -5,8 +5,8 @@
 #include "bench/cgal_clip.h"
 #include "bench/clock.h"
 #include "bench/measures.h"
-#include "bench/threads.h"
 #include "segment/cut/cut.h"
+#include "segment/parallel.h"
 #include "segment/score/oracle.h"
 #include "segment/score/pricing.h"
 #include "segment/score/sweep.h"
@@ -134,13 +134,13 @@ Piece with_six_caps(const Measured& measured, const std::vector<Planes>& planes)
 }  // namespace
 
 double pricing_s(const Measured& measured, int runs) {
-    const Threads one_thread(1);
+    const ThreadLimit one_thread(1);
     const std::vector<Planes> planes = by_normal(candidate_planes(measured.piece, {}));
     return sweep_s(prepare(measured.piece, thesis_form()), planes, runs);
 }
 
 Base measure_pricing(const Measured& m, const Effort& effort, Figures& figures) {
-    const Threads one_thread(1);
+    const ThreadLimit one_thread(1);
     const std::vector<Candidate> candidates = candidate_planes(m.piece, {});
     const std::vector<Planes> planes = by_normal(candidates);
     const PreparedPiece prepared = prepare(m.piece, thesis_form());
@@ -174,7 +174,7 @@ Base measure_pricing(const Measured& m, const Effort& effort, Figures& figures) 
 }
 
 void measure_caps(const Measured& m, const Base& base, const Effort& effort, Figures& figures) {
-    const Threads one_thread(1);
+    const ThreadLimit one_thread(1);
     const Piece capped = with_six_caps(m, by_normal(candidate_planes(m.piece, {})));
     const std::size_t caps = measure(capped).bases.size();
     const Measured with{m.name, capped, m.crumb_volume_mm3};
@@ -202,13 +202,13 @@ void measure_many(const Measured& m, const Base& base, Figures& figures) {
     double one = 0;
     double two = 0;
     {
-        const Threads one_thread(1);
+        const ThreadLimit one_thread(1);
         const double started = wall_s();
         cpu = best_of(1, cpu_s, price);
         one = wall_s() - started;
     }
     {
-        const Threads two_threads(2);
+        const ThreadLimit two_threads(2);
         two = best_of(1, wall_s, price);
     }
     const std::string what = std::to_string(candidates.size()) + " candidates of 132 normals, with preparation";

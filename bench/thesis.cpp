@@ -10,9 +10,9 @@
 #include "bench/clock.h"
 #include "bench/figures.h"
 #include "bench/specimens.h"
-#include "bench/threads.h"
 #include "segment/error.h"
 #include "segment/mesh/measure.h"
+#include "segment/parallel.h"
 #include "segment/picture/exploded.h"
 #include "segment/search/presets.h"
 

@@ -2,7 +2,7 @@
 
 #include "bench/clock.h"
 #include "bench/measures.h"
-#include "bench/threads.h"
+#include "segment/parallel.h"
 #include "segment/search/search.h"
 
 namespace qchopper::bench {
@@ -18,7 +18,7 @@ struct Run {
 
 template <class Clock>
 Run run_to(const Measured& m, std::size_t pieces, std::size_t threads, Clock clock) {
-    const Threads limit(threads);
+    const ThreadLimit limit(threads);
     SearchSettings settings;
     settings.objectives.crumb_volume_mm3 = m.crumb_volume_mm3;
     settings.stop.min_cuts = 10 * static_cast<int>(pieces);

@@ -1,12 +1,10 @@
 #include "cam/setup/undercut.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <cmath>
 #include <vector>
 
 #include "segment/mesh/measure.h"
+#include "segment/parallel.h"
 
 namespace qchopper {
 namespace {
@@ -35,8 +33,8 @@ Facing facing(const TriangleMesh& mesh, Vec3 up, std::optional<std::int32_t> bas
 double hidden_share(const TriangleMesh& mesh, const RayTree& rays, Vec3 up, std::optional<std::int32_t> base) {
     const double off_the_surface = 1e-5 * norm(bounds(mesh).size());  // rays are single precision
     std::vector<char> hidden(mesh.triangles.size(), 0);
-    const auto look = [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t t = range.begin(); t < range.end(); ++t) {
+    const auto look = [&](std::size_t first, std::size_t end) {
+        for (std::size_t t = first; t < end; ++t) {
             const Vec3 n = normalized(area_vector(mesh, t));
             if (dot(n, up) < -wall) {
                 hidden[t] = 1;
@@ -47,7 +45,7 @@ double hidden_share(const TriangleMesh& mesh, const RayTree& rays, Vec3 up, std:
             hidden[t] = rays.first_hit(middle + off_the_surface * n, up).has_value() ? 1 : 0;
         }
     };
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.triangles.size(), 1024), look);
+    parallel_ranges(0, mesh.triangles.size(), 1024, look);
     double all = 0;
     double unseen = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

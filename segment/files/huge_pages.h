@@ -21,9 +21,9 @@ inline void use_huge_pages([[maybe_unused]] void* begin, [[maybe_unused]] std::s
     constexpr std::size_t worth_it = std::size_t{4} << 20;
     if (bytes < worth_it) return;
     const auto first = reinterpret_cast<std::uintptr_t>(begin);
-    const std::uintptr_t aligned = (first + page - 1) / page * page;
-    const std::uintptr_t end = (first + bytes) / page * page;
-    ::madvise(reinterpret_cast<void*>(aligned), end - aligned, MADV_HUGEPAGE);
+    const std::uintptr_t before = (page - first % page) % page;  // up to the first whole page
+    const std::uintptr_t whole = (bytes - before) / page * page;
+    ::madvise(static_cast<char*>(begin) + before, whole, MADV_HUGEPAGE);
 #endif
 }
 

@@ -1,8 +1,5 @@
 #include "segment/picture/picture.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +7,7 @@
 #include <vector>
 
 #include "segment/error.h"
+#include "segment/parallel.h"
 #include "segment/picture/light.h"
 #include "segment/picture/png.h"
 
@@ -103,21 +101,18 @@ Sample cast(const Scene& scene, const Camera& camera, const PictureOptions& opti
 
 Film expose(const Scene& scene, const Camera& camera, const PictureOptions& options, const Context& context) {
     Film film;
-    film.width = static_cast<std::size_t>(options.width * options.supersampling);
-    film.height = static_cast<std::size_t>(options.height * options.supersampling);
+    film.width = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.supersampling);
+    film.height = static_cast<std::size_t>(options.height) * static_cast<std::size_t>(options.supersampling);
     film.samples.resize(film.width * film.height);
     constexpr std::size_t band = 64;
     for (std::size_t top = 0; top < film.height; top += band) {
         context.check_cancelled();
         const std::size_t bottom = std::min(film.height, top + band);
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(top, bottom, 1),
-                          [&](const tbb::blocked_range<std::size_t>& rows) {
-                              for (std::size_t y = rows.begin(); y < rows.end(); ++y) {
-                                  for (std::size_t x = 0; x < film.width; ++x) {
-                                      film.samples[y * film.width + x] = cast(scene, camera, options, x, y);
-                                  }
-                              }
-                          });
+        parallel_for(top, bottom, [&](std::size_t y) {
+            for (std::size_t x = 0; x < film.width; ++x) {
+                film.samples[y * film.width + x] = cast(scene, camera, options, x, y);
+            }
+        });
         context.progress("rows drawn", bottom, film.height);
     }
     return film;
@@ -174,10 +169,8 @@ Bytes render_png(std::span<const Coloured> meshes, const PictureOptions& options
     const auto width = static_cast<std::size_t>(options.width);
     const auto height = static_cast<std::size_t>(options.height);
     std::vector<Rgb> pixels(width * height);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, height), [&](const tbb::blocked_range<std::size_t>& rows) {
-        for (std::size_t y = rows.begin(); y < rows.end(); ++y) {
-            for (std::size_t x = 0; x < width; ++x) pixels[y * width + x] = develop(film, options, x, y);
-        }
+    parallel_for(0, height, [&](std::size_t y) {
+        for (std::size_t x = 0; x < width; ++x) pixels[y * width + x] = develop(film, options, x, y);
     });
     return to_png(pixels, options.width, options.height);
 }

@@ -4,14 +4,13 @@
 
 #include "segment/repair/distance.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "segment/parallel.h"
 #include "segment/repair/triangle_tree.h"
 
 namespace qchopper {
@@ -152,7 +151,7 @@ Farthest farthest(const TriangleMesh& from, std::span<const std::uint32_t> trian
     const TriangleTree tree(to);
     const auto look_at_all = [&](std::vector<Part>& parts) {
         context.check_cancelled();
-        tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) { look_at(parts[i], tree, to); });
+        parallel_for(0, parts.size(), [&](std::size_t i) { look_at(parts[i], tree, to); });
         settle(result, parts, options);
     };
     // Most triangles are settled at once: not all of them need to be held.

@@ -4,8 +4,6 @@
 
 #include "segment/repair/marks.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,6 +11,7 @@
 
 #include "segment/error.h"
 #include "segment/mesh/normals.h"
+#include "segment/parallel.h"
 #include "segment/repair/dents.h"
 #include "segment/repair/surroundings.h"
 
@@ -50,8 +49,7 @@ double mean_edge(const TriangleMesh& mesh) {
 std::vector<SurfaceFit> fits(const Surroundings& around, std::size_t points, const Context& context) {
     std::vector<SurfaceFit> all(points);
     context.check_cancelled();
-    tbb::parallel_for(std::size_t{0}, points,
-                      [&](std::size_t i) { all[i] = around.fit(static_cast<std::uint32_t>(i)); });
+    parallel_for(0, points, [&](std::size_t i) { all[i] = around.fit(static_cast<std::uint32_t>(i)); });
     context.check_cancelled();
     return all;
 }
@@ -61,8 +59,8 @@ std::vector<SurfaceFit> fits_without(const Surroundings& around, const std::vect
                                      const std::vector<std::uint8_t>& is_dented) {
     std::vector<SurfaceFit> all(is_dented.size());
     for (const Dent& dent : dents) {
-        tbb::parallel_for(std::size_t{0}, dent.points.size(),
-                          [&](std::size_t k) { all[dent.points[k]] = around.fit(dent.points[k], &is_dented); });
+        parallel_for(0, dent.points.size(),
+                     [&](std::size_t k) { all[dent.points[k]] = around.fit(dent.points[k], &is_dented); });
     }
     return all;
 }

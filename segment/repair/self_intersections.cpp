@@ -4,12 +4,11 @@
 
 #include "segment/repair/self_intersections.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
+#include "segment/parallel.h"
 #include "segment/repair/exact_pair.h"
 #include "segment/repair/triangle_tree.h"
 
@@ -111,7 +110,7 @@ class Searching {
             context.check_cancelled();
             const std::size_t end = std::min(subtrees, begin + per_wave);
             std::vector<Task> wave(end - begin);
-            tbb::parallel_for(begin, end, [&](std::size_t i) { search_from(subtrees, i, wave[i - begin]); });
+            parallel_for(begin, end, [&](std::size_t i) { search_from(subtrees, i, wave[i - begin]); });
             for (Task& task : wave) {
                 looks += task.looks;
                 result.pairs.insert(result.pairs.end(), task.pairs.begin(), task.pairs.end());
@@ -135,7 +134,7 @@ class Searching {
 
     void find_without_area(SelfIntersections& result) {
         is_flat_.assign(mesh_.triangles.size(), 0);
-        tbb::parallel_for(std::size_t{0}, tree_.leaves, [&](std::size_t leaf) {
+        parallel_for(0, tree_.leaves, [&](std::size_t leaf) {
             const std::size_t end = std::min(tree_.order.size(), (leaf + 1) * TriangleTree::per_leaf);
             for (std::size_t place = leaf * TriangleTree::per_leaf; place < end; ++place) {
                 const std::uint32_t t = tree_.order[place];

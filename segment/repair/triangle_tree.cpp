@@ -1,13 +1,12 @@
 #include "segment/repair/triangle_tree.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "segment/mesh/measure.h"
+#include "segment/parallel.h"
 
 namespace qchopper {
 namespace {
@@ -16,8 +15,8 @@ constexpr std::size_t block = 4096;
 
 template <class Work>
 void in_blocks(std::size_t count, const Work& work) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, block), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) work(i);
+    parallel_ranges(0, count, block, [&](std::size_t first, std::size_t end) {
+        for (std::size_t i = first; i < end; ++i) work(i);
     });
 }
 

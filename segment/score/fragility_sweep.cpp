@@ -1,10 +1,9 @@
 #include "segment/score/fragility_sweep.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "segment/parallel.h"
 #include "segment/score/straight_way.h"
 #include "segment/score/thin_part.h"
 
@@ -18,7 +17,7 @@ template <typename AddChunk>
 std::vector<double> sum_chunks(std::size_t count, std::size_t offsets, const AddChunk& add_chunk) {
     const std::size_t chunks = (count + chunk - 1) / chunk;
     std::vector<double> partial(chunks * offsets, 0.0);
-    tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
+    parallel_for(0, chunks, [&](std::size_t c) {
         add_chunk(c * chunk, std::min(count, (c + 1) * chunk),
                   std::span<double>(partial.data() + c * offsets, offsets));
     });
@@ -71,7 +70,7 @@ std::vector<double> sweep_thinness(const PreparedPiece& prepared, Vec3 normal, s
     const TriangleMesh& mesh = *prepared.piece->mesh;
     const std::size_t count = prepared.sums.size();
     std::vector<std::vector<ThinQuery>> by_chunk((count + chunk - 1) / chunk);
-    tbb::parallel_for(std::size_t{0}, by_chunk.size(), [&](std::size_t c) {
+    parallel_for(0, by_chunk.size(), [&](std::size_t c) {
         for (std::size_t t = c * chunk; t < std::min(count, (c + 1) * chunk); ++t) {
             const Vec3 area = prepared.sums[t].area;
             const double projected = dot(area, normal);

@@ -1,12 +1,11 @@
 #include "segment/score/prepared.h"
 
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <map>
 
 #include "segment/files/huge_pages.h"
 #include "segment/mesh/normals.h"
+#include "segment/parallel.h"
 
 namespace qchopper {
 namespace {
@@ -83,13 +82,13 @@ PreparedPiece prepare(const Piece& piece, const Objectives& objectives) {
     p.base = bases(piece);
     for (const Bound& bound : piece.bounds) p.up.push_back(bound.up());
     // Three passes that know nothing of each other.
-    tbb::parallel_invoke([&] { p.edges = edges(mesh); }, [&] { p.shells = shells(mesh); },
-                         [&] {
-                             p.sums = triangle_sums(mesh, p.origin);
-                             if (!objectives.undercut_by_area) p.unit = unit_normals(p);
-                             p.patches = patches(mesh, p.sums, p.unit);
-                             p.base_sums = base_sums(p);
-                         });
+    parallel_invoke({[&] { p.edges = edges(mesh); }, [&] { p.shells = shells(mesh); },
+                     [&] {
+                         p.sums = triangle_sums(mesh, p.origin);
+                         if (!objectives.undercut_by_area) p.unit = unit_normals(p);
+                         p.patches = patches(mesh, p.sums, p.unit);
+                         p.base_sums = base_sums(p);
+                     }});
     if (objectives.fragility_form == FragilityForm::thesis) p.vertex_normals = vertex_normals(mesh);
     return p;
 }

@@ -1,9 +1,8 @@
 #include "segment/score/pricing.h"
 
-#include <tbb/parallel_for.h>
-
 #include <mutex>
 
+#include "segment/parallel.h"
 #include "segment/score/sweep.h"
 
 namespace qchopper {
@@ -36,7 +35,7 @@ std::vector<std::optional<Price>> price_all(const Piece& piece, std::span<const 
     std::mutex reporting;
     std::size_t done = 0;
     const std::vector<Group> groups = groups_of(candidates);
-    tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+    parallel_for(0, groups.size(), [&](std::size_t g) {
         context.check_cancelled();
         const auto [first, last] = groups[g];
         std::vector<double> offsets;

@@ -1,7 +1,5 @@
 #include "segment/score/straight_way.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 #include "segment/cut/plane.h"
 #include "segment/files/huge_pages.h"
 #include "segment/mesh/frame.h"
+#include "segment/parallel.h"
 
 namespace qchopper {
 namespace {
@@ -159,13 +158,13 @@ std::vector<double> straight_ways(const TriangleMesh& mesh, Vec3 normal, std::sp
     const Grid grid_up(normal, frame, queries, true);
     const Grid grid_down(normal, frame, queries, false);
     auto seen = huge<Seen>(mesh.points.size());
-    tbb::parallel_for(std::size_t{0}, shares, [&](std::size_t s) {
+    parallel_for(0, shares, [&](std::size_t s) {
         const std::size_t end = seen.size() * (s + 1) / shares;
         for (std::size_t p = seen.size() * s / shares; p < end; ++p)
             seen[p] = seen_along(normal, frame, mesh.points[p]);
     });
     std::vector<std::vector<double>> ways(shares);
-    tbb::parallel_for(std::size_t{0}, shares, [&](std::size_t s) {
+    parallel_for(0, shares, [&](std::size_t s) {
         ways[s].assign(queries.size(), infinite);
         const std::size_t end = mesh.triangles.size() * (s + 1) / shares;
         for (std::size_t t = mesh.triangles.size() * s / shares; t < end; ++t) {

@@ -1,11 +1,10 @@
 #include "segment/search/piece_book.h"
 
-#include <tbb/parallel_for.h>
-
 #include <cassert>
 #include <mutex>
 #include <set>
 
+#include "segment/parallel.h"
 #include "segment/score/pricing.h"
 
 namespace qchopper {
@@ -95,7 +94,7 @@ void PieceBook::price(std::span<const Piece* const> pieces, const Context& conte
         tasks.push_back({piece, &e, {}});
     }
     if (tasks.empty()) return;
-    tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
+    parallel_for(0, tasks.size(), [&](std::size_t i) {
         Task& task = tasks[i];
         if (!task.entry->box) task.entry->box = oriented_box(task.piece->mesh->points);
         task.prices.candidates = candidates_of(*task.piece, *task.entry->box);
@@ -103,7 +102,7 @@ void PieceBook::price(std::span<const Piece* const> pieces, const Context& conte
     std::size_t planes = 0;
     for (const Task& task : tasks) planes += task.prices.candidates.size();
     SharedProgress progress(context, planes);
-    tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t i) {
+    parallel_for(0, tasks.size(), [&](std::size_t i) {
         Task& task = tasks[i];
         task.prices.prices = price_all(*task.piece, task.prices.candidates, objectives_, progress.of_one_piece());
     });

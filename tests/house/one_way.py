@@ -18,7 +18,7 @@ SUB_ROOMS = {
 }
 
 # Headers beside the sub-rooms that every file of the house may include, and that include nothing of the house.
-ROOT_HEADERS = {"segment/error.h", "segment/context.h"}
+ROOT_HEADERS = {"segment/error.h", "segment/context.h", "segment/parallel.h"}
 
 # Values without any geometry to be computed.
 MESH_VALUES = {"segment/mesh/vec3.h", "segment/mesh/triangle_mesh.h", "segment/mesh/measure.h"}
@@ -39,6 +39,7 @@ HEAVY = {
     "OpenMesh": (r"OpenMesh/", 2),
     "Embree": (r"embree3/", 1),
     "tinygltf": (r"(.*/)?tiny_gltf\.h$", 2),
+    "TBB": (r"tbb/", 1),
     "libmodbus": (r"(modbus/)?modbus(-.*)?\.h$", 1),
     "toml++": (r"toml\+\+/", 2),
     "JSON": (r"nlohmann/(?!json_fwd\.hpp)", 16),

@@ -1,4 +1,4 @@
-"""The README promises two commands; CI runs these two and no others, spelt the same."""
+"""The README promises two commands; CI runs these two first, spelt the same, and then parts of scripts/check."""
 
 import os
 import re
@@ -17,15 +17,20 @@ def two_commands():
 
 
 class Readme(unittest.TestCase):
-    def test_ci_runs_the_two_commands_as_they_are_printed(self):
+    def test_ci_runs_the_two_commands_as_they_are_printed_and_then_the_checks(self):
         script = (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()
         setting = ("#", "set ", "cd ")
         run = [line for line in script if line.strip() and not line.startswith(setting)]
         self.assertEqual(len(two_commands()), 2)
-        self.assertEqual(run, two_commands())
+        self.assertEqual(run, [*two_commands(), "scripts/check bytes tidy-new"])
+
+    def test_the_parts_that_ci_runs_are_parts_of_scripts_check(self):
+        check = (ROOT / "scripts" / "check").read_text(encoding="utf-8")
+        for part in ("bytes", "tidy-new"):
+            self.assertIn(f"\npart_{part}() {{\n", check)
 
     def test_the_commands_are_files_that_can_be_run(self):
-        for name in [command.split()[0] for command in two_commands()] + [".ci/run"]:
+        for name in [command.split()[0] for command in two_commands()] + [".ci/run", "scripts/check"]:
             path = ROOT / name
             self.assertTrue(path.is_file(), name)
             self.assertTrue(os.access(path, os.X_OK), f"{name} is not executable")

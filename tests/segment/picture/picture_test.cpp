@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 #include <png.h>
-#include <tbb/global_control.h>
 
 #include <atomic>
 #include <cmath>
 #include <numbers>
 
 #include "segment/error.h"
+#include "segment/parallel.h"
 #include "segment/picture/light.h"
 #include "segment/picture/png.h"
 #include "tests/shapes.h"
@@ -142,7 +142,7 @@ TEST(Picture, SameBytesForAnyNumberOfThreads) {
     const TriangleMesh torus = shapes::torus({0, 0, 0}, 20, 6, 48);
     const std::vector<Coloured> scene{{&torus, red, {}}, {&torus, blue, {0, 0, 20}}};
     const Bytes many = render_png(scene, small());
-    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    const ThreadLimit one(1);
     EXPECT_EQ(render_png(scene, small()), many);
 }
 

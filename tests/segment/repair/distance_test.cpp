@@ -1,11 +1,11 @@
 #include "segment/repair/distance.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <cmath>
 #include <numeric>
 
+#include "segment/parallel.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
@@ -98,7 +98,7 @@ TEST(Distance, IsTheSameOnAnyNumberOfThreads) {
     const TriangleMesh b = shapes::torus({1, 0, 0}, 6, 3);
     Deviation found[2];
     for (const std::size_t threads : {1, 2}) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        const ThreadLimit limit(threads);
         found[threads - 1] = deviation(a, b);
     }
     EXPECT_EQ(found[0].from_scan.mm, found[1].from_scan.mm);

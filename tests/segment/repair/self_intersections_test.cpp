@@ -4,7 +4,6 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <iterator>
@@ -15,6 +14,7 @@
 #include "tests/shapes.h"
 
 #include "segment/intake/read_mesh.h"
+#include "segment/parallel.h"
 
 namespace qchopper {
 namespace {
@@ -169,7 +169,7 @@ TEST(SelfIntersections, AreTheSameOnAnyNumberOfThreadsAlsoAtALimit) {
     SelfIntersections all[2];
     SelfIntersections some[2];
     for (const std::size_t threads : {1, 2}) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        const ThreadLimit limit(threads);
         all[threads - 1] = self_intersections(mesh);
         some[threads - 1] = self_intersections(mesh, few);
     }

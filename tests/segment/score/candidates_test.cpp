@@ -1,9 +1,9 @@
 #include "segment/score/candidates.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include "segment/cut/nudge.h"
+#include "segment/parallel.h"
 #include "segment/score/pricing.h"
 #include "tests/pieces.h"
 #include "tests/shapes.h"
@@ -41,7 +41,7 @@ TEST(Candidates, PricesAreTheSameToTheLastBitForAnyNumberOfThreads) {
     const Piece piece = piece_of(mesh);
     const std::vector<Candidate> all = candidate_planes(piece, {});
     const auto price_with = [&](std::size_t threads, FragilityForm form) {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        const ThreadLimit limit(threads);
         Objectives objectives;
         objectives.fragility_form = form;
         return price_all(piece, all, objectives, {});
