@@ -23,6 +23,7 @@ Objectives thesis_form() {
 double sweep_s(const PreparedPiece& prepared, const std::vector<Planes>& planes, int runs) {
     return best_of(runs, cpu_s, [&] {
         std::vector<std::vector<std::optional<Price>>> prices;
+        prices.reserve(planes.size());
         for (const Planes& p : planes) prices.push_back(sweep(prepared, p.normal, p.offsets, thesis_form()));
         return prices;
     });
