@@ -105,7 +105,7 @@ class Dispatcher {
             for (const std::string& line : turn.lines) say(line);
             note(turn.action.journal);
             if (turn.action.kind == HandOffAction::Kind::finish) break;
-            input = act(turn.action, state);
+            input = act(turn.action, state, input.cancelled);
         }
         if (state.fault) throw DeviceError(*state.fault, state.why, state.to_do);
         return outcome(state);
@@ -128,7 +128,8 @@ class Dispatcher {
         context_.message(line);
     }
 
-    HandOffInput act(const HandOffAction& action, const HandOff& state) {
+    // `was_told`: the hand-off knows already that the caller wants to stop.
+    HandOffInput act(const HandOffAction& action, const HandOff& state, bool was_told) {
         switch (action.kind) {
             case Kind::read_status:
                 return read_status();
@@ -150,7 +151,7 @@ class Dispatcher {
             case Kind::put_file:
                 return put_file();
             case Kind::wait:
-                wait(action.until_s);
+                wait(action.until_s, was_told);
                 return {};
             case Kind::finish:
                 break;
@@ -220,11 +221,10 @@ class Dispatcher {
 
     HandOffInput read_result() { return read(result_block, &HandOffInput::result, decode_result); }
 
-    // Wakes up early when the caller wants to stop.
-    void wait(double until_s) const {
+    // Wakes up early when the caller wants to stop and the hand-off does not know it yet.
+    void wait(double until_s, bool was_told) const {
         constexpr double slice_s = 0.02;
-        const bool was_cancelled = is_cancelled();
-        while (now_s() < until_s && is_cancelled() == was_cancelled) {
+        while (now_s() < until_s && (was_told || !is_cancelled())) {
             std::this_thread::sleep_for(std::chrono::duration<double>(std::min(slice_s, until_s - now_s())));
         }
     }

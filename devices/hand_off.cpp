@@ -16,7 +16,10 @@ HandOffAction plain(Kind kind, std::string journal) {
 
 HandOffAction pause(TurnUnderWay& turn) {
     HandOffAction action = plain(Kind::wait);
-    action.until_s = turn.now_s + turn.timings().poll_s;
+    constexpr double leaving_poll_s = 0.1;
+    const double poll_s = turn.timings().poll_s;
+    action.until_s = turn.now_s + (turn.is_leaving() ? std::min(poll_s, leaving_poll_s) : poll_s);
+    if (turn.is_leaving()) action.until_s = std::min(action.until_s, turn.h.leave_by_s);
     if (turn.h.is_owner) action.until_s = std::min(action.until_s, turn.h.beat_s + turn.timings().heartbeat_s);
     return action;
 }
@@ -41,6 +44,10 @@ HandOffAction finish(TurnUnderWay& turn, StartVerdict verdict, const std::string
     if (turn.h.why.empty()) {
         turn.h.why = why;
         turn.h.to_do = to_do;
+    }
+    if (turn.h.is_cancelled && verdict == StartVerdict::not_started && turn.h.claim_sent && !turn.h.is_given_back) {
+        turn.h.why += "; the cell did not confirm that it dropped the job";
+        turn.h.to_do = "It cannot start: the cell holds no valid START for it.";
     }
     turn.h.step = HandOffStep::finished;
     turn.say(std::string(words(verdict)) + ": " + turn.h.why);
@@ -68,6 +75,7 @@ HandOffAction withdraw(TurnUnderWay& turn, const std::string& why, const std::st
 }
 
 HandOffAction fence(TurnUnderWay& turn, const std::string& why) {
+    if (turn.is_leaving()) return leave_at_once(turn);
     if (++turn.h.fences > 3) return give_up(turn, why + ", again and again");
     turn.say(why + "; claiming the cell anew, then asking it what it knows of the job");
     return enter(turn, HandOffStep::claim);
@@ -92,13 +100,7 @@ HandOffAction on_lost(TurnUnderWay& turn) {
                     "Is the cell switched on, and is this its address?");
     }
     if (h.step == HandOffStep::release) return give_up(turn, "the link was lost while giving the cell back");
-    if (h.is_cancelled && !h.is_started && !h.start_sent) {
-        h.why.clear();
-        return give_up(turn,
-                       "stopped on request; the link was lost, so the cell could not confirm that it dropped the job",
-                       "It cannot start: no START was ever sent.");
-    }
-    if (h.is_cancelled) return give_up(turn, "stopped on request while the link was lost");
+    if (turn.is_leaving() && (h.is_started || h.start_sent)) return leave_at_once(turn);
     if (h.lost_since_s < 0) {
         h.lost_since_s = turn.now_s;
         h.lost_times = 0;
@@ -110,6 +112,7 @@ HandOffAction on_lost(TurnUnderWay& turn) {
     }
     HandOffAction action = plain(Kind::wait);
     action.until_s = turn.now_s + back_off_s[std::min<std::size_t>(h.lost_times++, std::size(back_off_s) - 1)];
+    if (turn.is_leaving()) action.until_s = std::min(turn.now_s + back_off_s[0], h.leave_by_s);
     return action;
 }
 
@@ -120,6 +123,7 @@ HandOffAction on_exception(TurnUnderWay& turn) {
         if (!h.deferred) h.deferred = h.last;
         HandOffAction action = plain(Kind::wait);
         action.until_s = turn.now_s + busy_pause_s;
+        if (turn.is_leaving()) action.until_s = std::min(action.until_s, h.leave_by_s);
         return action;
     }
     h.deferred.reset();
@@ -172,7 +176,9 @@ HandOffAction wait_for_ack(TurnUnderWay& turn) {
         if (h.step == HandOffStep::start) return fence(turn, "the cell does not acknowledge START");
         return give_up(turn, std::string("the cell does not acknowledge ") + name(h.command.command));
     }
-    if (turn.now_s - h.sent_s <= turn.timings().resend_s) return pause(turn);
+    double resend_s = turn.timings().resend_s;
+    if (turn.is_leaving()) resend_s = std::min(resend_s, turn.timings().leave_s / 4);
+    if (turn.now_s - h.sent_s <= resend_s) return pause(turn);
     h.sent_s = turn.now_s;  // the very same frame: it is done once, however often it arrives
     HandOffAction again = plain(Kind::write_command);
     again.command = h.command;
@@ -182,7 +188,8 @@ HandOffAction wait_for_ack(TurnUnderWay& turn) {
 HandOffAction on_status(TurnUnderWay& turn) {
     HandOff& h = turn.h;
     if (h.step == HandOffStep::check_cell) return look_at_cell(turn);
-    if (turn.now_s - h.cell_beat_s > turn.timings().frozen_s) {
+    // Whoever leaves does not wait for the heartbeat: CANCEL and RELEASE do no harm, whenever they are taken.
+    if (!turn.is_leaving() && turn.now_s - h.cell_beat_s > turn.timings().frozen_s) {
         if (!h.is_frozen) turn.say("CELL FROZEN: the cell answers, but its heartbeat stands still; no command is sent");
         h.is_frozen = true;
         if (!h.is_started && turn.now_s - h.cell_beat_s > turn.timings().link_patience_s) {
@@ -201,13 +208,6 @@ HandOffAction on_status(TurnUnderWay& turn) {
         default:
             return enter(turn, h.step);
     }
-}
-
-HandOffAction on_cancel(TurnUnderWay& turn) {
-    HandOff& h = turn.h;
-    h.is_cancelled = true;
-    h.deferred.reset();
-    return withdraw(turn, "stopped on request before the start", "");
 }
 
 HandOffAction after_answer(TurnUnderWay& turn) {
@@ -240,22 +240,23 @@ HandOffAction next_action(TurnUnderWay& turn) {
     HandOff& h = turn.h;
     if (!h.has_begun) {
         h.has_begun = true;
-        return plain(Kind::read_status);
+        if (!turn.in.cancelled) return plain(Kind::read_status);
     }
-    if (turn.in.end == BusEnd::lost) return on_lost(turn);
-    if (turn.in.end == BusEnd::exception) return on_exception(turn);
     const std::uint32_t boots = h.status ? h.status->boot_count : 0;
     const bool was_lost = h.lost_since_s >= 0;
     if (turn.in.status) note_status(turn);
+    if (turn.in.cancelled || turn.is_leaving()) {
+        if (const std::optional<HandOffAction> way_out = leave(turn)) return *way_out;
+    }
+    if (turn.in.end == BusEnd::lost) return on_lost(turn);
+    if (turn.in.end == BusEnd::exception) return on_exception(turn);
     if (h.last.kind != Kind::wait && h.last.kind != Kind::heartbeat) h.busy_times = 0;
     if (h.deferred && (h.last.kind == Kind::heartbeat || h.last.kind == Kind::wait)) {
         HandOffAction action = *h.deferred;
         h.deferred.reset();
         return action;
     }
-    const bool may_cancel = !h.is_cancelled && !h.start_sent && !h.is_started && h.step != HandOffStep::finished;
-    if (turn.in.cancelled && may_cancel && h.why.empty()) return on_cancel(turn);
-    if (turn.in.status && h.step > HandOffStep::claim) {
+    if (turn.in.status && h.step > HandOffStep::claim && !turn.is_leaving()) {
         if (was_lost) {
             h.lost_since_s = -1;
             if (h.step != HandOffStep::release) return fence(turn, "what was under way is not known");
@@ -266,7 +267,7 @@ HandOffAction next_action(TurnUnderWay& turn) {
     }
     if (turn.in.status && was_lost) {
         h.lost_since_s = -1;
-        h.waits_for_ack = false;  // lost during CLAIM: claim with a higher number
+        if (!turn.is_leaving()) h.waits_for_ack = false;  // lost during CLAIM: claim with a higher number
     }
     return after_answer(turn);
 }

@@ -120,7 +120,9 @@ struct HandOff {
     bool is_started = false;   // known
     bool has_pending = false;  // PENDING was told
     bool is_frozen = false;    // was told
-    bool is_cancelled = false;
+    bool is_cancelled = false;   // ends as it does because the caller asked to stop
+    bool is_given_back = false;  // the cell has answered to CANCEL or RELEASE
+    double leave_by_s = -1;      // once the caller has asked to stop: when the hand-off is over at the latest
     bool reset_sent = false;  // at the end
 
     double elapsed_s = 0;               // of the job, as the cell said last

@@ -255,19 +255,7 @@ HandOffAction watch(TurnUnderWay& turn) {
     if (!turn.shows_our_job() || status.job_state == JobState::ended || status.job_state == JobState::aborted) {
         return enter(turn, ask_after);
     }
-    if (turn.in.cancelled && !h.is_cancelled) {
-        h.is_cancelled = true;
-        if (!turn.plan.options.stop_when_cancelled) {
-            h.why = "stopped watching on request; the job runs on by itself";
-            h.to_do = "Stop it at the cell if it must not run.";
-            turn.say(h.why);
-            return enter(turn, release);
-        }
-        turn.say("stopping the machine on request");
-        h.command = Command{};
-        h.command.job_id = turn.job_id();
-        return send(turn, CellCommand::stop, "STOP job=" + to_text(turn.job_id()));
-    }
+    if (turn.is_leaving() && !h.is_cancelled) return leave_running_job(turn);
     if (h.is_owner && status.owner_held == 0) {
         h.is_owner = h.claim_sent = false;
         turn.say("the lease of the cell has run out; the job runs on");
@@ -343,6 +331,7 @@ HandOffAction acknowledged(TurnUnderWay& turn) {
         default:
             break;
     }
+    if (h.step == cancel || h.step == release) h.is_given_back = true;
     const StepRow& row = *row_of(h.step);
     if (row.says[0] != '\0') turn.say(row.says);
     return enter(turn, row.next);
@@ -355,6 +344,7 @@ HandOffAction refused(TurnUnderWay& turn, AckResult result) {
     if (h.step == ask_before || h.step == ask_after) {
         if (result == AckResult::unknown_job) return plain(Kind::read_result);
     }
+    if (h.step == cancel || h.step == release) h.is_given_back = true;  // it does not hold the job for us
     if (h.step == start && result == AckResult::already_finished) return enter(turn, ask_after);
     if (h.step == start) h.start_sent = false;  // its own refusal: this START has had no effect
     if (h.step == run || h.step == make_ready || h.step == clear_result || h.step == reset || h.step == cancel ||

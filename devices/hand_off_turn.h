@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "devices/hand_off.h"
@@ -20,6 +21,7 @@ struct TurnUnderWay {
     const HandOffTimings& timings() const { return plan.options.timings; }
     const Uuid& job_id() const { return plan.ticket.job_id; }
     const Status& status() const { return *h.status; }
+    bool is_leaving() const { return h.leave_by_s >= 0; }
     bool shows_our_job() const { return h.status && h.status->job_id == plan.ticket.job_id; }
 };
 
@@ -44,6 +46,14 @@ HandOffAction fail(TurnUnderWay& turn, DeviceFault fault, const std::string& why
 HandOffAction withdraw(TurnUnderWay& turn, const std::string& why, const std::string& to_do);
 // A new epoch voids everything that may still be on its way; then the cell is asked.
 HandOffAction fence(TurnUnderWay& turn, const std::string& why);
+
+// hand_off_leave.cpp
+// The caller has asked to stop: what that changes now, or nothing if the hand-off is on its way out already.
+std::optional<HandOffAction> leave(TurnUnderWay& turn);
+// Asked to stop while the job runs: stops watching it, or stops the machine if that was ordered.
+HandOffAction leave_running_job(TurnUnderWay& turn);
+// The end of a hand-off that was asked to stop and can wait no longer.
+HandOffAction leave_at_once(TurnUnderWay& turn);
 
 // hand_off_steps.cpp
 HandOffAction enter(TurnUnderWay& turn, HandOffStep step);

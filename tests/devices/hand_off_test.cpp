@@ -63,7 +63,8 @@ struct PaperCell {
         }
         if (action.kind == Kind::read_status) input.status = status;
         if (action.kind == Kind::read_result) input.result = result;
-        if (action.kind == Kind::write_command) take(action.command);
+        if (action.kind == Kind::write_command) written.push_back(action.command.command);
+        if (action.kind == Kind::write_command && freeze_s == 0) take(action.command);
         return true;
     }
 
@@ -139,7 +140,8 @@ struct PaperCell {
     Status status;
     ResultWords result;
     std::uint32_t tokens = 1000;
-    std::vector<Command> commands;
+    std::vector<Command> commands;  // that the cell has taken; a frozen one takes none
+    std::vector<CellCommand> written;
     std::vector<std::string> lines;
     std::function<AckResult(const Command&)> grant;
     std::function<bool(const HandOffAction&)> lose;
@@ -364,6 +366,120 @@ TEST(HandOff, AStopOnRequestAtAnyMomentBeforeStartIsConfirmedAndNothingIsStarted
         }
     }
     FAIL() << "never came to START";
+}
+
+// Brings a hand-off to its n-th turn; false if it ended before.
+bool bring_to(PaperCell& cell, int turns) {
+    for (int n = 0; n < turns; ++n) {
+        if (cell.now_s > 110) cell.status.job_state = JobState::ended;
+        if (!cell.step()) return false;
+    }
+    return true;
+}
+
+void stop_on_request(PaperCell& cell) {
+    cell.cancelled = true;
+    cell.input.cancelled = true;
+    cell.written.clear();
+}
+
+TEST(HandOff, AFrozenCellIsLeftInTwoSecondsWhateverTheStep) {
+    int started = 0;
+    int not_started = 0;
+    for (int turns = 1;; ++turns) {
+        PaperCell cell;
+        if (!bring_to(cell, turns)) break;
+        cell.freeze_s = cell.now_s;
+        const double frozen_at_s = cell.now_s;
+        bool ended = false;
+        while (cell.now_s < frozen_at_s + 4 && !ended) ended = !cell.step();
+        ASSERT_FALSE(ended) << turns << cell.state.why;
+        const HandOff before = cell.state;
+        stop_on_request(cell);
+        const double asked_s = cell.now_s;
+        cell.run();
+        EXPECT_LE(cell.now_s - asked_s, 2.05) << turns << " " << name(before.step);
+        EXPECT_EQ(cell.state.verdict, before.is_started   ? StartVerdict::started
+                                      : before.start_sent ? StartVerdict::unknown
+                                                          : StartVerdict::not_started)
+            << turns << cell.state.why;
+        EXPECT_TRUE(cell.state.is_cancelled);
+        EXPECT_FALSE(cell.state.why.empty());
+        const auto was_written = [&](CellCommand command) {
+            return std::count(cell.written.begin(), cell.written.end(), command) > 0;
+        };
+        EXPECT_EQ(was_written(CellCommand::cancel), before.is_stored && !before.start_sent && !before.is_started);
+        if (before.claim_sent && !(before.start_sent && !before.is_started)) {
+            EXPECT_TRUE(was_written(CellCommand::release)) << turns << " " << name(before.step);
+        }
+        started += cell.state.verdict == StartVerdict::started ? 1 : 0;
+        not_started += cell.state.verdict == StartVerdict::not_started ? 1 : 0;
+        if (before.step >= HandOffStep::release) break;
+    }
+    EXPECT_GT(started, 3);
+    EXPECT_GT(not_started, 10);
+}
+
+TEST(HandOff, ALostLinkIsLeftInTwoSecondsWhateverTheStep) {
+    for (int turns = 1;; ++turns) {
+        PaperCell cell;
+        if (!bring_to(cell, turns)) break;
+        cell.lose = [](const HandOffAction& action) { return action.kind != Kind::wait; };
+        const double lost_at_s = cell.now_s;
+        bool ended = false;
+        while (cell.now_s < lost_at_s + 1.5 && !ended) ended = !cell.step();
+        if (ended) continue;
+        const HandOff before = cell.state;
+        stop_on_request(cell);
+        const double asked_s = cell.now_s;
+        cell.run();
+        EXPECT_LE(cell.now_s - asked_s, 2.05) << turns << " " << name(before.step);
+        EXPECT_EQ(cell.state.verdict, before.is_started   ? StartVerdict::started
+                                      : before.start_sent ? StartVerdict::unknown
+                                                          : StartVerdict::not_started);
+        if (before.step >= HandOffStep::release) break;
+    }
+}
+
+TEST(HandOff, AskedToStopWhenTheLinkComesBackTheCellConfirmsAllTheSame) {
+    PaperCell cell;
+    while (cell.state.step != HandOffStep::prepare && cell.step()) {
+    }
+    double back_at_s = 1e9;
+    cell.lose = [&](const HandOffAction& action) { return action.kind != Kind::wait && cell.now_s < back_at_s; };
+    while (cell.state.lost_since_s < 0 && cell.step()) {
+    }
+    stop_on_request(cell);
+    back_at_s = cell.now_s + 0.7;
+    cell.run();
+    EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+    EXPECT_EQ(cell.count(CellCommand::cancel), 1) << cell.order();
+    EXPECT_EQ(cell.commands.back().command, CellCommand::release);
+    EXPECT_EQ(cell.state.why.find("did not confirm"), std::string::npos) << cell.state.why;
+}
+
+TEST(HandOff, AskedToStopBetweenStartAndItsAcknowledgementWhatTheCellSaysThenIsReported) {
+    for (const AckResult answer : {AckResult::ok, AckResult::safety_open, AckResult::none}) {
+        PaperCell cell;
+        int asked = 0;
+        cell.grant = [&](const Command& c) {
+            return c.command == CellCommand::start && ++asked < 2 ? AckResult::none
+                   : c.command == CellCommand::start              ? answer
+                                                                  : AckResult::ok;
+        };
+        while (asked < 1 && cell.step()) {
+        }
+        stop_on_request(cell);
+        const double asked_s = cell.now_s;
+        cell.run();
+        EXPECT_LE(cell.now_s - asked_s, 2.05);
+        EXPECT_EQ(cell.state.is_cancelled, answer != AckResult::safety_open);  // that end is the cell's own
+        EXPECT_EQ(cell.state.verdict, answer == AckResult::ok     ? StartVerdict::started
+                                      : answer == AckResult::none ? StartVerdict::unknown
+                                                                  : StartVerdict::not_started)
+            << cell.state.why;
+        EXPECT_EQ(cell.count(CellCommand::cancel), answer == AckResult::safety_open ? 1 : 0);
+    }
 }
 
 TEST(HandOff, WhatStandsInTheWayIsClearedOrNamed) {
