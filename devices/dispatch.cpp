@@ -91,7 +91,13 @@ class StagedFile {
 class Dispatcher {
  public:
     Dispatcher(RegisterBus& bus, const JobTicket& ticket, Bytes file, HandOffPlan plan, const Context& context)
-        : bus_(bus), file_(std::move(file)), plan_(std::move(plan)), context_(context), file_name_(ticket.file_name) {}
+        : bus_(bus), file_(std::move(file)), plan_(std::move(plan)), context_(context), file_name_(ticket.file_name) {
+        const HandOffTimings& timings = plan_.options.timings;
+        bus_.leave_when(context_.cancelled, plan_.options.stop_when_cancelled ? timings.answer_s : timings.leave_s);
+    }
+    ~Dispatcher() { bus_.leave_when(nullptr, 0); }
+    Dispatcher(const Dispatcher&) = delete;
+    Dispatcher& operator=(const Dispatcher&) = delete;
 
     JobOutcome run() {
         note("CREATED job=" + to_text(plan_.ticket.job_id) + " sha256=" + to_hex(plan_.ticket.file_sha256));

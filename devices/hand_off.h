@@ -115,15 +115,15 @@ struct HandOff {
     bool claim_sent = false;  // and not refused: the cell may hold a lease of ours
     bool is_owner = false;    // CLAIM was granted
     bool file_is_staged = false;
-    bool is_stored = false;    // STORE was sent: the cell may hold our job
-    bool start_sent = false;   // under the present epoch; the start may have happened
-    bool is_started = false;   // known
-    bool has_pending = false;  // PENDING was told
-    bool is_frozen = false;    // was told
+    bool is_stored = false;      // STORE was sent: the cell may hold our job
+    bool start_sent = false;     // under the present epoch; the start may have happened
+    bool is_started = false;     // known
+    bool has_pending = false;    // PENDING was told
+    bool is_frozen = false;      // was told
     bool is_cancelled = false;   // ends as it does because the caller asked to stop
     bool is_given_back = false;  // the cell has answered to CANCEL or RELEASE
     double leave_by_s = -1;      // once the caller has asked to stop: when the hand-off is over at the latest
-    bool reset_sent = false;  // at the end
+    bool reset_sent = false;     // at the end
 
     double elapsed_s = 0;               // of the job, as the cell said last
     std::optional<ResultWords> result;  // of the query at the end
