@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "devices/device_error.h"
+#include "devices/first_contact.h"
 #include "devices/hand_off.h"
 #include "segment/error.h"
 #include "segment/files/file.h"
@@ -140,7 +141,7 @@ class Dispatcher {
             case Kind::read_status:
                 return read_status();
             case Kind::read_result:
-                return read_result();
+                return read_result_block(bus_);
             case Kind::write_command:
                 return write(command_block.base, encode(action.command));
             case Kind::write_ticket:
@@ -165,15 +166,7 @@ class Dispatcher {
         return {};
     }
 
-    static HandOffInput from(const BusAnswer& answer) {
-        HandOffInput input;
-        input.end = answer.end;
-        input.exception = answer.exception;
-        input.why = answer.why;
-        return input;
-    }
-
-    HandOffInput write(std::uint16_t base, const Words& block) { return from(bus_.write_holding(base, block)); }
+    HandOffInput write(std::uint16_t base, const Words& block) { return input_from(bus_.write_holding(base, block)); }
 
     HandOffInput write_chunk(std::uint32_t offset, std::uint32_t epoch) {
         Chunk chunk;
@@ -196,36 +189,14 @@ class Dispatcher {
         return input;
     }
 
-    // A block that came torn or damaged is read again, and never acted on.
-    template <class T, class Decode>
-    HandOffInput read(const Block& block, std::optional<T> HandOffInput::*where, Decode decode) {
-        HandOffInput input;
-        for (int time = 0; time < 3; ++time) {
-            const BusAnswer answer = bus_.read_input(block.base, block.count);
-            input = from(answer);
-            if (!answer.is_ok()) return input;
-            const auto decoded = decode(answer.words);
-            if (decoded.is_ok()) {
-                input.*where = decoded.value;
-                return input;
-            }
-            input.fault = decoded.fault;
-        }
-        input.end = BusEnd::lost;
-        input.why = std::string(block.name) + " is " + words(input.fault);
-        return input;
-    }
-
     HandOffInput read_status() {
-        HandOffInput input = read(status_block, &HandOffInput::status, decode_status);
+        HandOffInput input = read_status_block(bus_);
         if (input.status && input.status->job_id == plan_.ticket.job_id &&
             input.status->job_state == JobState::running) {
             context_.progress("0.01 % of the job", input.status->progress, 10000);
         }
         return input;
     }
-
-    HandOffInput read_result() { return read(result_block, &HandOffInput::result, decode_result); }
 
     // Wakes up early when the caller wants to stop and the hand-off does not know it yet.
     void wait(double until_s, bool was_told) const {

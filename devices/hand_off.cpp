@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "devices/first_contact.h"
 #include "devices/hand_off_turn.h"
 
 namespace qchopper::turning {
@@ -55,6 +56,7 @@ HandOffAction finish(TurnUnderWay& turn, StartVerdict verdict, const std::string
 }
 
 HandOffAction give_up(TurnUnderWay& turn, const std::string& why, const std::string& to_do) {
+    if (turn.h.contradicts_itself) return finish(turn, StartVerdict::unknown, why, to_do);
     if (turn.h.is_started) return finish(turn, StartVerdict::started, why, to_do);
     if (turn.h.start_sent) return finish(turn, StartVerdict::unknown, why, "Look at the cell before anything else.");
     return finish(turn, StartVerdict::not_started, why, to_do);
@@ -76,7 +78,7 @@ HandOffAction withdraw(TurnUnderWay& turn, const std::string& why, const std::st
 
 HandOffAction fence(TurnUnderWay& turn, const std::string& why) {
     if (turn.is_leaving()) return leave_at_once(turn);
-    if (++turn.h.fences > 3) return give_up(turn, why + ", again and again");
+    if (++turn.h.fences > most_fences) return give_up(turn, why + ", again and again");
     turn.say(why + "; claiming the cell anew, then asking it what it knows of the job");
     return enter(turn, HandOffStep::claim);
 }
@@ -87,18 +89,41 @@ constexpr double back_off_s[] = {0.25, 0.5, 1, 2, 4, 5};
 constexpr int most_busy_answers = 10;
 constexpr double busy_pause_s = 0.5;
 
+HandOffAction try_contact_again(TurnUnderWay& turn) {
+    HandOff& h = turn.h;
+    if (h.lost_since_s < 0) {
+        h.lost_since_s = turn.now_s;
+        h.lost_times = 0;
+    }
+    const std::optional<double> pause_s =
+        pause_before_next_contact(turn.in, h.lost_times++, turn.now_s - h.lost_since_s);
+    if (!pause_s) {
+        const ContactFailure failure = why_no_contact(turn.in);
+        return fail(turn, failure.fault, failure.why, failure.to_do);
+    }
+    HandOffAction action = plain(Kind::wait);
+    action.until_s = turn.now_s + *pause_s;
+    return action;
+}
+
+// After a refusal that has nothing to do with the job: takes it out of the cell as far as that can still be done.
+HandOffAction back_out(TurnUnderWay& turn, const std::string& why, const std::string& to_do) {
+    HandOff& h = turn.h;
+    if (h.step == HandOffStep::release || !h.claim_sent) return give_up(turn, why, to_do);
+    const bool is_withdrawn = !h.why.empty();
+    if (!is_withdrawn && !h.is_started) return withdraw(turn, why, to_do);
+    if (!is_withdrawn) {
+        h.why = why;
+        h.to_do = to_do;
+        turn.say(why);
+    }
+    return enter(turn, HandOffStep::release);
+}
+
 HandOffAction on_lost(TurnUnderWay& turn) {
     HandOff& h = turn.h;
     h.deferred.reset();
-    if (!h.status) {
-        if (turn.in.fault != WordFault::none) {
-            return fail(turn, DeviceFault::protocol,
-                        "what answers is not a cell of ours: its STATUS is " + std::string(words(turn.in.fault)),
-                        "Check address and port; a gateway in between may swap words.");
-        }
-        return fail(turn, DeviceFault::unreachable, "the cell does not answer: " + turn.in.why,
-                    "Is the cell switched on, and is this its address?");
-    }
+    if (!h.status) return try_contact_again(turn);
     if (h.step == HandOffStep::release) return give_up(turn, "the link was lost while giving the cell back");
     if (turn.is_leaving() && (h.is_started || h.start_sent)) return leave_at_once(turn);
     if (h.lost_since_s < 0) {
@@ -127,11 +152,12 @@ HandOffAction on_exception(TurnUnderWay& turn) {
         return action;
     }
     h.deferred.reset();
+    if (!h.status) return try_contact_again(turn);
     const std::string why =
         "the cell refused a request: exception " + std::to_string(turn.in.exception) + " (" + turn.in.why + ")";
-    if (!h.status) return fail(turn, DeviceFault::protocol, why, "Is this a cell of ours?");
-    if (h.start_sent && !h.is_started) return fence(turn, why);
-    return give_up(turn, why, "Tell the integrator of the cell.");
+    const bool may_have_started = h.start_sent && !h.is_started;
+    if (may_have_started && h.fences < most_fences) return fence(turn, why);
+    return back_out(turn, why, "Tell the integrator of the cell.");
 }
 
 // Keeps what every good STATUS tells, whatever the step.
@@ -147,7 +173,10 @@ void note_status(TurnUnderWay& turn) {
     if (h.status && h.step == HandOffStep::run && fresh.state != h.status->state) {
         turn.say(std::string("the cell is in ") + name(fresh.state));
     }
-    if (has_started(fresh.job_state) && fresh.job_id == turn.job_id() && !h.is_started) h.is_started = true;
+    if (has_started(fresh.job_state) && fresh.job_id == turn.job_id() && !h.is_started) {
+        h.is_started = true;
+        if (h.start_sent) turn.say("the job has started");
+    }
     if (fresh.job_id == turn.job_id()) h.elapsed_s = fresh.elapsed_s;
     h.status = fresh;
 }
@@ -160,6 +189,11 @@ HandOffAction wait_for_ack(TurnUnderWay& turn) {
     const bool works_long = h.command.command == CellCommand::verify || h.command.command == CellCommand::rehearse;
     const double bound_s = works_long ? 10 * turn.timings().answer_s : turn.timings().answer_s;
     if (status.ack_owner == turn.plan.owner && status.ack_seq == h.seq) {
+        if (status.ack_command != h.command.command) {
+            const std::string what = std::string("it acknowledged number ") + std::to_string(h.seq) + " as " +
+                                     name(status.ack_command) + ", and that was " + name(h.command.command);
+            return h.start_sent || h.is_started ? contradict(turn, what) : back_out(turn, what, "");
+        }
         if (is_refusal(status.ack_result)) return refused(turn, status.ack_result);
         if (status.ack_result == AckResult::ok || status.ack_result == AckResult::already) return acknowledged(turn);
         if (!h.has_pending && asks_person) turn.say("waiting for consent at the cell");

@@ -27,6 +27,12 @@ struct TurnUnderWay {
 
 using Kind = HandOffAction::Kind;
 
+constexpr int most_fences = 3;
+constexpr int most_claims = 10;
+constexpr int most_odd_answers = 10;    // in a row: of somebody else, or of no use
+constexpr int most_ready_commands = 8;  // Reset, Clear, CANCEL and CLEAR_RESULT until the cell is idle
+constexpr int most_tokenless = 3;       // PREPAREs
+
 // The states of a job that has been started once.
 constexpr bool has_started(JobState state) {
     return state == JobState::running || state == JobState::interrupted || state == JobState::ended ||
@@ -55,13 +61,17 @@ HandOffAction leave_running_job(TurnUnderWay& turn);
 // The end of a hand-off that was asked to stop and can wait no longer.
 HandOffAction leave_at_once(TurnUnderWay& turn);
 
+// hand_off_result.cpp
+HandOffAction take_result(TurnUnderWay& turn);
+// What the cell has said cannot all be true: UNKNOWN, with `what` it was.
+HandOffAction contradict(TurnUnderWay& turn, const std::string& what);
+
 // hand_off_steps.cpp
 HandOffAction enter(TurnUnderWay& turn, HandOffStep step);
 HandOffAction look_at_cell(TurnUnderWay& turn);
 HandOffAction get_ready(TurnUnderWay& turn);
 HandOffAction send_file(TurnUnderWay& turn);
 HandOffAction watch(TurnUnderWay& turn);
-HandOffAction take_result(TurnUnderWay& turn);
 HandOffAction acknowledged(TurnUnderWay& turn);
 HandOffAction refused(TurnUnderWay& turn, AckResult result);
 
