@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -69,6 +70,26 @@ TEST(Registers, WellKnownFieldsLieWhereTheyWereAgreed) {
     EXPECT_EQ(at(ticket_block, "CELL_ID"), 193);
     EXPECT_EQ(at(heartbeat_block, "COUNTER"), 504);
     EXPECT_EQ(at(heartbeat_block, "NO_SUCH_FIELD"), -1);
+}
+
+// Offsets and addresses stand in the tables of devices/registers.cpp and nowhere else.
+TEST(Registers, NoOffsetStandsOutsideTheTables) {
+    const std::regex offset(
+        R"((first|subspan|field|skip|axis_address)\(\s*[0-9]{2,}|block\[[0-9]|_(block|field|full|tool), ?[0-9]{2,}|)"
+        R"(_at = [0-9]{2,}|::(tool|envelope|ticket_field|store_full), [1-9]|, (58|96|98)\))");
+    int files = 0;
+    for (const std::string room : {"devices", "sim"}) {
+        for (const auto& entry :
+             std::filesystem::directory_iterator(std::filesystem::path(QCHOPPER_SOURCE_DIR) / room)) {
+            if (entry.path().filename() == "registers.cpp") continue;
+            std::ifstream file(entry.path());
+            ++files;
+            for (std::string line; std::getline(file, line);) {
+                EXPECT_FALSE(std::regex_search(line, offset)) << entry.path() << ": " << line;
+            }
+        }
+    }
+    EXPECT_GT(files, 30);
 }
 
 TEST(Registers, TheNumbersOfTheStatesAreThoseOfPackTags) {
