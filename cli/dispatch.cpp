@@ -9,29 +9,11 @@
 #include "cli/exit_code.h"
 #include "cli/hand_over.h"
 #include "devices/codec.h"
-#include "devices/device_error.h"
+#include "devices/first_contact.h"
 #include "devices/modbus_tcp.h"
 
 namespace qchopper {
 namespace {
-
-// Who answers there? Asked before anything is sent, so that a real cell is never taken for a simulated one.
-Status who_answers(ModbusTcpBus& bus, const std::string& where) {
-    bus.connect();
-    WordFault fault = WordFault::none;
-    for (int attempt = 0; attempt < 3; ++attempt) {
-        const BusAnswer answer = bus.read_input(status_block.base, status_block.count);
-        if (!answer.is_ok()) {
-            throw DeviceError(DeviceFault::protocol, where + " answers, but not as a cell of ours (" + answer.why + ")",
-                              "check the address");
-        }
-        const Decoded<Status> status = decode_status(answer.words);
-        if (status.is_ok()) return status.value;
-        fault = status.fault;
-    }
-    throw DeviceError(DeviceFault::protocol, where + " answers, but not as a cell of ours (" + words(fault) + ")",
-                      "check the address");
-}
 
 bool is_confirmed(const std::string& question) {
     if (::isatty(STDIN_FILENO) == 0) {
@@ -56,7 +38,14 @@ int run(const DispatchArguments& arguments, Terminal& terminal) {
     if (!to) throw InputError(InputFault::use, "no cell address is known", "say --to HOST:PORT");
     if (!drop) throw InputError(InputFault::use, "no drop folder is known", "say --drop DIR");
     ModbusTcpBus bus(parse_tcp_address(*to));
-    const Status status = who_answers(bus, *to);
+    bus.connect();
+    // Who answers there? Asked before anything is sent, so that a real cell is never taken for a simulated one.
+    const std::optional<Status> answer = read_first_status(bus, *to, terminal.context());
+    if (!answer) {
+        terminal.say("stopped on request: nothing was sent");
+        return Terminal::cancel_code();
+    }
+    const Status& status = *answer;
     DispatchOptions options;
     options.want_simulated = status.has(flag::simulated);
     // A simulated cell that was not told whom to play answers to every name; a real one must be the one asked for.

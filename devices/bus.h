@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -22,9 +23,10 @@ enum class BusEnd {
 
 struct BusAnswer {
     BusEnd end = BusEnd::lost;
-    int exception = 0;  // Modbus exception code if end is exception
-    Words words;        // what was read
-    std::string why;    // for people, if end is not ok
+    int exception = 0;      // Modbus exception code if end is exception
+    Words words;            // what was read
+    std::string why;        // for people, if end is not ok
+    bool is_alien = false;  // with `lost`: what came is no answer to the request
     bool is_ok() const { return end == BusEnd::ok; }
 };
 
@@ -34,6 +36,12 @@ class RegisterBus {
     virtual BusAnswer read_input(std::uint16_t address, std::uint16_t count) = 0;
     virtual BusAnswer read_holding(std::uint16_t address, std::uint16_t count) = 0;
     virtual BusAnswer write_holding(std::uint16_t address, std::span<const std::uint16_t> words) = 0;
+    // From when `cancelled` is set, which may be during a call, all calls together take no longer than within_s: what
+    // is asked for after that is lost at once. nullptr: no longer. A bus whose calls never wait needs nothing here.
+    virtual void leave_when(const std::atomic<bool>* cancelled, double within_s) {
+        static_cast<void>(cancelled);
+        static_cast<void>(within_s);
+    }
 };
 
 }  // namespace qchopper

@@ -112,6 +112,8 @@ struct Command {
 };
 Words encode(const Command& command);
 Decoded<Command> decode_command(std::span<const std::uint16_t> block);
+// The checksum of a whole block as it came.
+std::uint32_t command_crc(std::span<const std::uint16_t> block);
 
 // The ticket in the scale of the wire.
 struct TicketWords {

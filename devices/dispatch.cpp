@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "devices/device_error.h"
+#include "devices/first_contact.h"
 #include "devices/hand_off.h"
 #include "segment/error.h"
 #include "segment/files/file.h"
@@ -91,7 +92,13 @@ class StagedFile {
 class Dispatcher {
  public:
     Dispatcher(RegisterBus& bus, const JobTicket& ticket, Bytes file, HandOffPlan plan, const Context& context)
-        : bus_(bus), file_(std::move(file)), plan_(std::move(plan)), context_(context), file_name_(ticket.file_name) {}
+        : bus_(bus), file_(std::move(file)), plan_(std::move(plan)), context_(context), file_name_(ticket.file_name) {
+        const HandOffTimings& timings = plan_.options.timings;
+        bus_.leave_when(context_.cancelled, plan_.options.stop_when_cancelled ? timings.answer_s : timings.leave_s);
+    }
+    ~Dispatcher() { bus_.leave_when(nullptr, 0); }
+    Dispatcher(const Dispatcher&) = delete;
+    Dispatcher& operator=(const Dispatcher&) = delete;
 
     JobOutcome run() {
         note("CREATED job=" + to_text(plan_.ticket.job_id) + " sha256=" + to_hex(plan_.ticket.file_sha256));
@@ -105,7 +112,7 @@ class Dispatcher {
             for (const std::string& line : turn.lines) say(line);
             note(turn.action.journal);
             if (turn.action.kind == HandOffAction::Kind::finish) break;
-            input = act(turn.action, state);
+            input = act(turn.action, state, input.cancelled);
         }
         if (state.fault) throw DeviceError(*state.fault, state.why, state.to_do);
         return outcome(state);
@@ -128,12 +135,13 @@ class Dispatcher {
         context_.message(line);
     }
 
-    HandOffInput act(const HandOffAction& action, const HandOff& state) {
+    // `was_told`: the hand-off knows already that the caller wants to stop.
+    HandOffInput act(const HandOffAction& action, const HandOff& state, bool was_told) {
         switch (action.kind) {
             case Kind::read_status:
                 return read_status();
             case Kind::read_result:
-                return read_result();
+                return read_result_block(bus_);
             case Kind::write_command:
                 return write(command_block.base, encode(action.command));
             case Kind::write_ticket:
@@ -150,7 +158,7 @@ class Dispatcher {
             case Kind::put_file:
                 return put_file();
             case Kind::wait:
-                wait(action.until_s);
+                wait(action.until_s, was_told);
                 return {};
             case Kind::finish:
                 break;
@@ -158,15 +166,7 @@ class Dispatcher {
         return {};
     }
 
-    static HandOffInput from(const BusAnswer& answer) {
-        HandOffInput input;
-        input.end = answer.end;
-        input.exception = answer.exception;
-        input.why = answer.why;
-        return input;
-    }
-
-    HandOffInput write(std::uint16_t base, const Words& block) { return from(bus_.write_holding(base, block)); }
+    HandOffInput write(std::uint16_t base, const Words& block) { return input_from(bus_.write_holding(base, block)); }
 
     HandOffInput write_chunk(std::uint32_t offset, std::uint32_t epoch) {
         Chunk chunk;
@@ -189,28 +189,8 @@ class Dispatcher {
         return input;
     }
 
-    // A block that came torn or damaged is read again, and never acted on.
-    template <class T, class Decode>
-    HandOffInput read(const Block& block, std::optional<T> HandOffInput::*where, Decode decode) {
-        HandOffInput input;
-        for (int time = 0; time < 3; ++time) {
-            const BusAnswer answer = bus_.read_input(block.base, block.count);
-            input = from(answer);
-            if (!answer.is_ok()) return input;
-            const auto decoded = decode(answer.words);
-            if (decoded.is_ok()) {
-                input.*where = decoded.value;
-                return input;
-            }
-            input.fault = decoded.fault;
-        }
-        input.end = BusEnd::lost;
-        input.why = std::string(block.name) + " is " + words(input.fault);
-        return input;
-    }
-
     HandOffInput read_status() {
-        HandOffInput input = read(status_block, &HandOffInput::status, decode_status);
+        HandOffInput input = read_status_block(bus_);
         if (input.status && input.status->job_id == plan_.ticket.job_id &&
             input.status->job_state == JobState::running) {
             context_.progress("0.01 % of the job", input.status->progress, 10000);
@@ -218,13 +198,10 @@ class Dispatcher {
         return input;
     }
 
-    HandOffInput read_result() { return read(result_block, &HandOffInput::result, decode_result); }
-
-    // Wakes up early when the caller wants to stop.
-    void wait(double until_s) const {
+    // Wakes up early when the caller wants to stop and the hand-off does not know it yet.
+    void wait(double until_s, bool was_told) const {
         constexpr double slice_s = 0.02;
-        const bool was_cancelled = is_cancelled();
-        while (now_s() < until_s && is_cancelled() == was_cancelled) {
+        while (now_s() < until_s && (was_told || !is_cancelled())) {
             std::this_thread::sleep_for(std::chrono::duration<double>(std::min(slice_s, until_s - now_s())));
         }
     }

@@ -28,6 +28,7 @@ struct HandOffTimings {
     double consent_s = 600;       // how long the operator at the cell may take
     double link_patience_s = 30;  // how long to try to get a lost link back
     double frozen_s = 2.5;        // the cell's heartbeat stands still for so long: frozen
+    double leave_s = 2;           // from the request to stop to the end of the hand-off, whatever the cell does
 };
 
 struct DispatchOptions {
@@ -72,8 +73,8 @@ struct JobOutcome {
 
 // Throws DeviceError while nothing was started: unreachable, not a cell of ours, another cell, busy; InputError if
 // `job_file` cannot be read, does not match the ticket, or cannot be put into the drop folder. Refusals of the job and
-// everything after START are a JobOutcome. With context.cancelled the job is cancelled and that is confirmed, or, once
-// it runs, left to run by itself.
+// everything after START are a JobOutcome. With context.cancelled this returns within leave_s: before START the job is
+// cancelled and the cell given back, confirmed if the cell answers in time; afterwards it is left to run by itself.
 JobOutcome dispatch_job(RegisterBus& bus, const JobTicket& ticket, const std::filesystem::path& job_file,
                         const DispatchOptions& options, const Context& context);
 

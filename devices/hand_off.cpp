@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "devices/first_contact.h"
 #include "devices/hand_off_turn.h"
 
 namespace qchopper::turning {
@@ -16,7 +17,10 @@ HandOffAction plain(Kind kind, std::string journal) {
 
 HandOffAction pause(TurnUnderWay& turn) {
     HandOffAction action = plain(Kind::wait);
-    action.until_s = turn.now_s + turn.timings().poll_s;
+    constexpr double leaving_poll_s = 0.1;
+    const double poll_s = turn.timings().poll_s;
+    action.until_s = turn.now_s + (turn.is_leaving() ? std::min(poll_s, leaving_poll_s) : poll_s);
+    if (turn.is_leaving()) action.until_s = std::min(action.until_s, turn.h.leave_by_s);
     if (turn.h.is_owner) action.until_s = std::min(action.until_s, turn.h.beat_s + turn.timings().heartbeat_s);
     return action;
 }
@@ -42,12 +46,17 @@ HandOffAction finish(TurnUnderWay& turn, StartVerdict verdict, const std::string
         turn.h.why = why;
         turn.h.to_do = to_do;
     }
+    if (turn.h.is_cancelled && verdict == StartVerdict::not_started && turn.h.claim_sent && !turn.h.is_given_back) {
+        turn.h.why += "; the cell did not confirm that it dropped the job";
+        turn.h.to_do = "It cannot start: the cell holds no valid START for it.";
+    }
     turn.h.step = HandOffStep::finished;
     turn.say(std::string(words(verdict)) + ": " + turn.h.why);
     return plain(Kind::finish, "CLOSED " + std::string(words(verdict)));
 }
 
 HandOffAction give_up(TurnUnderWay& turn, const std::string& why, const std::string& to_do) {
+    if (turn.h.contradicts_itself) return finish(turn, StartVerdict::unknown, why, to_do);
     if (turn.h.is_started) return finish(turn, StartVerdict::started, why, to_do);
     if (turn.h.start_sent) return finish(turn, StartVerdict::unknown, why, "Look at the cell before anything else.");
     return finish(turn, StartVerdict::not_started, why, to_do);
@@ -68,7 +77,8 @@ HandOffAction withdraw(TurnUnderWay& turn, const std::string& why, const std::st
 }
 
 HandOffAction fence(TurnUnderWay& turn, const std::string& why) {
-    if (++turn.h.fences > 3) return give_up(turn, why + ", again and again");
+    if (turn.is_leaving()) return leave_at_once(turn);
+    if (++turn.h.fences > most_fences) return give_up(turn, why + ", again and again");
     turn.say(why + "; claiming the cell anew, then asking it what it knows of the job");
     return enter(turn, HandOffStep::claim);
 }
@@ -79,26 +89,43 @@ constexpr double back_off_s[] = {0.25, 0.5, 1, 2, 4, 5};
 constexpr int most_busy_answers = 10;
 constexpr double busy_pause_s = 0.5;
 
+HandOffAction try_contact_again(TurnUnderWay& turn) {
+    HandOff& h = turn.h;
+    if (h.lost_since_s < 0) {
+        h.lost_since_s = turn.now_s;
+        h.lost_times = 0;
+    }
+    const std::optional<double> pause_s =
+        pause_before_next_contact(turn.in, h.lost_times++, turn.now_s - h.lost_since_s);
+    if (!pause_s) {
+        const ContactFailure failure = why_no_contact(turn.in);
+        return fail(turn, failure.fault, failure.why, failure.to_do);
+    }
+    HandOffAction action = plain(Kind::wait);
+    action.until_s = turn.now_s + *pause_s;
+    return action;
+}
+
+// After a refusal that has nothing to do with the job: takes it out of the cell as far as that can still be done.
+HandOffAction back_out(TurnUnderWay& turn, const std::string& why, const std::string& to_do) {
+    HandOff& h = turn.h;
+    if (h.step == HandOffStep::release || !h.claim_sent) return give_up(turn, why, to_do);
+    const bool is_withdrawn = !h.why.empty();
+    if (!is_withdrawn && !h.is_started) return withdraw(turn, why, to_do);
+    if (!is_withdrawn) {
+        h.why = why;
+        h.to_do = to_do;
+        turn.say(why);
+    }
+    return enter(turn, HandOffStep::release);
+}
+
 HandOffAction on_lost(TurnUnderWay& turn) {
     HandOff& h = turn.h;
     h.deferred.reset();
-    if (!h.status) {
-        if (turn.in.fault != WordFault::none) {
-            return fail(turn, DeviceFault::protocol,
-                        "what answers is not a cell of ours: its STATUS is " + std::string(words(turn.in.fault)),
-                        "Check address and port; a gateway in between may swap words.");
-        }
-        return fail(turn, DeviceFault::unreachable, "the cell does not answer: " + turn.in.why,
-                    "Is the cell switched on, and is this its address?");
-    }
+    if (!h.status) return try_contact_again(turn);
     if (h.step == HandOffStep::release) return give_up(turn, "the link was lost while giving the cell back");
-    if (h.is_cancelled && !h.is_started && !h.start_sent) {
-        h.why.clear();
-        return give_up(turn,
-                       "stopped on request; the link was lost, so the cell could not confirm that it dropped the job",
-                       "It cannot start: no START was ever sent.");
-    }
-    if (h.is_cancelled) return give_up(turn, "stopped on request while the link was lost");
+    if (turn.is_leaving() && (h.is_started || h.start_sent)) return leave_at_once(turn);
     if (h.lost_since_s < 0) {
         h.lost_since_s = turn.now_s;
         h.lost_times = 0;
@@ -110,6 +137,7 @@ HandOffAction on_lost(TurnUnderWay& turn) {
     }
     HandOffAction action = plain(Kind::wait);
     action.until_s = turn.now_s + back_off_s[std::min<std::size_t>(h.lost_times++, std::size(back_off_s) - 1)];
+    if (turn.is_leaving()) action.until_s = std::min(turn.now_s + back_off_s[0], h.leave_by_s);
     return action;
 }
 
@@ -120,14 +148,16 @@ HandOffAction on_exception(TurnUnderWay& turn) {
         if (!h.deferred) h.deferred = h.last;
         HandOffAction action = plain(Kind::wait);
         action.until_s = turn.now_s + busy_pause_s;
+        if (turn.is_leaving()) action.until_s = std::min(action.until_s, h.leave_by_s);
         return action;
     }
     h.deferred.reset();
+    if (!h.status) return try_contact_again(turn);
     const std::string why =
         "the cell refused a request: exception " + std::to_string(turn.in.exception) + " (" + turn.in.why + ")";
-    if (!h.status) return fail(turn, DeviceFault::protocol, why, "Is this a cell of ours?");
-    if (h.start_sent && !h.is_started) return fence(turn, why);
-    return give_up(turn, why, "Tell the integrator of the cell.");
+    const bool may_have_started = h.start_sent && !h.is_started;
+    if (may_have_started && h.fences < most_fences) return fence(turn, why);
+    return back_out(turn, why, "Tell the integrator of the cell.");
 }
 
 // Keeps what every good STATUS tells, whatever the step.
@@ -143,7 +173,10 @@ void note_status(TurnUnderWay& turn) {
     if (h.status && h.step == HandOffStep::run && fresh.state != h.status->state) {
         turn.say(std::string("the cell is in ") + name(fresh.state));
     }
-    if (has_started(fresh.job_state) && fresh.job_id == turn.job_id() && !h.is_started) h.is_started = true;
+    if (has_started(fresh.job_state) && fresh.job_id == turn.job_id() && !h.is_started) {
+        h.is_started = true;
+        if (h.start_sent) turn.say("the job has started");
+    }
     if (fresh.job_id == turn.job_id()) h.elapsed_s = fresh.elapsed_s;
     h.status = fresh;
 }
@@ -156,6 +189,11 @@ HandOffAction wait_for_ack(TurnUnderWay& turn) {
     const bool works_long = h.command.command == CellCommand::verify || h.command.command == CellCommand::rehearse;
     const double bound_s = works_long ? 10 * turn.timings().answer_s : turn.timings().answer_s;
     if (status.ack_owner == turn.plan.owner && status.ack_seq == h.seq) {
+        if (status.ack_command != h.command.command) {
+            const std::string what = std::string("it acknowledged number ") + std::to_string(h.seq) + " as " +
+                                     name(status.ack_command) + ", and that was " + name(h.command.command);
+            return h.start_sent || h.is_started ? contradict(turn, what) : back_out(turn, what, "");
+        }
         if (is_refusal(status.ack_result)) return refused(turn, status.ack_result);
         if (status.ack_result == AckResult::ok || status.ack_result == AckResult::already) return acknowledged(turn);
         if (!h.has_pending && asks_person) turn.say("waiting for consent at the cell");
@@ -172,7 +210,9 @@ HandOffAction wait_for_ack(TurnUnderWay& turn) {
         if (h.step == HandOffStep::start) return fence(turn, "the cell does not acknowledge START");
         return give_up(turn, std::string("the cell does not acknowledge ") + name(h.command.command));
     }
-    if (turn.now_s - h.sent_s <= turn.timings().resend_s) return pause(turn);
+    double resend_s = turn.timings().resend_s;
+    if (turn.is_leaving()) resend_s = std::min(resend_s, turn.timings().leave_s / 4);
+    if (turn.now_s - h.sent_s <= resend_s) return pause(turn);
     h.sent_s = turn.now_s;  // the very same frame: it is done once, however often it arrives
     HandOffAction again = plain(Kind::write_command);
     again.command = h.command;
@@ -182,7 +222,8 @@ HandOffAction wait_for_ack(TurnUnderWay& turn) {
 HandOffAction on_status(TurnUnderWay& turn) {
     HandOff& h = turn.h;
     if (h.step == HandOffStep::check_cell) return look_at_cell(turn);
-    if (turn.now_s - h.cell_beat_s > turn.timings().frozen_s) {
+    // Whoever leaves does not wait for the heartbeat: CANCEL and RELEASE do no harm, whenever they are taken.
+    if (!turn.is_leaving() && turn.now_s - h.cell_beat_s > turn.timings().frozen_s) {
         if (!h.is_frozen) turn.say("CELL FROZEN: the cell answers, but its heartbeat stands still; no command is sent");
         h.is_frozen = true;
         if (!h.is_started && turn.now_s - h.cell_beat_s > turn.timings().link_patience_s) {
@@ -201,13 +242,6 @@ HandOffAction on_status(TurnUnderWay& turn) {
         default:
             return enter(turn, h.step);
     }
-}
-
-HandOffAction on_cancel(TurnUnderWay& turn) {
-    HandOff& h = turn.h;
-    h.is_cancelled = true;
-    h.deferred.reset();
-    return withdraw(turn, "stopped on request before the start", "");
 }
 
 HandOffAction after_answer(TurnUnderWay& turn) {
@@ -240,22 +274,23 @@ HandOffAction next_action(TurnUnderWay& turn) {
     HandOff& h = turn.h;
     if (!h.has_begun) {
         h.has_begun = true;
-        return plain(Kind::read_status);
+        if (!turn.in.cancelled) return plain(Kind::read_status);
     }
-    if (turn.in.end == BusEnd::lost) return on_lost(turn);
-    if (turn.in.end == BusEnd::exception) return on_exception(turn);
     const std::uint32_t boots = h.status ? h.status->boot_count : 0;
     const bool was_lost = h.lost_since_s >= 0;
     if (turn.in.status) note_status(turn);
+    if (turn.in.cancelled || turn.is_leaving()) {
+        if (const std::optional<HandOffAction> way_out = leave(turn)) return *way_out;
+    }
+    if (turn.in.end == BusEnd::lost) return on_lost(turn);
+    if (turn.in.end == BusEnd::exception) return on_exception(turn);
     if (h.last.kind != Kind::wait && h.last.kind != Kind::heartbeat) h.busy_times = 0;
     if (h.deferred && (h.last.kind == Kind::heartbeat || h.last.kind == Kind::wait)) {
         HandOffAction action = *h.deferred;
         h.deferred.reset();
         return action;
     }
-    const bool may_cancel = !h.is_cancelled && !h.start_sent && !h.is_started && h.step != HandOffStep::finished;
-    if (turn.in.cancelled && may_cancel && h.why.empty()) return on_cancel(turn);
-    if (turn.in.status && h.step > HandOffStep::claim) {
+    if (turn.in.status && h.step > HandOffStep::claim && !turn.is_leaving()) {
         if (was_lost) {
             h.lost_since_s = -1;
             if (h.step != HandOffStep::release) return fence(turn, "what was under way is not known");
@@ -266,7 +301,7 @@ HandOffAction next_action(TurnUnderWay& turn) {
     }
     if (turn.in.status && was_lost) {
         h.lost_since_s = -1;
-        h.waits_for_ack = false;  // lost during CLAIM: claim with a higher number
+        if (!turn.is_leaving()) h.waits_for_ack = false;  // lost during CLAIM: claim with a higher number
     }
     return after_answer(turn);
 }

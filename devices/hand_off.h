@@ -79,6 +79,7 @@ struct HandOffInput {
     int exception = 0;
     WordFault fault = WordFault::none;  // with `lost`: somebody answered, but not like a cell
     std::string why;                    // if end is not ok, or if put_file failed
+    bool is_alien = false;              // with `lost`: what came is no answer to the request
     std::optional<Status> status;
     std::optional<ResultWords> result;
     bool cancelled = false;  // the caller asks to stop
@@ -111,17 +112,25 @@ struct HandOff {
     int busy_times = 0;
     int fences = 0;    // repeated CLAIMs
     int attempts = 0;  // STARTs that turned out not to have arrived
+    int claims = 0;
+    int ready_commands = 0;  // acknowledged since the cell was to be made ready
+    int odd_answers = 0;     // since the last one of use
+    int tokenless = 0;       // PREPAREs that were acknowledged without a token
 
     bool claim_sent = false;  // and not refused: the cell may hold a lease of ours
     bool is_owner = false;    // CLAIM was granted
     bool file_is_staged = false;
-    bool is_stored = false;    // STORE was sent: the cell may hold our job
-    bool start_sent = false;   // under the present epoch; the start may have happened
-    bool is_started = false;   // known
-    bool has_pending = false;  // PENDING was told
-    bool is_frozen = false;    // was told
-    bool is_cancelled = false;
-    bool reset_sent = false;  // at the end
+    bool is_stored = false;   // STORE was sent: the cell may hold our job
+    bool start_sent = false;  // under the present epoch; the start may have happened
+    bool start_acknowledged = false;
+    bool is_started = false;          // STATUS or RESULT has shown it
+    bool contradicts_itself = false;  // the cell: nothing that it says of the start is believed
+    bool has_pending = false;         // PENDING was told
+    bool is_frozen = false;           // was told
+    bool is_cancelled = false;        // ends as it does because the caller asked to stop
+    bool is_given_back = false;       // the cell has answered to CANCEL or RELEASE
+    double leave_by_s = -1;           // once the caller has asked to stop: when the hand-off is over at the latest
+    bool reset_sent = false;          // at the end
 
     double elapsed_s = 0;               // of the job, as the cell said last
     std::optional<ResultWords> result;  // of the query at the end

@@ -21,7 +21,7 @@ constexpr StepRow step_rows[] = {
     {verify, CellCommand::verify, true, prepare, "the cell has the job file, and it is the right one (SHA-256)"},
     {rehearse, CellCommand::rehearse, true, prepare, "the rehearsal in the cell has passed"},
     {prepare, CellCommand::prepare, true, start, "the operator at the cell has consented"},
-    {start, CellCommand::start, true, run, "the job has started"},
+    {start, CellCommand::start, true, run, ""},
     {ask_after, CellCommand::query, true, clear_result, ""},
     {clear_result, CellCommand::clear_result, true, reset, ""},
     {reset, CellCommand::reset, false, release, ""},
@@ -59,6 +59,7 @@ HandOffAction send_step(TurnUnderWay& turn, const StepRow& row) {
     }
     switch (row.step) {
         case claim:
+            if (++h.claims > most_claims) return give_up(turn, "the link is lost at every CLAIM");
             h.epoch = std::max(h.epoch, turn.status().epoch_held) + 1;
             h.command.arg1 = turn.plan.secret;
             h.claim_sent = true;
@@ -100,23 +101,6 @@ HandOffAction wind_up(TurnUnderWay& turn) {
     }
 }
 
-HandOffAction tell_end(TurnUnderWay& turn) {
-    HandOff& h = turn.h;
-    const ResultWords& result = *h.result;
-    h.why =
-        result.job_state == JobState::ended && result.job_result == JobResult::complete
-            ? "the job ran to its end"
-            : std::string("the job started and was ") + name(result.job_state) + " (" + name(result.job_result) + ")";
-    if (result.job_state == JobState::aborted) h.to_do = "Look at the cell; a new dispatch is a new job.";
-    return enter(turn, clear_result);
-}
-
-bool answers_our_query(const TurnUnderWay& turn) {
-    const ResultWords& result = *turn.in.result;
-    return result.query_owner == turn.plan.owner && result.query_seq == turn.h.command.seq &&
-           result.job_id == turn.job_id();
-}
-
 // Somebody else's job stands in the way. We own the cell, so its dispatcher has gone.
 HandOffAction clear_the_way(TurnUnderWay& turn) {
     const Status& status = turn.status();
@@ -151,6 +135,7 @@ HandOffAction enter(TurnUnderWay& turn, HandOffStep step) {
         case make_ready:
             // Whoever has decided to withdraw does not go on after a lost link.
             if (!h.why.empty()) return enter(turn, h.is_stored ? cancel : release);
+            h.ready_commands = 0;
             return get_ready(turn);
         case write_ticket:
             return plain(Kind::write_ticket);
@@ -161,7 +146,6 @@ HandOffAction enter(TurnUnderWay& turn, HandOffStep step) {
             h.chunks_in_flight = 0;
             return send_file(turn);
         case run:
-            h.is_started = true;
             return watch(turn);
         case reset:
         case release:
@@ -194,8 +178,16 @@ HandOffAction look_at_cell(TurnUnderWay& turn) {
 }
 
 HandOffAction get_ready(TurnUnderWay& turn) {
+    HandOff& h = turn.h;
     const Status& status = turn.status();
     const bool foreign = status.job_id != Uuid{} && status.job_id != turn.job_id();
+    if (h.ready_commands > most_ready_commands) {
+        h.fault = DeviceFault::busy;
+        return withdraw(turn,
+                        std::string("the cell acknowledges ") + name(h.command.command) + " and stays in " +
+                            name(status.state) + "; nothing was started",
+                        "Look at the cell.");
+    }
     if (foreign) return clear_the_way(turn);
     switch (status.state) {
         case PackState::idle:
@@ -252,59 +244,21 @@ HandOffAction send_file(TurnUnderWay& turn) {
 HandOffAction watch(TurnUnderWay& turn) {
     HandOff& h = turn.h;
     const Status& status = turn.status();
-    if (!turn.shows_our_job() || status.job_state == JobState::ended || status.job_state == JobState::aborted) {
+    const bool shows_it_running = turn.shows_our_job() && has_started(status.job_state);
+    if (turn.shows_our_job() && !shows_it_running && !h.is_started) {
+        // START was acknowledged: the state has to follow.
+        if (turn.is_leaving() || turn.now_s - h.step_since_s <= turn.timings().answer_s) return pause(turn);
         return enter(turn, ask_after);
     }
-    if (turn.in.cancelled && !h.is_cancelled) {
-        h.is_cancelled = true;
-        if (!turn.plan.options.stop_when_cancelled) {
-            h.why = "stopped watching on request; the job runs on by itself";
-            h.to_do = "Stop it at the cell if it must not run.";
-            turn.say(h.why);
-            return enter(turn, release);
-        }
-        turn.say("stopping the machine on request");
-        h.command = Command{};
-        h.command.job_id = turn.job_id();
-        return send(turn, CellCommand::stop, "STOP job=" + to_text(turn.job_id()));
+    if (!shows_it_running || status.job_state == JobState::ended || status.job_state == JobState::aborted) {
+        return enter(turn, ask_after);
     }
+    h.odd_answers = 0;
+    if (turn.is_leaving() && !h.is_cancelled) return leave_running_job(turn);
     if (h.is_owner && status.owner_held == 0) {
         h.is_owner = h.claim_sent = false;
         turn.say("the lease of the cell has run out; the job runs on");
     }
-    return pause(turn);
-}
-
-HandOffAction take_result(TurnUnderWay& turn) {
-    HandOff& h = turn.h;
-    if (!answers_our_query(turn)) return pause(turn);  // another client has asked in between: ask again
-    const ResultWords& result = *turn.in.result;
-    if (h.step == ask_before) {
-        if (has_started(result.job_state) && result.file_sha256 != turn.plan.ticket.file_sha256) {
-            h.refusal = AckResult::job_id_reused;
-            return withdraw(turn, "the cell has carved another file under this job id", "Dispatch it as a new job.");
-        }
-        if (has_started(result.job_state)) turn.say("the cell has started this job before; taking up its result");
-        if (!has_started(result.job_state) && h.start_sent) {
-            h.start_sent = false;
-            if (++h.attempts > 2) return withdraw(turn, "START did not reach the cell, three times", "");
-            turn.say("START did not reach the cell and now never can; preparing it again");
-        }
-        if (result.job_state == JobState::cancelled) {
-            h.refusal = AckResult::cancelled;
-            return withdraw(turn, "the job was cancelled in the cell", "Dispatch it as a new job.");
-        }
-    }
-    if (!has_started(result.job_state) && h.is_started) {
-        h.why = "the job has started, but the cell no longer remembers it";
-        h.to_do = "Look at the cell: its memory was lost.";
-        return enter(turn, release);
-    }
-    if (!has_started(result.job_state)) return enter(turn, make_ready);
-    h.is_started = true;
-    h.result = result;
-    if (result.job_state == JobState::ended || result.job_state == JobState::aborted) return tell_end(turn);
-    h.step = run;
     return pause(turn);
 }
 
@@ -334,15 +288,22 @@ HandOffAction acknowledged(TurnUnderWay& turn) {
             h.receipt = turn.status().ack_detail;
             break;
         case prepare:
-            if (turn.status().token == 0) return pause(turn);
+            if (turn.status().token != 0) break;
+            if (++h.tokenless <= most_tokenless) return pause(turn);
+            return withdraw(turn, "the cell acknowledges PREPARE and gives no token", "Look at the cell.");
+        case start:
+            h.start_acknowledged = true;
             break;
         case make_ready:
+            ++h.ready_commands;
+            return plain(Kind::read_status);
         case run:
         case reset:
             return plain(Kind::read_status);
         default:
             break;
     }
+    if (h.step == cancel || h.step == release) h.is_given_back = true;
     const StepRow& row = *row_of(h.step);
     if (row.says[0] != '\0') turn.say(row.says);
     return enter(turn, row.next);
@@ -354,6 +315,10 @@ HandOffAction refused(TurnUnderWay& turn, AckResult result) {
     const std::string answer = std::string(words(result)) + " (" + name(result) + ")";
     if (h.step == ask_before || h.step == ask_after) {
         if (result == AckResult::unknown_job) return plain(Kind::read_result);
+    }
+    if (h.step == cancel || h.step == release) h.is_given_back = true;  // it does not hold the job for us
+    if (h.step == start && h.is_started && result != AckResult::already_finished) {
+        return contradict(turn, "it refused START, " + answer + ", and STATUS shows the job as started");
     }
     if (h.step == start && result == AckResult::already_finished) return enter(turn, ask_after);
     if (h.step == start) h.start_sent = false;  // its own refusal: this START has had no effect

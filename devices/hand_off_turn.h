@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "devices/hand_off.h"
@@ -20,10 +21,17 @@ struct TurnUnderWay {
     const HandOffTimings& timings() const { return plan.options.timings; }
     const Uuid& job_id() const { return plan.ticket.job_id; }
     const Status& status() const { return *h.status; }
+    bool is_leaving() const { return h.leave_by_s >= 0; }
     bool shows_our_job() const { return h.status && h.status->job_id == plan.ticket.job_id; }
 };
 
 using Kind = HandOffAction::Kind;
+
+constexpr int most_fences = 3;
+constexpr int most_claims = 10;
+constexpr int most_odd_answers = 10;    // in a row: of somebody else, or of no use
+constexpr int most_ready_commands = 8;  // Reset, Clear, CANCEL and CLEAR_RESULT until the cell is idle
+constexpr int most_tokenless = 3;       // PREPAREs
 
 // The states of a job that has been started once.
 constexpr bool has_started(JobState state) {
@@ -45,13 +53,25 @@ HandOffAction withdraw(TurnUnderWay& turn, const std::string& why, const std::st
 // A new epoch voids everything that may still be on its way; then the cell is asked.
 HandOffAction fence(TurnUnderWay& turn, const std::string& why);
 
+// hand_off_leave.cpp
+// The caller has asked to stop: what that changes now, or nothing if the hand-off is on its way out already.
+std::optional<HandOffAction> leave(TurnUnderWay& turn);
+// Asked to stop while the job runs: stops watching it, or stops the machine if that was ordered.
+HandOffAction leave_running_job(TurnUnderWay& turn);
+// The end of a hand-off that was asked to stop and can wait no longer.
+HandOffAction leave_at_once(TurnUnderWay& turn);
+
+// hand_off_result.cpp
+HandOffAction take_result(TurnUnderWay& turn);
+// What the cell has said cannot all be true: UNKNOWN, with `what` it was.
+HandOffAction contradict(TurnUnderWay& turn, const std::string& what);
+
 // hand_off_steps.cpp
 HandOffAction enter(TurnUnderWay& turn, HandOffStep step);
 HandOffAction look_at_cell(TurnUnderWay& turn);
 HandOffAction get_ready(TurnUnderWay& turn);
 HandOffAction send_file(TurnUnderWay& turn);
 HandOffAction watch(TurnUnderWay& turn);
-HandOffAction take_result(TurnUnderWay& turn);
 HandOffAction acknowledged(TurnUnderWay& turn);
 HandOffAction refused(TurnUnderWay& turn, AckResult result);
 

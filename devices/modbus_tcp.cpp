@@ -2,26 +2,22 @@
 
 #include <arpa/inet.h>
 #include <errno.h>
-#include <fcntl.h>
-#include <modbus.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
-#include <sys/select.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
 #include <cstring>
 #include <future>
-#include <mutex>
 #include <thread>
 #include <vector>
 
 #include "devices/device_error.h"
+#include "devices/modbus_frame.h"
 #include "segment/error.h"
 
 namespace qchopper {
@@ -66,108 +62,14 @@ Endpoints look_up(const std::string& host, std::uint16_t port, int flags) {
     return endpoints;
 }
 
-// A name server may be silent for much longer than we may wait: the question is left behind in its own thread.
-Endpoints find(const TcpAddress& where, Deadline deadline) {
-    Endpoints numeric = look_up(where.host, where.port, AI_NUMERICHOST);
-    if (numeric.fault == 0) return numeric;
-    auto answer = std::make_shared<std::promise<Endpoints>>();
-    std::future<Endpoints> future = answer->get_future();
-    std::thread([answer, where] { answer->set_value(look_up(where.host, where.port, 0)); }).detach();
-    if (future.wait_until(deadline) != std::future_status::ready) return {EAI_AGAIN, {}};
-    return future.get();
-}
+const char* const not_in_time = "no answer in time";
 
-// One connection attempt; -1 with `why` filled. Not libmodbus' own: that one aborts on a descriptor of 1024 or more.
-int connect_one(const Endpoint& endpoint, Deadline deadline, std::string& why) {
-    const int fd = socket(endpoint.family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-    if (fd < 0) {
-        why = std::strerror(errno);
-        return -1;
-    }
-    const auto fail = [&](const std::string& reason) {
-        why = reason;
-        close(fd);
-        return -1;
-    };
-    if (fd >= FD_SETSIZE) return fail("this program has too many files open (1024 or more)");
-    if (connect(fd, reinterpret_cast<const sockaddr*>(&endpoint.address), endpoint.length) != 0) {
-        if (errno != EINPROGRESS) return fail(std::strerror(errno));
-        pollfd waiting{fd, POLLOUT, 0};
-        int ready = 0;
-        do ready = poll(&waiting, 1, ms_until(deadline));
-        while (ready < 0 && errno == EINTR);
-        if (ready <= 0) return fail("no answer in time");
-        int error = 0;
-        socklen_t size = sizeof error;
-        if (getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &size) != 0 || error != 0) return fail(std::strerror(error));
-    }
-    const int on = 1;
-    setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-    // libmodbus polls before it reads, and expects a blocking socket when it writes.
-    if (fcntl(fd, F_SETFL, fcntl(fd, F_GETFL) & ~O_NONBLOCK) != 0) return fail(std::strerror(errno));
-    return fd;
-}
-
-// libmodbus restarts its byte time-out at every byte, so a slow peer could hold a call for minutes. This shuts the
-// connection down under it when the time for the whole call is over.
-class Watchdog {
- public:
-    Watchdog() : thread_([this] { run(); }) {}
-    ~Watchdog() {
-        {
-            const std::lock_guard lock(mutex_);
-            ends_ = true;
-        }
-        wake_.notify_all();
-        thread_.join();
-    }
-    Watchdog(const Watchdog&) = delete;
-    Watchdog& operator=(const Watchdog&) = delete;
-
-    void guard(int fd, Deadline deadline) {
-        {
-            const std::lock_guard lock(mutex_);
-            fd_ = fd;
-            deadline_ = deadline;
-            fired_ = false;
-        }
-        wake_.notify_all();
-    }
-    // True if the time was over. After this the descriptor may be closed.
-    bool release() {
-        const std::lock_guard lock(mutex_);
-        fd_ = -1;
-        return fired_;
-    }
-
- private:
-    void run() {
-        std::unique_lock lock(mutex_);
-        while (!ends_) {
-            if (fd_ < 0) {
-                wake_.wait(lock);
-            } else if (Clock::now() >= deadline_) {
-                shutdown(fd_, SHUT_RDWR);
-                fired_ = true;
-                fd_ = -1;
-            } else {
-                wake_.wait_until(lock, deadline_);
-            }
-        }
-    }
-
-    std::mutex mutex_;
-    std::condition_variable wake_;
-    int fd_ = -1;
-    Deadline deadline_;
-    bool fired_ = false;
-    bool ends_ = false;
-    std::thread thread_;
-};
-
-timeval to_timeval(double seconds) {
-    const auto micro = static_cast<std::int64_t>(seconds * 1e6);
-    return {static_cast<time_t>(micro / 1000000), static_cast<suseconds_t>(micro % 1000000)};
+BusAnswer wrong_count() {
+    BusAnswer answer;
+    answer.end = BusEnd::exception;
+    answer.exception = 3;
+    answer.why = "wrong count";
+    return answer;
 }
 
 }  // namespace
@@ -181,74 +83,171 @@ struct ModbusTcpBus::Link {
 
     std::string text() const { return address.host + ":" + std::to_string(address.port); }
 
+    bool is_watching() const { return cancelled != nullptr && leave_by == Deadline::max(); }
+
+    // The deadline, or the time to leave if the caller has asked for that.
+    Deadline bounded(Deadline deadline) {
+        if (is_watching() && cancelled->load()) leave_by = after(leave_s);
+        return std::min(deadline, leave_by);
+    }
+
+    // How long to wait before the request to stop is looked at again.
+    int slice_ms(Deadline deadline) const {
+        constexpr int slice = 20;
+        return is_watching() ? std::min(slice, ms_until(deadline)) : ms_until(deadline);
+    }
+
+    // False if the time was over before anything happened.
+    bool wait_for(int descriptor, short events, Deadline deadline) {
+        for (;;) {
+            const Deadline until = bounded(deadline);
+            pollfd waiting{descriptor, events, 0};
+            const int ready = poll(&waiting, 1, slice_ms(until));
+            if (ready > 0 || (ready < 0 && errno != EINTR)) return true;  // a fault shows at what is done next
+            if (Clock::now() >= until) return false;
+        }
+    }
+
+    // A name server may be silent for much longer than we may wait: the question is left behind in its own thread.
+    Endpoints find(Deadline deadline) {
+        Endpoints numeric = look_up(address.host, address.port, AI_NUMERICHOST);
+        if (numeric.fault == 0) return numeric;
+        auto answer = std::make_shared<std::promise<Endpoints>>();
+        std::future<Endpoints> future = answer->get_future();
+        std::thread([answer, where = address] { answer->set_value(look_up(where.host, where.port, 0)); }).detach();
+        for (;;) {
+            const Deadline until = bounded(deadline);
+            const auto slice = std::chrono::milliseconds(slice_ms(until));
+            if (future.wait_for(slice) == std::future_status::ready) return future.get();
+            if (Clock::now() >= until) return {EAI_AGAIN, {}};
+        }
+    }
+
+    // One connection attempt; -1 with `why` filled.
+    int connect_one(const Endpoint& endpoint, Deadline deadline, std::string& why) {
+        const int descriptor = socket(endpoint.family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+        if (descriptor < 0) {
+            why = std::strerror(errno);
+            return -1;
+        }
+        const auto fail = [&](const std::string& reason) {
+            why = reason;
+            close(descriptor);
+            return -1;
+        };
+        const auto* to = reinterpret_cast<const sockaddr*>(&endpoint.address);
+        if (::connect(descriptor, to, endpoint.length) != 0) {
+            if (errno != EINPROGRESS) return fail(std::strerror(errno));
+            if (!wait_for(descriptor, POLLOUT, deadline)) return fail(not_in_time);
+            int error = 0;
+            socklen_t size = sizeof error;
+            if (getsockopt(descriptor, SOL_SOCKET, SO_ERROR, &error, &size) != 0) error = errno;
+            if (error != 0) return fail(std::strerror(error));
+        }
+        const int on = 1;
+        setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+        return descriptor;
+    }
+
     // Empty if connected, else why not.
     std::string open() {
-        if (context != nullptr) return {};
+        if (fd >= 0) return {};
         const Deadline deadline = after(timings.connect_s);
-        const Endpoints endpoints = find(address, deadline);
+        const Endpoints endpoints = find(deadline);
         if (endpoints.fault != 0) return std::string("the name is not known (") + gai_strerror(endpoints.fault) + ")";
-        std::string why = "no answer in time";
+        std::string why = not_in_time;
         for (const Endpoint& endpoint : endpoints.list) {
-            const int fd = connect_one(endpoint, deadline, why);
-            if (fd < 0) continue;
-            // The address is only for libmodbus' own connect, which is never called.
-            context = modbus_new_tcp("127.0.0.1", address.port);
-            if (context == nullptr) {
-                close(fd);
-                return "out of memory";
-            }
-            const timeval response = to_timeval(timings.response_s);
-            modbus_set_slave(context, unit);
-            modbus_set_error_recovery(context, MODBUS_ERROR_RECOVERY_NONE);
-            modbus_set_response_timeout(context, static_cast<std::uint32_t>(response.tv_sec),
-                                        static_cast<std::uint32_t>(response.tv_usec));
-            modbus_set_byte_timeout(context, 0, 500000);
-            modbus_set_socket(context, fd);
-            return {};
+            fd = connect_one(endpoint, deadline, why);
+            if (fd >= 0) return {};
         }
         return why;
     }
 
     void drop() {
-        if (context == nullptr) return;
-        modbus_close(context);
-        modbus_free(context);
-        context = nullptr;
+        if (fd >= 0) close(fd);
+        fd = -1;
     }
 
-    // `action` returns what libmodbus does: the count of registers, or -1 and errno.
-    template <class Action>
-    BusAnswer call(int wanted, Action action) {
+    // Bytes that nobody has asked for: the answers are out of step with the requests. Empty if there are none.
+    std::string what_is_stray() const {
+        std::uint8_t byte = 0;
+        const ssize_t got = recv(fd, &byte, 1, MSG_PEEK | MSG_DONTWAIT);
+        if (got > 0) return "something came that was not asked for";
+        if (got == 0) return "the connection was closed by the other side";
+        return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR ? std::string() : std::strerror(errno);
+    }
+
+    // Empty if everything was sent, else why not.
+    std::string send_all(const Bytes& bytes, Deadline deadline) {
+        for (std::size_t done = 0; done < bytes.size();) {
+            const ssize_t sent = send(fd, bytes.data() + done, bytes.size() - done, MSG_NOSIGNAL | MSG_DONTWAIT);
+            if (sent > 0) {
+                done += static_cast<std::size_t>(sent);
+            } else if (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR) {
+                return std::strerror(errno);
+            } else if (!wait_for(fd, POLLOUT, deadline)) {
+                return "the request could not be sent in time";
+            }
+        }
+        return {};
+    }
+
+    // The answer to what was just sent; nothing of a frame that is wrong is ever used.
+    BusAnswer receive(const ModbusRequest& request, Deadline deadline) {
+        BusAnswer lost;
+        Bytes bytes;
+        AnswerSoFar so_far = check_answer(request, bytes);
+        const Deadline first_byte = std::min(deadline, after(timings.response_s));
+        while (bytes.size() < so_far.wanted) {
+            if (!wait_for(fd, POLLIN, bytes.empty() ? first_byte : deadline)) {
+                lost.why = bytes.empty() ? not_in_time : "the answer was not complete in time";
+                return lost;
+            }
+            const std::size_t had = bytes.size();
+            bytes.resize(so_far.wanted);
+            const ssize_t got = recv(fd, bytes.data() + had, bytes.size() - had, MSG_DONTWAIT);
+            const int error = errno;
+            bytes.resize(had + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+            if (got == 0) lost.why = "the connection was closed by the other side";
+            if (got < 0 && error != EAGAIN && error != EWOULDBLOCK && error != EINTR) lost.why = std::strerror(error);
+            if (!lost.why.empty()) return lost;
+            so_far = check_answer(request, bytes);
+            if (!so_far.wrong.empty()) {
+                lost.why = so_far.wrong;
+                lost.is_alien = true;
+                return lost;
+            }
+        }
+        return take_answer(request, bytes);
+    }
+
+    BusAnswer exchange(const ModbusRequest& request) {
+        const Deadline deadline = after(timings.call_s);
+        BusAnswer answer;
+        answer.why = what_is_stray();
+        if (answer.why.empty()) answer.why = send_all(frame_of(request), deadline);
+        return answer.why.empty() ? receive(request, deadline) : answer;
+    }
+
+    BusAnswer call(ModbusRequest request) {
         BusAnswer answer;
         answer.why = open();
         if (!answer.why.empty()) return answer;
-        watchdog.guard(modbus_get_socket(context), after(timings.call_s));
-        errno = 0;
-        const int count = action(context);
-        const int error = errno;
-        const bool too_slow = watchdog.release();
-        if (count == wanted && !too_slow) {
-            answer.end = BusEnd::ok;
-            return answer;
-        }
-        if (count < 0 && !too_slow && error >= EMBXILFUN && error <= EMBXGTAR) {
-            answer.end = BusEnd::exception;
-            answer.exception = error - MODBUS_ENOBASE;
-            answer.why = modbus_strerror(error);
-            return answer;
-        }
-        answer.why = too_slow     ? "the answer was not complete in time"
-                     : count >= 0 ? "the answer has another length than was asked for"
-                                  : modbus_strerror(error);
-        drop();
+        request.transaction = ++transaction;
+        request.unit = unit;
+        answer = exchange(request);
+        if (answer.end == BusEnd::lost) drop();
         return answer;
     }
 
     TcpAddress address;
     std::uint8_t unit;
     ModbusTimings timings;
-    modbus_t* context = nullptr;
-    Watchdog watchdog;
+    int fd = -1;
+    std::uint16_t transaction = 0;
+    const std::atomic<bool>* cancelled = nullptr;
+    double leave_s = 0;
+    Deadline leave_by = Deadline::max();
 };
 
 ModbusTcpBus::ModbusTcpBus(TcpAddress address, std::uint8_t unit, ModbusTimings timings)
@@ -263,28 +262,25 @@ void ModbusTcpBus::connect() {
 }
 
 BusAnswer ModbusTcpBus::read_input(std::uint16_t address, std::uint16_t count) {
-    Words words(MODBUS_MAX_READ_REGISTERS);  // of full size: libmodbus has written past short ones
-    if (count == 0 || count > words.size()) return {BusEnd::exception, 3, {}, "wrong count"};
-    BusAnswer answer = link_->call(
-        count, [&](modbus_t* context) { return modbus_read_input_registers(context, address, count, words.data()); });
-    if (answer.is_ok()) answer.words.assign(words.begin(), words.begin() + count);
-    return answer;
+    if (count == 0 || count > most_read_registers) return wrong_count();
+    return link_->call({0, 0, ModbusFunction::read_input, address, count});
 }
 
 BusAnswer ModbusTcpBus::read_holding(std::uint16_t address, std::uint16_t count) {
-    Words words(MODBUS_MAX_READ_REGISTERS);
-    if (count == 0 || count > words.size()) return {BusEnd::exception, 3, {}, "wrong count"};
-    BusAnswer answer = link_->call(
-        count, [&](modbus_t* context) { return modbus_read_registers(context, address, count, words.data()); });
-    if (answer.is_ok()) answer.words.assign(words.begin(), words.begin() + count);
-    return answer;
+    if (count == 0 || count > most_read_registers) return wrong_count();
+    return link_->call({0, 0, ModbusFunction::read_holding, address, count});
 }
 
 BusAnswer ModbusTcpBus::write_holding(std::uint16_t address, std::span<const std::uint16_t> words) {
-    if (words.empty() || words.size() > MODBUS_MAX_WRITE_REGISTERS) return {BusEnd::exception, 3, {}, "wrong count"};
-    const int count = static_cast<int>(words.size());
-    return link_->call(
-        count, [&](modbus_t* context) { return modbus_write_registers(context, address, count, words.data()); });
+    if (words.empty() || words.size() > most_written_registers) return wrong_count();
+    const auto count = static_cast<std::uint16_t>(words.size());
+    return link_->call({0, 0, ModbusFunction::write_holding, address, count, words});
+}
+
+void ModbusTcpBus::leave_when(const std::atomic<bool>* cancelled, double within_s) {
+    link_->cancelled = cancelled;
+    link_->leave_s = within_s;
+    link_->leave_by = Deadline::max();
 }
 
 TcpAddress parse_tcp_address(const std::string& text) {

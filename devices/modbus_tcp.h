@@ -1,7 +1,8 @@
-// The bus over Modbus TCP, by libmodbus used as a client without any of its recovery modes.
+// The bus over Modbus TCP; frames as in modbus_frame.h (docs/decisions/0015-requests-are-framed-by-us.md).
 //
-// Every call ends within `call_s`, even if the peer sends one byte at a time (tests/sim/bus_test.cpp). Any failure but
-// an exception answer closes the connection; the next call connects anew. Use an object from one thread.
+// Every call ends within `call_s`, even if the peer sends one byte at a time (tests/devices/modbus_tcp_test.cpp). Any
+// failure but an exception answer closes the connection, and so does an answer that is not wholly right; the next call
+// connects anew. Use an object from one thread.
 
 #pragma once
 
@@ -40,6 +41,7 @@ class ModbusTcpBus : public RegisterBus {
     BusAnswer read_input(std::uint16_t address, std::uint16_t count) override;
     BusAnswer read_holding(std::uint16_t address, std::uint16_t count) override;
     BusAnswer write_holding(std::uint16_t address, std::span<const std::uint16_t> words) override;
+    void leave_when(const std::atomic<bool>* cancelled, double within_s) override;
 
  private:
     struct Link;

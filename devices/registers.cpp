@@ -1,152 +1,191 @@
 #include "devices/registers.h"
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstring>
+
+#include "devices/layout.h"
 
 namespace qchopper {
 namespace {
 
 using enum FieldType;
+using namespace layout;
 
-constexpr Field status_fields[] = {
-    {0, 1, u16, "MAGIC", "0x5143"},
-    {1, 1, u16, "VERSION", "0x0100, major.minor"},
-    {2, 1, u16, "SNAP_BEGIN", "number of the snapshot; if it differs from SNAP_END: read again"},
-    {3, 1, u16, "CELL_HB", "+1 each 500 ms, wraps"},
-    {4, 2, u32, "BOOT_COUNT", "+1 at each start of the controller, persistent"},
-    {6, 1, u16, "UNIT_MODE", "1 production, 2 maintenance, 3 manual, 4 rehearsal"},
-    {7, 1, u16, "STATE", "PackML number, see below"},
-    {8, 1, u16, "STATE_PREV", "PackML number"},
-    {9, 1, u16, "FLAGS", "bits, see below"},
-    {10, 2, u32, "EPOCH_HELD", "highest epoch ever granted, 0 none"},
-    {12, 1, u16, "LEASE_LEFT", "0.1 s"},
-    {13, 1, u16, "CELL_ID", "configured identity"},
-    {14, 2, u32, "ACK_SEQ", "CMD_SEQ of the command answered last"},
-    {16, 1, u16, "ACK_CMD", "its command"},
-    {17, 1, u16, "ACK_RESULT", "see the table of results"},
-    {18, 2, u32, "ACK_DETAIL", "an address, an offset, a receipt"},
-    {20, 8, bytes, "JOB_ID", "job stored, prepared, active, or finished and not cleared; 0 none"},
-    {28, 2, u32, "TOKEN", "one-shot start token, never 0 when prepared"},
-    {30, 1, u16, "JOB_STATE", "see below"},
-    {31, 1, u16, "JOB_RESULT", "see below"},
-    {32, 1, u16, "PROGRESS", "0..10000 = 0.01 %"},
-    {33, 2, u32, "ELAPSED", "s"},
-    {35, 2, u32, "REMAINING", "s, 0xFFFFFFFF unknown"},
-    {37, 2, u32, "BLOCK_NO", "program block being executed"},
-    {39, 1, u16, "TOOL_NO", "in the spindle"},
-    {40, 2, i32, "TIP_X", "0.01 mm, base frame of the cell"},
-    {42, 2, i32, "TIP_Y", "0.01 mm"},
-    {44, 2, i32, "TIP_Z", "0.01 mm"},
-    {46, 1, u16, "FEED_OVR", "0.01 %"},
-    {47, 1, u16, "SPINDLE", "rpm"},
-    {48, 1, u16, "ALARMS", "number active"},
-    {49, 2, u32, "ALARM_CODE", "of the first alarm"},
-    {51, 2, u32, "ALARM_BLOCK", "program block of the first alarm"},
-    {53, 8, text, "ALARM_TEXT", "of the first alarm"},
-    {61, 1, u16, "XFER_STATE", "0 idle, 1 open, 2 complete, 3 hash mismatch"},
-    {62, 2, u32, "XFER_NEXT", "bytes accepted so far, the next OFFSET"},
-    {64, 1, u16, "XFER_RESULT", "result of the last chunk"},
-    {65, 2, u32, "STORE_FREE", "KiB"},
-    {67, 2, u32, "EVENT_NO", "head of the cell's event log"},
-    {69, 16, bytes, "FILE_SHA256", "computed by the cell over what it stored"},
-    {85, 2, u32, "STARTS_TOTAL", "starts since first boot, persistent"},
-    {87, 4, u64, "CELL_TIME", "unix ms"},
-    {91, 2, u32, "OWNER_HELD", "owner of the lease, 0 without one"},
-    {93, 2, u32, "ACK_OWNER", "whose command ACK_* answer"},
-    {95, 1, u16, "BAD_FRAMES", "commands that could not be trusted, wraps"},
-    {96, 2, u32, "STATUS_CRC", "CRC-32 over 0..95"},
-    {98, 1, u16, "BAD_REASON", "why the last of BAD_FRAMES"},
-    {99, 1, u16, "SNAP_END", "equals SNAP_BEGIN"},
+constexpr Row<Status> status_rows[] = {
+    fixed<Status, cell_magic>({0, 1, u16, "MAGIC", "0x5143"}, Part::magic),
+    bound<&Status::version>({1, 1, u16, "VERSION", "0x0100, major.minor"}, Part::version),
+    bound<&Status::snapshot>(
+        {2, 1, u16, "SNAP_BEGIN", "number of the snapshot; if it differs from SNAP_END: read again"}, Part::snap_begin),
+    bound<&Status::heartbeat>({3, 1, u16, "CELL_HB", "+1 each 500 ms, wraps"}),
+    bound<&Status::boot_count>({4, 2, u32, "BOOT_COUNT", "+1 at each start of the controller, persistent"}),
+    bound<&Status::unit_mode>({6, 1, u16, "UNIT_MODE", "1 production, 2 maintenance, 3 manual, 4 rehearsal"}),
+    bound<&Status::state>({7, 1, u16, "STATE", "PackML number, see below"}),
+    bound<&Status::state_before>({8, 1, u16, "STATE_PREV", "PackML number"}),
+    bound<&Status::flags>({9, 1, u16, "FLAGS", "bits, see below"}),
+    bound<&Status::epoch_held>({10, 2, u32, "EPOCH_HELD", "highest epoch ever granted, 0 none"}),
+    bound<&Status::lease_left_ds>({12, 1, u16, "LEASE_LEFT", "0.1 s"}),
+    bound<&Status::cell_id>({13, 1, u16, "CELL_ID", "configured identity"}),
+    bound<&Status::ack_seq>({14, 2, u32, "ACK_SEQ", "CMD_SEQ of the command answered last"}),
+    bound<&Status::ack_command>({16, 1, u16, "ACK_CMD", "its command"}),
+    bound<&Status::ack_result>({17, 1, u16, "ACK_RESULT", "see the table of results"}),
+    bound<&Status::ack_detail>({18, 2, u32, "ACK_DETAIL", "an address, an offset, a receipt"}),
+    bound<&Status::job_id>(
+        {20, 8, bytes, "JOB_ID", "job stored, prepared, active, or finished and not cleared; 0 none"}),
+    bound<&Status::token>({28, 2, u32, "TOKEN", "one-shot start token, never 0 when prepared"}),
+    bound<&Status::job_state>({30, 1, u16, "JOB_STATE", "see below"}),
+    bound<&Status::job_result>({31, 1, u16, "JOB_RESULT", "see below"}),
+    bound<&Status::progress>({32, 1, u16, "PROGRESS", "0..10000 = 0.01 %"}),
+    bound<&Status::elapsed_s>({33, 2, u32, "ELAPSED", "s"}),
+    bound<&Status::remaining_s>({35, 2, u32, "REMAINING", "s, 0xFFFFFFFF unknown"}),
+    bound<&Status::block_no>({37, 2, u32, "BLOCK_NO", "program block being executed"}),
+    bound<&Status::tool_no>({39, 1, u16, "TOOL_NO", "in the spindle"}),
+    bound_axis<&Status::tip, 0>({40, 2, i32, "TIP_X", "0.01 mm, base frame of the cell"}),
+    bound_axis<&Status::tip, 1>({42, 2, i32, "TIP_Y", "0.01 mm"}),
+    bound_axis<&Status::tip, 2>({44, 2, i32, "TIP_Z", "0.01 mm"}),
+    bound<&Status::feed_override>({46, 1, u16, "FEED_OVR", "0.01 %"}),
+    bound<&Status::spindle_rpm>({47, 1, u16, "SPINDLE", "rpm"}),
+    bound<&Status::alarms>({48, 1, u16, "ALARMS", "number active"}),
+    bound<&Status::alarm_code>({49, 2, u32, "ALARM_CODE", "of the first alarm"}),
+    bound<&Status::alarm_block>({51, 2, u32, "ALARM_BLOCK", "program block of the first alarm"}),
+    bound<&Status::alarm_text>({53, 8, text, "ALARM_TEXT", "of the first alarm"}),
+    bound<&Status::transfer_state>({61, 1, u16, "XFER_STATE", "0 idle, 1 open, 2 complete, 3 hash mismatch"}),
+    bound<&Status::transfer_next>({62, 2, u32, "XFER_NEXT", "bytes accepted so far, the next OFFSET"}),
+    bound<&Status::transfer_result>({64, 1, u16, "XFER_RESULT", "result of the last chunk"}),
+    bound<&Status::store_free_kib>({65, 2, u32, "STORE_FREE", "KiB"}),
+    bound<&Status::event_no>({67, 2, u32, "EVENT_NO", "head of the cell's event log"}),
+    bound<&Status::file_sha256>({69, 16, bytes, "FILE_SHA256", "computed by the cell over what it stored"}),
+    bound<&Status::starts_total>({85, 2, u32, "STARTS_TOTAL", "starts since first boot, persistent"}),
+    bound<&Status::cell_time_ms>({87, 4, u64, "CELL_TIME", "unix ms"}),
+    bound<&Status::owner_held>({91, 2, u32, "OWNER_HELD", "owner of the lease, 0 without one"}),
+    bound<&Status::ack_owner>({93, 2, u32, "ACK_OWNER", "whose command ACK_* answer"}),
+    bound<&Status::bad_frames>({95, 1, u16, "BAD_FRAMES", "commands that could not be trusted, wraps"}),
+    checksum<Status>({96, 2, u32, "STATUS_CRC", "CRC-32 over 0..95"}),
+    bound<&Status::bad_reason>({98, 1, u16, "BAD_REASON", "why the last of BAD_FRAMES"}),
+    bound<&Status::snapshot>({99, 1, u16, "SNAP_END", "equals SNAP_BEGIN"}, Part::snap_end),
 };
 
-constexpr Field result_fields[] = {
-    {200, 8, bytes, "JOB_ID", "that was asked for"},
-    {208, 1, u16, "JOB_STATE", "0: the cell does not know it"},
-    {209, 1, u16, "JOB_RESULT", ""},
-    {210, 2, u32, "STARTS", "0 or 1"},
-    {212, 2, u32, "START_EPOCH", ""},
-    {214, 2, u32, "START_SEQ", ""},
-    {216, 4, u64, "START_TIME", "unix ms"},
-    {220, 4, u64, "END_TIME", "unix ms"},
-    {224, 16, bytes, "FILE_SHA256", "of what was carved"},
-    {240, 2, u32, "LAST_BLOCK", ""},
-    {242, 2, u32, "QUERY_SEQ", "CMD_SEQ of the query"},
-    {244, 2, u32, "QUERY_OWNER", "who asked"},
-    {246, 12, words, "reserved", "0"},
-    {258, 2, u32, "CRC", "CRC-32 over 200..257"},
+constexpr Row<ResultWords> result_rows[] = {
+    bound<&ResultWords::job_id>({200, 8, bytes, "JOB_ID", "that was asked for"}),
+    bound<&ResultWords::job_state>({208, 1, u16, "JOB_STATE", "0: the cell does not know it"}),
+    bound<&ResultWords::job_result>({209, 1, u16, "JOB_RESULT", ""}),
+    bound<&ResultWords::starts>({210, 2, u32, "STARTS", "0 or 1"}),
+    bound<&ResultWords::start_epoch>({212, 2, u32, "START_EPOCH", ""}),
+    bound<&ResultWords::start_seq>({214, 2, u32, "START_SEQ", ""}),
+    bound<&ResultWords::start_time_ms>({216, 4, u64, "START_TIME", "unix ms"}),
+    bound<&ResultWords::end_time_ms>({220, 4, u64, "END_TIME", "unix ms"}),
+    bound<&ResultWords::file_sha256>({224, 16, bytes, "FILE_SHA256", "of what was carved"}),
+    bound<&ResultWords::last_block>({240, 2, u32, "LAST_BLOCK", ""}),
+    bound<&ResultWords::query_seq>({242, 2, u32, "QUERY_SEQ", "CMD_SEQ of the query"}),
+    bound<&ResultWords::query_owner>({244, 2, u32, "QUERY_OWNER", "who asked"}),
+    reserved<ResultWords>({246, 12, words, "reserved", "0"}),
+    checksum<ResultWords>({258, 2, u32, "CRC", "CRC-32 over 200..257"}),
 };
 
-constexpr Field command_fields[] = {
-    {0, 1, u16, "MAGIC", "0x5143"},
-    {1, 1, u16, "VERSION", "0x0100"},
-    {2, 2, u32, "EPOCH", "fencing number"},
-    {4, 2, u32, "CMD_SEQ", "1.., strictly rising over the owner's life"},
-    {6, 1, u16, "CMD", "see below"},
-    {7, 1, u16, "CMD_FLAGS", "reserved 0"},
-    {8, 8, bytes, "JOB_ID", "0 for Reset, Clear, SET_MODE; all ones: any job (Abort)"},
-    {16, 2, u32, "TOKEN", "for Start"},
-    {18, 2, u32, "ARG0", "CLAIM: takeover code; SET_MODE: mode; PREPARE: receipt"},
-    {20, 2, u32, "ARG1", "CLAIM: the owner's secret"},
-    {22, 16, bytes, "FILE_SHA256", "checked by STORE, VERIFY, PREPARE, Start"},
-    {38, 2, u32, "OWNER", "random, not 0"},
-    {40, 18, words, "reserved", "0"},
-    {58, 2, u32, "CRC", "CRC-32 over 0..57"},
+constexpr Row<Command> command_rows[] = {
+    fixed<Command, cell_magic>({0, 1, u16, "MAGIC", "0x5143"}, Part::magic),
+    fixed<Command, map_version>({1, 1, u16, "VERSION", "0x0100"}, Part::version),
+    bound<&Command::epoch>({2, 2, u32, "EPOCH", "fencing number"}),
+    bound<&Command::seq>({4, 2, u32, "CMD_SEQ", "1.., strictly rising over the owner's life"}),
+    bound<&Command::command>({6, 1, u16, "CMD", "see below"}),
+    reserved<Command>({7, 1, u16, "CMD_FLAGS", "reserved 0"}),
+    bound<&Command::job_id>({8, 8, bytes, "JOB_ID", "0 for Reset, Clear, SET_MODE; all ones: any job (Abort)"}),
+    bound<&Command::token>({16, 2, u32, "TOKEN", "for Start"}),
+    bound<&Command::arg0>({18, 2, u32, "ARG0", "CLAIM: takeover code; SET_MODE: mode; PREPARE: receipt"}),
+    bound<&Command::arg1>({20, 2, u32, "ARG1", "CLAIM: the owner's secret"}),
+    bound<&Command::file_sha256>({22, 16, bytes, "FILE_SHA256", "checked by STORE, VERIFY, PREPARE, Start"}),
+    bound<&Command::owner>({38, 2, u32, "OWNER", "random, not 0"}),
+    reserved<Command>({40, 18, words, "reserved", "0"}),
+    checksum<Command>({58, 2, u32, "CRC", "CRC-32 over 0..57"}),
 };
 
-constexpr Field ticket_fields[] = {
-    {100, 1, u16, "TICKET_VERSION", "1"},
-    {101, 8, bytes, "JOB_ID", "UUID"},
-    {109, 16, bytes, "FILE_SHA256", ""},
-    {125, 2, u32, "FILE_SIZE", "bytes"},
-    {127, 1, u16, "TRANSFER", "1 drop folder, 2 chunks"},
-    {128, 16, text, "FILE_NAME", "1 to 32 of A-Z a-z 0-9 . _ -, not beginning with a dot"},
-    {144, 1, u16, "UNIT", "1 mm"},
-    {145, 2, i32, "BOX_MIN_X", "0.01 mm, base frame of the program"},
-    {147, 2, i32, "BOX_MIN_Y", "0.01 mm"},
-    {149, 2, i32, "BOX_MIN_Z", "0.01 mm"},
-    {151, 2, i32, "BOX_MAX_X", "0.01 mm"},
-    {153, 2, i32, "BOX_MAX_Y", "0.01 mm"},
-    {155, 2, i32, "BOX_MAX_Z", "0.01 mm"},
-    {157, 2, i32, "STOCK_X", "0.01 mm"},
-    {159, 2, i32, "STOCK_Y", "0.01 mm"},
-    {161, 2, i32, "STOCK_Z", "0.01 mm"},
-    {163, 1, u16, "MATERIAL", "0 unspecified, 1 PU foam, 2 EPS, 3 XPS, 4 other"},
-    {164, 1, u16, "TOOL_NO", "first tool"},
-    {165, 2, u32, "TOOL_DIAMETER", "0.001 mm, largest"},
-    {167, 1, u16, "SPINDLE_MAX", "rpm"},
-    {168, 2, u32, "FEED_MAX", "mm/min"},
-    {170, 2, u32, "EST_TIME", "s"},
-    {172, 1, u16, "BASE_PLANE", "index of the cap in the manifest, 0xFFFF none"},
-    {173, 1, u16, "PIECE_NO", "1.."},
-    {174, 1, u16, "PIECE_COUNT", ""},
-    {175, 8, bytes, "PROJECT_ID", ""},
-    {183, 4, u64, "CREATED", "unix ms"},
-    {187, 1, u16, "ON_LINK_LOSS", "0 continue, 1 hold"},
-    {188, 1, u16, "REQUIREMENTS", "b0 rehearsal required"},
-    {189, 4, words, "reserved", "0"},
-    {193, 1, u16, "CELL_ID", "of the cell it is made for"},
-    {194, 1, u16, "MADE_FOR", "b0 a simulated cell"},
-    {195, 2, u32, "KEY_ID", "first 4 bytes of the SHA-256 of the public key"},
-    {197, 1, words, "reserved", "0"},
-    {198, 2, u32, "CRC", "CRC-32 over 100..197"},
+constexpr Row<TicketWords> ticket_rows[] = {
+    bound<&TicketWords::ticket_version>({100, 1, u16, "TICKET_VERSION", "1"}),
+    bound<&TicketWords::job_id>({101, 8, bytes, "JOB_ID", "UUID"}),
+    bound<&TicketWords::file_sha256>({109, 16, bytes, "FILE_SHA256", ""}),
+    bound<&TicketWords::file_size>({125, 2, u32, "FILE_SIZE", "bytes"}),
+    bound<&TicketWords::transfer>({127, 1, u16, "TRANSFER", "1 drop folder, 2 chunks"}),
+    bound<&TicketWords::file_name>(
+        {128, 16, text, "FILE_NAME", "1 to 32 of A-Z a-z 0-9 . _ -, not beginning with a dot"}),
+    bound<&TicketWords::unit>({144, 1, u16, "UNIT", "1 mm"}),
+    bound_axis<&TicketWords::box_min, 0>({145, 2, i32, "BOX_MIN_X", "0.01 mm, base frame of the program"}),
+    bound_axis<&TicketWords::box_min, 1>({147, 2, i32, "BOX_MIN_Y", "0.01 mm"}),
+    bound_axis<&TicketWords::box_min, 2>({149, 2, i32, "BOX_MIN_Z", "0.01 mm"}),
+    bound_axis<&TicketWords::box_max, 0>({151, 2, i32, "BOX_MAX_X", "0.01 mm"}),
+    bound_axis<&TicketWords::box_max, 1>({153, 2, i32, "BOX_MAX_Y", "0.01 mm"}),
+    bound_axis<&TicketWords::box_max, 2>({155, 2, i32, "BOX_MAX_Z", "0.01 mm"}),
+    bound_axis<&TicketWords::stock, 0>({157, 2, i32, "STOCK_X", "0.01 mm"}),
+    bound_axis<&TicketWords::stock, 1>({159, 2, i32, "STOCK_Y", "0.01 mm"}),
+    bound_axis<&TicketWords::stock, 2>({161, 2, i32, "STOCK_Z", "0.01 mm"}),
+    bound<&TicketWords::material>({163, 1, u16, "MATERIAL", "0 unspecified, 1 PU foam, 2 EPS, 3 XPS, 4 other"}),
+    bound<&TicketWords::tool_no>({164, 1, u16, "TOOL_NO", "first tool"}),
+    bound<&TicketWords::tool_diameter_um>({165, 2, u32, "TOOL_DIAMETER", "0.001 mm, largest"}),
+    bound<&TicketWords::spindle_max_rpm>({167, 1, u16, "SPINDLE_MAX", "rpm"}),
+    bound<&TicketWords::feed_max_mm_per_min>({168, 2, u32, "FEED_MAX", "mm/min"}),
+    bound<&TicketWords::estimated_time_s>({170, 2, u32, "EST_TIME", "s"}),
+    bound<&TicketWords::base_plane>({172, 1, u16, "BASE_PLANE", "index of the cap in the manifest, 0xFFFF none"}),
+    bound<&TicketWords::piece_no>({173, 1, u16, "PIECE_NO", "1.."}),
+    bound<&TicketWords::piece_count>({174, 1, u16, "PIECE_COUNT", ""}),
+    bound<&TicketWords::project_id>({175, 8, bytes, "PROJECT_ID", ""}),
+    bound<&TicketWords::created_ms>({183, 4, u64, "CREATED", "unix ms"}),
+    bound<&TicketWords::on_link_loss>({187, 1, u16, "ON_LINK_LOSS", "0 continue, 1 hold"}),
+    bound<&TicketWords::requirements>({188, 1, u16, "REQUIREMENTS", "b0 rehearsal required"}),
+    reserved<TicketWords>({189, 4, words, "reserved", "0"}),
+    bound<&TicketWords::cell_id>({193, 1, u16, "CELL_ID", "of the cell it is made for"}),
+    bound<&TicketWords::made_for>({194, 1, u16, "MADE_FOR", "b0 a simulated cell"}),
+    bound<&TicketWords::key_id>({195, 2, u32, "KEY_ID", "first 4 bytes of the SHA-256 of the public key"}),
+    reserved<TicketWords>({197, 1, words, "reserved", "0"}),
+    checksum<TicketWords>({198, 2, u32, "CRC", "CRC-32 over 100..197"}),
 };
 
 constexpr Field signature_fields[] = {
     {200, 32, bytes, "SIGNATURE", "Ed25519 over \"QCHOPPER-TICKET-1\" and the bytes of 100..197; all zero: unsigned"},
 };
 
-constexpr Field chunk_fields[] = {
-    {300, 2, u32, "OFFSET", "must be XFER_NEXT"},
-    {302, 1, u16, "LEN", "1..232 bytes"},
-    {303, 2, u32, "CRC", "CRC-32 over EPOCH, OWNER, JOB_ID, OFFSET, LEN and the data"},
-    {305, 116, bytes, "DATA", "ceil(LEN/2) registers of it are written"},
+void put_length(const Chunk& from, const Field&, WordWriter& to) {
+    to.u16(static_cast<std::uint16_t>(from.data.size()));
+}
+void take_length(Chunk& to, const Field&, WordReader& from) {
+    // One byte more than fits is enough to see that there are too many.
+    to.data.resize(std::min<std::size_t>(from.u16(), max_chunk_bytes + 1U));
+}
+void put_data(const Chunk& from, const Field&, WordWriter& to) {
+    to.bytes(from.data);
+}
+void take_data(Chunk& to, const Field&, WordReader& from) {
+    from.bytes(to.data);
+}
+
+constexpr Row<Chunk> chunk_rows[] = {
+    bound<&Chunk::offset>({300, 2, u32, "OFFSET", "must be XFER_NEXT"}),
+    Row<Chunk>{{302, 1, u16, "LEN", "1..232 bytes"}, Part::value, put_length, take_length},
+    bound<&Chunk::crc>({303, 2, u32, "CRC", "CRC-32 over EPOCH, OWNER, JOB_ID, OFFSET, LEN and the data"}),
+    Row<Chunk>{{305, 116, bytes, "DATA", "ceil(LEN/2) registers of it are written"}, Part::value, put_data, take_data},
 };
 
-constexpr Field heartbeat_fields[] = {
-    {500, 2, u32, "EPOCH", ""},
-    {502, 2, u32, "OWNER", ""},
-    {504, 1, u16, "COUNTER", "any, then it must change"},
+constexpr Row<Heartbeat> heartbeat_rows[] = {
+    bound<&Heartbeat::epoch>({500, 2, u32, "EPOCH", ""}),
+    bound<&Heartbeat::owner>({502, 2, u32, "OWNER", ""}),
+    bound<&Heartbeat::counter>({504, 1, u16, "COUNTER", "any, then it must change"}),
 };
+
+constexpr std::array status_fields = fields_of(status_rows);
+constexpr std::array result_fields = fields_of(result_rows);
+constexpr std::array command_fields = fields_of(command_rows);
+constexpr std::array ticket_fields = fields_of(ticket_rows);
+constexpr std::array chunk_fields = fields_of(chunk_rows);
+constexpr std::array heartbeat_fields = fields_of(heartbeat_rows);
+
+constexpr bool is_gapless(std::span<const Field> fields) {
+    for (std::size_t i = 1; i < fields.size(); ++i) {
+        if (fields[i].address != fields[i - 1].address + fields[i - 1].count) return false;
+    }
+    return true;
+}
+static_assert(is_gapless(status_fields) && is_gapless(result_fields) && is_gapless(command_fields));
+static_assert(is_gapless(ticket_fields) && is_gapless(chunk_fields) && is_gapless(heartbeat_fields));
+static_assert(chunk_fields.back().address == chunk_fields.front().address + chunk_head);
 
 }  // namespace
 
@@ -157,6 +196,31 @@ constexpr Block ticket_block{"TICKET", Side::holding, 100, 100, true, ticket_fie
 constexpr Block signature_block{"SIGNATURE", Side::holding, 200, 32, true, signature_fields, "of the ticket"};
 constexpr Block chunk_block{"CHUNK", Side::holding, 300, 121, true, chunk_fields, "a slice of the job file"};
 constexpr Block heartbeat_block{"HEARTBEAT", Side::holding, 500, 5, true, heartbeat_fields, "keeps the lease"};
+
+template <>
+std::span<const Row<Status>> rows_of() {
+    return status_rows;
+}
+template <>
+std::span<const Row<ResultWords>> rows_of() {
+    return result_rows;
+}
+template <>
+std::span<const Row<Command>> rows_of() {
+    return command_rows;
+}
+template <>
+std::span<const Row<TicketWords>> rows_of() {
+    return ticket_rows;
+}
+template <>
+std::span<const Row<Chunk>> rows_of() {
+    return chunk_rows;
+}
+template <>
+std::span<const Row<Heartbeat>> rows_of() {
+    return heartbeat_rows;
+}
 
 std::span<const Block* const> all_blocks() {
     static constexpr std::array<const Block*, 7> blocks{&status_block,    &result_block, &command_block,  &ticket_block,
@@ -169,6 +233,12 @@ const Field* field_named(const Block& block, const char* field_name) {
         if (std::strcmp(field.name, field_name) == 0) return &field;
     }
     return nullptr;
+}
+
+std::uint16_t address_of(const Block& block, const char* field_name) {
+    const Field* const field = field_named(block, field_name);
+    assert(field != nullptr);
+    return field->address;
 }
 
 }  // namespace qchopper

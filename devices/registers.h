@@ -80,6 +80,7 @@ enum class AckResult : std::uint16_t {
     lease_busy = 0x108,
     wrong_offset = 0x109,
     chunk_crc = 0x10A,
+    epoch_jump = 0x10B,
     wrong_state = 0x201,
     wrong_mode = 0x202,
     local_control = 0x203,
@@ -154,6 +155,8 @@ std::span<const Block* const> all_blocks();
 
 // Nothing if there is no field of that name.
 const Field* field_named(const Block& block, const char* field_name);
+// Of a field that is there.
+std::uint16_t address_of(const Block& block, const char* field_name);
 
 // As in the map, "NO_CONSENT"; and in words for the operator, "the operator at the cell did not consent".
 const char* name(AckResult result);

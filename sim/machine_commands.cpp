@@ -158,7 +158,7 @@ Answer store(CellState& cell, const Command& command, const CellHooks& hooks) {
     const Decoded<TicketWords> ticket = decode_ticket(cell.ticket_draft);
     if (!ticket.is_ok()) return {AckResult::ticket_crc, 0};
     const Uuid& id = ticket.value.job_id;
-    if (id == Uuid{} || command.job_id != id) return {AckResult::ticket_field, 101};
+    if (id == Uuid{} || command.job_id != id) return {AckResult::ticket_field, address_of(ticket_block, "JOB_ID")};
     const auto known = cell.memory.jobs.find(id);
     if (known != cell.memory.jobs.end()) {
         return {known->second.state == JobState::cancelled ? AckResult::cancelled : AckResult::job_id_reused, 0};
@@ -175,8 +175,10 @@ Answer store(CellState& cell, const Command& command, const CellHooks& hooks) {
         return {fault->result, fault->address};
     if (command.file_sha256 != ticket.value.file_sha256) return {AckResult::hash_mismatch, 0};
     const bool is_chunks = ticket.value.transfer == Transfer::chunks;
-    if (is_chunks && ticket.value.file_size > cell.limits.max_chunk_file) return {AckResult::store_full, 125};
-    if (ticket.value.file_size / 1024 >= cell.store_free_kib) return {AckResult::store_full, 125};
+    if (is_chunks && ticket.value.file_size > cell.limits.max_chunk_file)
+        return {AckResult::store_full, address_of(ticket_block, "FILE_SIZE")};
+    if (ticket.value.file_size / 1024 >= cell.store_free_kib)
+        return {AckResult::store_full, address_of(ticket_block, "FILE_SIZE")};
     cell.job = CellJob{};
     cell.job.ticket = ticket.value;
     cell.job.ticket_block = cell.ticket_draft;
@@ -353,7 +355,7 @@ void take_command(CellState& cell, std::span<const std::uint16_t> block, CellTim
     if (decoded.fault == WordFault::empty || decoded.fault == WordFault::length) return;
     if (!decoded.is_ok()) return cell::bad_frame(cell, cell::reason_of(decoded.fault), hooks);
     const Command& command = decoded.value;
-    const std::uint32_t crc = WordReader(block.subspan(58)).u32();
+    const std::uint32_t crc = command_crc(block);
     if (command.seq == 0) return cell::bad_frame(cell, AckResult::stale_seq, hooks);
     for (const Acknowledgement& last : cell.senders) {
         if (last.owner != command.owner || command.seq > last.seq) continue;

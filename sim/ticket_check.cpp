@@ -1,45 +1,55 @@
 #include "sim/ticket_check.h"
 
 #include <algorithm>
+#include <string>
 
 namespace qchopper {
 namespace {
 
-constexpr std::uint16_t box_min_at = 145;
-constexpr std::uint16_t box_max_at = 151;
-constexpr std::uint16_t stock_at = 157;
+// `vector` is BOX_MIN, BOX_MAX or STOCK.
+std::uint16_t axis_address(const char* vector, int axis) {
+    const std::string name = std::string(vector) + "_" + "XYZ"[axis];
+    return address_of(ticket_block, name.c_str());
+}
 
-std::uint16_t axis_address(std::uint16_t base, int axis) {
-    return static_cast<std::uint16_t>(base + 2 * axis);
+// The first register between two fields that is reserved and not zero.
+std::optional<std::uint16_t> used_reserve(std::span<const std::uint16_t> block, const char* from, const char* to) {
+    for (const Field& field : ticket_block.fields) {
+        if (std::string(field.name) != "reserved") continue;
+        if (field.address < address_of(ticket_block, from) || field.address > address_of(ticket_block, to)) continue;
+        for (std::uint16_t at = field.address; at < field.address + field.count; ++at) {
+            if (block[at - ticket_block.base] != 0) return at;
+        }
+    }
+    return std::nullopt;
 }
 
 }  // namespace
 
 std::optional<TicketFault> wrong_field(const TicketWords& t, std::span<const std::uint16_t> block,
                                        const CellLimits& limits) {
-    const auto field = [](std::uint16_t address) { return TicketFault{AckResult::ticket_field, address}; };
-    if (t.ticket_version != 1) return field(100);
-    if (t.job_id == Uuid{}) return field(101);
-    if (t.file_size == 0) return field(125);
-    if (t.transfer != Transfer::drop_folder && t.transfer != Transfer::chunks) return field(127);
-    if (!is_file_name(t.file_name)) return field(128);
-    if (t.unit != 1) return field(144);
+    const auto fault_at = [](std::uint16_t address) { return TicketFault{AckResult::ticket_field, address}; };
+    const auto field = [&](const char* name) { return fault_at(address_of(ticket_block, name)); };
+    if (t.ticket_version != 1) return field("TICKET_VERSION");
+    if (t.job_id == Uuid{}) return field("JOB_ID");
+    if (t.file_size == 0) return field("FILE_SIZE");
+    if (t.transfer != Transfer::drop_folder && t.transfer != Transfer::chunks) return field("TRANSFER");
+    if (!is_file_name(t.file_name)) return field("FILE_NAME");
+    if (t.unit != 1) return field("UNIT");
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
-        if (t.box_min[a] >= t.box_max[a]) return field(axis_address(box_min_at, axis));
-        if (t.stock[a] <= 0) return field(axis_address(stock_at, axis));
+        if (t.box_min[a] >= t.box_max[a]) return fault_at(axis_address("BOX_MIN", axis));
+        if (t.stock[a] <= 0) return fault_at(axis_address("STOCK", axis));
     }
-    if (t.material > 4) return field(163);
-    if (t.tool_diameter_um == 0) return field(165);
-    if (t.piece_no < 1 || t.piece_no > t.piece_count) return field(173);
-    if (t.on_link_loss != LinkLoss::go_on && t.on_link_loss != LinkLoss::hold) return field(187);
-    if (t.requirements > 1) return field(188);
-    for (std::uint16_t reserved = 189; reserved < 193; ++reserved) {
-        if (block[reserved - ticket_block.base] != 0) return field(reserved);
-    }
-    if (t.cell_id != limits.cell_id) return field(193);
-    if (t.made_for != 1) return field(194);  // this cell is simulated, and a real job is not for it
-    if (block[197 - ticket_block.base] != 0) return field(197);
+    if (t.material > 4) return field("MATERIAL");
+    if (t.tool_diameter_um == 0) return field("TOOL_DIAMETER");
+    if (t.piece_no < 1 || t.piece_no > t.piece_count) return field("PIECE_NO");
+    if (t.on_link_loss != LinkLoss::go_on && t.on_link_loss != LinkLoss::hold) return field("ON_LINK_LOSS");
+    if (t.requirements > 1) return field("REQUIREMENTS");
+    if (const auto used = used_reserve(block, "REQUIREMENTS", "CELL_ID")) return fault_at(*used);
+    if (t.cell_id != limits.cell_id) return field("CELL_ID");
+    if (t.made_for != 1) return field("MADE_FOR");  // this cell is simulated, and a real job is not for it
+    if (const auto used = used_reserve(block, "KEY_ID", "CRC")) return fault_at(*used);
     return std::nullopt;
 }
 
@@ -47,19 +57,19 @@ std::optional<TicketFault> does_not_fit(const TicketWords& t, const CellLimits& 
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         if (t.box_min[a] < 100 * limits.reach.min[axis])
-            return TicketFault{AckResult::envelope, axis_address(box_min_at, axis)};
+            return TicketFault{AckResult::envelope, axis_address("BOX_MIN", axis)};
         if (t.box_max[a] > 100 * limits.reach.max[axis])
-            return TicketFault{AckResult::envelope, axis_address(box_max_at, axis)};
+            return TicketFault{AckResult::envelope, axis_address("BOX_MAX", axis)};
         if (t.stock[a] > 100 * limits.max_stock[axis])
-            return TicketFault{AckResult::envelope, axis_address(stock_at, axis)};
+            return TicketFault{AckResult::envelope, axis_address("STOCK", axis)};
         // In 64 bits: two opposite ends of the range do not fit into 32.
         if (std::int64_t{t.box_max[a]} - t.box_min[a] > t.stock[a]) {
-            return TicketFault{AckResult::stock_too_small, axis_address(stock_at, axis)};
+            return TicketFault{AckResult::stock_too_small, axis_address("STOCK", axis)};
         }
     }
     const bool has_tool =
         limits.tools.empty() || std::find(limits.tools.begin(), limits.tools.end(), t.tool_no) != limits.tools.end();
-    if (!has_tool) return TicketFault{AckResult::tool, 164};
+    if (!has_tool) return TicketFault{AckResult::tool, address_of(ticket_block, "TOOL_NO")};
     return std::nullopt;
 }
 

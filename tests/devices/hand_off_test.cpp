@@ -63,7 +63,9 @@ struct PaperCell {
         }
         if (action.kind == Kind::read_status) input.status = status;
         if (action.kind == Kind::read_result) input.result = result;
-        if (action.kind == Kind::write_command) take(action.command);
+        if (action.kind == Kind::read_result && twist) twist(*input.result);
+        if (action.kind == Kind::write_command) written.push_back(action.command.command);
+        if (action.kind == Kind::write_command && freeze_s == 0) take(action.command);
         return true;
     }
 
@@ -110,6 +112,7 @@ struct PaperCell {
                 result.query_owner = command.owner;
                 result.query_seq = command.seq;
                 if (status.job_id == command.job_id) result.job_state = status.job_state;
+                result.starts = status.job_id == command.job_id && status.job_state >= JobState::running ? 1 : 0;
                 result.file_sha256 = plan.ticket.file_sha256;
                 break;
             default:
@@ -139,11 +142,13 @@ struct PaperCell {
     Status status;
     ResultWords result;
     std::uint32_t tokens = 1000;
-    std::vector<Command> commands;
+    std::vector<Command> commands;  // that the cell has taken; a frozen one takes none
+    std::vector<CellCommand> written;
     std::vector<std::string> lines;
     std::function<AckResult(const Command&)> grant;
     std::function<bool(const HandOffAction&)> lose;
     std::function<int(const HandOffAction&)> refuse;
+    std::function<void(ResultWords&)> twist;  // what the cell says to QUERY
 };
 
 void end_the_job(PaperCell& cell) {
@@ -364,6 +369,360 @@ TEST(HandOff, AStopOnRequestAtAnyMomentBeforeStartIsConfirmedAndNothingIsStarted
         }
     }
     FAIL() << "never came to START";
+}
+
+// Brings a hand-off to its n-th turn; false if it ended before.
+bool bring_to(PaperCell& cell, int turns) {
+    for (int n = 0; n < turns; ++n) {
+        if (cell.now_s > 110) cell.status.job_state = JobState::ended;
+        if (!cell.step()) return false;
+    }
+    return true;
+}
+
+void stop_on_request(PaperCell& cell) {
+    cell.cancelled = true;
+    cell.input.cancelled = true;
+    cell.written.clear();
+}
+
+TEST(HandOff, AFrozenCellIsLeftInTwoSecondsWhateverTheStep) {
+    int started = 0;
+    int not_started = 0;
+    for (int turns = 1;; ++turns) {
+        PaperCell cell;
+        if (!bring_to(cell, turns)) break;
+        cell.freeze_s = cell.now_s;
+        const double frozen_at_s = cell.now_s;
+        bool ended = false;
+        while (cell.now_s < frozen_at_s + 4 && !ended) ended = !cell.step();
+        ASSERT_FALSE(ended) << turns << cell.state.why;
+        const HandOff before = cell.state;
+        stop_on_request(cell);
+        const double asked_s = cell.now_s;
+        cell.run();
+        EXPECT_LE(cell.now_s - asked_s, 2.05) << turns << " " << name(before.step);
+        EXPECT_EQ(cell.state.verdict, before.is_started   ? StartVerdict::started
+                                      : before.start_sent ? StartVerdict::unknown
+                                                          : StartVerdict::not_started)
+            << turns << cell.state.why;
+        EXPECT_TRUE(cell.state.is_cancelled);
+        EXPECT_FALSE(cell.state.why.empty());
+        const auto was_written = [&](CellCommand command) {
+            return std::count(cell.written.begin(), cell.written.end(), command) > 0;
+        };
+        EXPECT_EQ(was_written(CellCommand::cancel), before.is_stored && !before.start_sent && !before.is_started);
+        if (before.claim_sent && !(before.start_sent && !before.is_started)) {
+            EXPECT_TRUE(was_written(CellCommand::release)) << turns << " " << name(before.step);
+        }
+        started += cell.state.verdict == StartVerdict::started ? 1 : 0;
+        not_started += cell.state.verdict == StartVerdict::not_started ? 1 : 0;
+        if (before.step >= HandOffStep::release) break;
+    }
+    EXPECT_GT(started, 3);
+    EXPECT_GT(not_started, 10);
+}
+
+TEST(HandOff, ALostLinkIsLeftInTwoSecondsWhateverTheStep) {
+    for (int turns = 1;; ++turns) {
+        PaperCell cell;
+        if (!bring_to(cell, turns)) break;
+        cell.lose = [](const HandOffAction& action) { return action.kind != Kind::wait; };
+        const double lost_at_s = cell.now_s;
+        bool ended = false;
+        while (cell.now_s < lost_at_s + 1.5 && !ended) ended = !cell.step();
+        if (ended) continue;
+        const HandOff before = cell.state;
+        stop_on_request(cell);
+        const double asked_s = cell.now_s;
+        cell.run();
+        EXPECT_LE(cell.now_s - asked_s, 2.05) << turns << " " << name(before.step);
+        EXPECT_EQ(cell.state.verdict, before.is_started   ? StartVerdict::started
+                                      : before.start_sent ? StartVerdict::unknown
+                                                          : StartVerdict::not_started);
+        if (before.step >= HandOffStep::release) break;
+    }
+}
+
+TEST(HandOff, AskedToStopWhenTheLinkComesBackTheCellConfirmsAllTheSame) {
+    PaperCell cell;
+    while (cell.state.step != HandOffStep::prepare && cell.step()) {
+    }
+    double back_at_s = 1e9;
+    cell.lose = [&](const HandOffAction& action) { return action.kind != Kind::wait && cell.now_s < back_at_s; };
+    while (cell.state.lost_since_s < 0 && cell.step()) {
+    }
+    stop_on_request(cell);
+    back_at_s = cell.now_s + 0.7;
+    cell.run();
+    EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+    EXPECT_EQ(cell.count(CellCommand::cancel), 1) << cell.order();
+    EXPECT_EQ(cell.commands.back().command, CellCommand::release);
+    EXPECT_EQ(cell.state.why.find("did not confirm"), std::string::npos) << cell.state.why;
+}
+
+TEST(HandOff, AskedToStopBetweenStartAndItsAcknowledgementWhatTheCellSaysThenIsReported) {
+    for (const AckResult answer : {AckResult::ok, AckResult::safety_open, AckResult::none}) {
+        PaperCell cell;
+        int asked = 0;
+        cell.grant = [&](const Command& c) {
+            return c.command == CellCommand::start && ++asked < 2 ? AckResult::none
+                   : c.command == CellCommand::start              ? answer
+                                                                  : AckResult::ok;
+        };
+        while (asked < 1 && cell.step()) {
+        }
+        stop_on_request(cell);
+        const double asked_s = cell.now_s;
+        cell.run();
+        EXPECT_LE(cell.now_s - asked_s, 2.05);
+        EXPECT_EQ(cell.state.is_cancelled, answer != AckResult::safety_open);  // that end is the cell's own
+        EXPECT_EQ(cell.state.verdict, answer == AckResult::ok     ? StartVerdict::started
+                                      : answer == AckResult::none ? StartVerdict::unknown
+                                                                  : StartVerdict::not_started)
+            << cell.state.why;
+        EXPECT_EQ(cell.count(CellCommand::cancel), answer == AckResult::safety_open ? 1 : 0);
+    }
+}
+
+void expect_leaves_with(const PaperCell& cell, const std::string& last_commands) {
+    const std::string order = cell.order();
+    EXPECT_TRUE(order.ends_with(last_commands)) << order;
+}
+
+TEST(HandOff, AfterAnExceptionTheCellIsGivenBack) {
+    for (const int code : {1, 2, 3, 4}) {
+        for (const CellCommand at : {CellCommand::query, CellCommand::verify, CellCommand::prepare}) {
+            PaperCell cell;
+            cell.refuse = [&](const HandOffAction& action) {
+                return action.kind == Kind::write_command && action.command.command == at ? code : 0;
+            };
+            cell.run();
+            EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+            EXPECT_NE(cell.state.why.find("exception " + std::to_string(code)), std::string::npos) << cell.state.why;
+            expect_leaves_with(cell, at == CellCommand::query ? "CLAIM RELEASE " : " CANCEL RELEASE ");
+        }
+    }
+    // A cell that refuses everything from some moment on is left all the same.
+    for (const HandOffStep step : {HandOffStep::prepare, HandOffStep::run}) {
+        PaperCell cell;
+        while (cell.state.step != step && cell.step()) {
+        }
+        cell.refuse = [](const HandOffAction& action) { return action.kind == Kind::wait ? 0 : 4; };
+        const double began_s = cell.now_s;
+        cell.run();
+        EXPECT_LT(cell.now_s - began_s, 1);
+        EXPECT_EQ(cell.state.verdict, step == HandOffStep::run ? StartVerdict::started : StartVerdict::not_started);
+    }
+}
+
+TEST(HandOff, TheResultOfAnotherJobIsNotAskedForWithoutEnd) {
+    PaperCell before;
+    before.twist = [](ResultWords& result) { result.job_id = other_job; };
+    before.run();
+    EXPECT_EQ(before.state.verdict, StartVerdict::not_started);
+    EXPECT_NE(before.state.why.find(to_text(other_job)), std::string::npos) << before.state.why;
+    EXPECT_LE(before.count(CellCommand::query), 12);
+    expect_leaves_with(before, "QUERY RELEASE ");
+
+    PaperCell after;
+    while (after.state.step != HandOffStep::run && after.step()) {
+    }
+    after.twist = before.twist;
+    end_the_job(after);
+    EXPECT_EQ(after.state.verdict, StartVerdict::started);  // STATUS has shown that
+    EXPECT_FALSE(after.state.result.has_value());
+    EXPECT_LE(after.count(CellCommand::query), 14);
+}
+
+TEST(HandOff, AQueryOvertakenByThatOfAnotherClientIsAskedAgain) {
+    PaperCell cell;
+    int overtaken = 0;
+    cell.twist = [&](ResultWords& result) {
+        if (++overtaken % 4 != 0) result.query_owner = 4711;
+    };
+    end_the_job(cell);
+    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+    EXPECT_EQ(cell.count(CellCommand::query), 8);
+    EXPECT_EQ(cell.count(CellCommand::start), 1);
+}
+
+void expect_contradiction(const PaperCell& cell, const std::string& named) {
+    EXPECT_EQ(cell.state.verdict, StartVerdict::unknown) << cell.state.why;
+    EXPECT_NE(cell.state.why.find("contradicts"), std::string::npos) << cell.state.why;
+    EXPECT_NE(cell.state.why.find(named), std::string::npos) << cell.state.why;
+    EXPECT_FALSE(cell.state.to_do.empty());
+    EXPECT_LE(cell.count(CellCommand::start), 1);
+    expect_leaves_with(cell, "RELEASE ");
+    EXPECT_LT(cell.now_s, 140);
+}
+
+TEST(HandOff, NumbersOfStartsThatCannotBeAreAContradiction) {
+    for (const std::uint32_t starts : {0U, 2U, 0xFFFFFFFFU}) {
+        PaperCell cell;
+        cell.twist = [&](ResultWords& result) {
+            if (cell.state.start_sent) result.starts = starts;
+        };
+        end_the_job(cell);
+        expect_contradiction(cell, "STARTS " + std::to_string(starts));
+    }
+    PaperCell before;
+    before.twist = [](ResultWords& result) { result.starts = 1; };  // of a job that it does not know
+    before.run();
+    expect_contradiction(before, "STARTS 1");
+    EXPECT_EQ(before.count(CellCommand::start), 0);
+}
+
+TEST(HandOff, AStartThatIsAcknowledgedAndNeverSeenIsUnknown) {
+    for (const JobState shown : {JobState::prepared, JobState::stored, JobState::none}) {
+        PaperCell cell;
+        cell.grant = [&](const Command& c) {
+            if (c.command != CellCommand::start) return AckResult::ok;
+            cell.status.ack_owner = c.owner;
+            cell.status.ack_seq = c.seq;
+            cell.status.ack_command = c.command;
+            cell.status.ack_result = AckResult::ok;
+            cell.status.job_state = shown;
+            if (shown == JobState::none) cell.status.job_id = {};
+            return AckResult::none;
+        };
+        cell.run();
+        expect_contradiction(cell, "acknowledged START");
+        EXPECT_NE(cell.state.why.find(name(shown)), std::string::npos) << cell.state.why;
+    }
+}
+
+TEST(HandOff, AStartThatIsRefusedWhileTheJobIsShownAsRunningIsUnknown) {
+    PaperCell cell;
+    cell.grant = [&](const Command& c) {
+        if (c.command == CellCommand::start) cell.status.job_state = JobState::running;
+        return c.command == CellCommand::start ? AckResult::token_bad : AckResult::ok;
+    };
+    cell.run();
+    expect_contradiction(cell, "TOKEN_BAD");
+}
+
+TEST(HandOff, StatusAndResultThatDisagreeWithoutEndAreUnknown) {
+    // STATUS shows the end, RESULT says that it runs; STATUS shows no job, RESULT says that it runs.
+    for (const bool shown : {true, false}) {
+        PaperCell cell;
+        while (cell.state.step != HandOffStep::run && cell.step()) {
+        }
+        cell.status.job_state = JobState::ended;
+        if (!shown) cell.status.job_id = {};
+        cell.twist = [](ResultWords& result) {
+            result.job_state = JobState::running;
+            result.starts = 1;
+        };
+        cell.run();
+        expect_contradiction(cell, "running");
+    }
+    // STATUS showed it running, and now neither it nor RESULT does.
+    PaperCell back;
+    while (back.state.step != HandOffStep::run && back.step()) {
+    }
+    back.status.job_state = JobState::prepared;
+    back.run();
+    expect_contradiction(back, "prepared");
+}
+
+TEST(HandOff, AnotherFileThanOursUnderOurJobIsAContradictionAfterTheStart) {
+    PaperCell cell;
+    cell.twist = [&](ResultWords& result) {
+        if (cell.state.is_started) result.file_sha256.fill(1);
+    };
+    end_the_job(cell);
+    expect_contradiction(cell, "another file");
+}
+
+TEST(HandOff, ACellThatAcknowledgesAndDoesNothingIsNotTriedWithoutEnd) {
+    PaperCell lazy;  // says OK to Reset and stays in Stopped
+    lazy.grant = [&](const Command& c) {
+        if (c.command != CellCommand::reset) return AckResult::ok;
+        lazy.status.ack_owner = c.owner;
+        lazy.status.ack_seq = c.seq;
+        lazy.status.ack_command = c.command;
+        lazy.status.ack_result = AckResult::ok;
+        return AckResult::none;
+    };
+    lazy.run();
+    EXPECT_EQ(lazy.state.fault, DeviceFault::busy);
+    EXPECT_LE(lazy.count(CellCommand::reset) + lazy.count(CellCommand::clear), 12);
+
+    PaperCell tokenless;
+    tokenless.tokens = 0xFFFFFFFF;  // the next one is 0
+    tokenless.grant = [&](const Command&) {
+        tokenless.tokens = 0xFFFFFFFF;
+        return AckResult::ok;
+    };
+    tokenless.run();
+    EXPECT_EQ(tokenless.state.verdict, StartVerdict::not_started);
+    EXPECT_NE(tokenless.state.why.find("token"), std::string::npos) << tokenless.state.why;
+    EXPECT_LE(tokenless.count(CellCommand::prepare), 5);
+    expect_leaves_with(tokenless, " CANCEL RELEASE ");
+
+    PaperCell cutting;  // answers to everything, but cuts the link at every CLAIM
+    int claims = 0;
+    cutting.lose = [&](const HandOffAction& action) {
+        if (action.kind != Kind::write_command || action.command.command != CellCommand::claim) return false;
+        ++claims;
+        return true;
+    };
+    cutting.run();
+    EXPECT_EQ(cutting.state.verdict, StartVerdict::not_started);
+    EXPECT_LE(claims, 12);
+}
+
+TEST(HandOff, AnAcknowledgementOfAnotherCommandUnderOurNumberIsNotTaken) {
+    PaperCell cell;
+    cell.grant = [&](const Command& c) {
+        if (c.command != CellCommand::start) return AckResult::ok;
+        cell.status.ack_owner = c.owner;
+        cell.status.ack_seq = c.seq;
+        cell.status.ack_command = CellCommand::prepare;
+        cell.status.ack_result = AckResult::ok;
+        return AckResult::none;
+    };
+    cell.run();
+    expect_contradiction(cell, "PREPARE");
+}
+
+TEST(HandOff, TheFirstStatusIsTriedAgainBeforeItIsGivenUp) {
+    const auto first = [](HandOffInput failure, int failures) {
+        PaperCell cell;
+        cell.step();
+        for (int n = 0; n < 100 && cell.state.step != HandOffStep::finished; ++n) {
+            if (cell.action.kind == Kind::read_status && failures-- > 0) cell.input = failure;
+            if (cell.state.step > HandOffStep::check_cell || !cell.step()) break;
+        }
+        return cell;
+    };
+    HandOffInput silent;
+    silent.end = BusEnd::lost;
+    silent.why = "no answer in time";
+    EXPECT_GT(first(silent, 2).state.step, HandOffStep::check_cell);
+    EXPECT_EQ(first(silent, 99).state.fault, DeviceFault::unreachable);
+    EXPECT_LT(first(silent, 99).now_s, 103);
+    HandOffInput alien = silent;
+    alien.is_alien = true;
+    EXPECT_GT(first(alien, 1).state.step, HandOffStep::check_cell);
+    EXPECT_EQ(first(alien, 99).state.fault, DeviceFault::protocol);
+    HandOffInput damaged = silent;
+    damaged.fault = WordFault::crc;
+    EXPECT_GT(first(damaged, 2).state.step, HandOffStep::check_cell);
+    EXPECT_EQ(first(damaged, 99).state.fault, DeviceFault::protocol);
+    const auto exception = [](int code) {
+        HandOffInput input;
+        input.end = BusEnd::exception;
+        input.exception = code;
+        return input;
+    };
+    EXPECT_EQ(first(exception(6), 99).state.fault, DeviceFault::busy);
+    EXPECT_EQ(first(exception(2), 99).state.fault, DeviceFault::protocol);
+    for (const int code : {4, 10, 11}) {
+        EXPECT_GT(first(exception(code), 2).state.step, HandOffStep::check_cell) << code;
+        EXPECT_EQ(first(exception(code), 99).state.fault, DeviceFault::unreachable) << code;
+    }
 }
 
 TEST(HandOff, WhatStandsInTheWayIsClearedOrNamed) {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -71,6 +72,26 @@ TEST(Registers, WellKnownFieldsLieWhereTheyWereAgreed) {
     EXPECT_EQ(at(heartbeat_block, "NO_SUCH_FIELD"), -1);
 }
 
+// Offsets and addresses stand in the tables of devices/registers.cpp and nowhere else.
+TEST(Registers, NoOffsetStandsOutsideTheTables) {
+    const std::regex offset(
+        R"((first|subspan|field|skip|axis_address)\(\s*[0-9]{2,}|block\[[0-9]|_(block|field|full|tool), ?[0-9]{2,}|)"
+        R"(_at = [0-9]{2,}|::(tool|envelope|ticket_field|store_full), [1-9]|, (58|96|98)\))");
+    int files = 0;
+    for (const std::string room : {"devices", "sim"}) {
+        for (const auto& entry :
+             std::filesystem::directory_iterator(std::filesystem::path(QCHOPPER_SOURCE_DIR) / room)) {
+            if (entry.path().filename() == "registers.cpp") continue;
+            std::ifstream file(entry.path());
+            ++files;
+            for (std::string line; std::getline(file, line);) {
+                EXPECT_FALSE(std::regex_search(line, offset)) << entry.path() << ": " << line;
+            }
+        }
+    }
+    EXPECT_GT(files, 30);
+}
+
 TEST(Registers, TheNumbersOfTheStatesAreThoseOfPackTags) {
     const char* names[] = {"Undefined", "Clearing",   "Stopped",      "Starting",  "Idle",       "Suspended",
                            "Execute",   "Stopping",   "Aborting",     "Aborted",   "Holding",    "Held",
@@ -78,6 +99,7 @@ TEST(Registers, TheNumbersOfTheStatesAreThoseOfPackTags) {
     for (std::uint16_t n = 0; n <= last_pack_state; ++n) EXPECT_STREQ(name(static_cast<PackState>(n)), names[n]);
     EXPECT_STREQ(name(static_cast<PackState>(18)), "unknown");
     EXPECT_STREQ(name(static_cast<AckResult>(0x306)), "HASH_MISMATCH");
+    EXPECT_STREQ(name(static_cast<AckResult>(0x10B)), "EPOCH_JUMP");
     EXPECT_STREQ(name(static_cast<AckResult>(0x9999)), "unknown result");
 }
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <random>
 
 #include "devices/hand_off.h"
@@ -24,6 +25,7 @@ struct Odds {
     int late = 0;  // a lost write that arrives later, on a dead connection
     int twice = 0;
     int power_cut = 0;
+    int stop = 0;  // the caller asks to stop
 };
 
 class Trial {
@@ -60,8 +62,13 @@ class Trial {
             HandOffTurn turn = advance(plan_, std::move(state), input, seconds());
             state = std::move(turn.state);
             for (const std::string& line : turn.lines) log += line + "\n";
-            if (turn.action.kind == Kind::finish) return state;
+            if (turn.action.kind == Kind::finish) {
+                ended_s = seconds();
+                return state;
+            }
             input = act(turn.action);
+            if (!stopped_s && happens(odds_.stop)) stopped_s = seconds();
+            input.cancelled = stopped_s.has_value();
             if (happens(odds_.power_cut)) {
                 log += "  (power cut)\n";
                 boot_cell();
@@ -79,6 +86,8 @@ class Trial {
     }
 
     std::uint32_t starts() const { return cell_.memory.starts_total; }
+    std::optional<double> stopped_s;  // when the caller asked to stop
+    double ended_s = 0;
     std::string log;
 
  private:
@@ -199,6 +208,10 @@ Tally try_many(std::uint32_t seeds, Odds odds) {
         if (end.verdict == StartVerdict::not_started) {
             EXPECT_EQ(starts, 0U) << seed << "\n" << trial.log;
         }
+        if (trial.stopped_s) {
+            // The last call under way, of a second here, is not cut short by this link.
+            EXPECT_LE(trial.ended_s - *trial.stopped_s, 2 + 1.1) << seed << "\n" << trial.log;
+        }
         if (testing::Test::HasFailure()) break;
     }
     return tally;
@@ -223,6 +236,14 @@ TEST(HandOffFaults, WithAVeryBadLinkTheReportIsStillTrue) {
 TEST(HandOffFaults, WithPowerCutsTheReportIsTrue) {
     const Tally tally = try_many(1500, {30, 30, 500, 30, 15});
     EXPECT_GT(tally.started, 100);
+}
+
+TEST(HandOffFaults, AskedToStopAtAnyMomentTheReportIsTrueAndComesInTime) {
+    for (const Odds odds : {Odds{0, 0, 0, 0, 0, 10}, Odds{60, 60, 500, 60, 10, 10}}) {
+        const Tally tally = try_many(1500, odds);
+        EXPECT_GT(tally.started, 100);
+        EXPECT_GT(tally.not_started, 100);
+    }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "devices/device_error.h"
+#include "devices/first_contact.h"
 #include "segment/error.h"
 #include "tests/sim/cell_rig.h"
 
@@ -261,6 +262,73 @@ TEST(HandOffOverTcp, ASecondDispatcherIsToldThatTheCellIsTaken) {
     expect_complete(rig.dispatch(job, quick_dispatch(rig.drop), context));
     EXPECT_TRUE(second_was_refused);
     EXPECT_EQ(rig.cell->status().starts_total, 1U);
+}
+
+TEST(HandOffOverTcp, QueriesOfAnotherClientOvertakeTheAcknowledgementsAndNothingIsDoneTwice) {
+    const Rig rig;
+    const Job job = make_job(rig.folder.path, 100, 20);
+    std::atomic<bool> ends = false;
+    std::thread other([&] {
+        const auto bus = connect(*rig.cell);
+        Command query;
+        query.command = CellCommand::query;
+        query.owner = 4711;
+        query.job_id = Uuid{9};
+        while (!ends) {
+            ++query.seq;
+            EXPECT_TRUE(bus->write_holding(command_block.base, encode(query)).is_ok());
+            std::this_thread::sleep_for(std::chrono::milliseconds(7));
+        }
+    });
+    DispatchOptions options = quick_dispatch(rig.drop);
+    options.timings.resend_s = 0.02;
+    const JobOutcome outcome = rig.dispatch(job, options);
+    ends = true;
+    other.join();
+    expect_complete(outcome);
+    EXPECT_EQ(rig.cell->status().starts_total, 1U);
+}
+
+TEST(HandOffOverTcp, TheFirstStatusIsAskedForAgainAndWhatFailedIsNamed) {
+    const Rig rig;
+    // Eight connections are all that the cell has; the ninth is closed at once.
+    std::vector<std::unique_ptr<rig::RawSocket>> others;
+    for (int n = 0; n < 8; ++n) {
+        others.push_back(std::make_unique<rig::RawSocket>(rig.cell->port()));
+        others.back()->send(rig::frame(1, rig::read_request(4, 0, 1)));
+        EXPECT_EQ(others.back()->receive(11).size(), 11U);
+    }
+    ModbusTcpBus bus({"127.0.0.1", rig.cell->port()});
+    try {
+        read_first_status(bus, "cell-1", {});
+        FAIL() << "the cell had no connection left";
+    } catch (const DeviceError& error) {
+        EXPECT_EQ(error.fault, DeviceFault::unreachable);
+        EXPECT_NE(std::string(error.what()).find("cell-1: the cell does not answer"), std::string::npos)
+            << error.what();
+    }
+    std::thread leaving([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(600));
+        others.clear();
+    });
+    const std::optional<Status> status = read_first_status(bus, "cell-1", {});
+    leaving.join();
+    ASSERT_TRUE(status.has_value());
+    EXPECT_TRUE(status->has(flag::simulated));
+}
+
+TEST(HandOffOverTcp, AskedToStopBeforeTheFirstStatusThereIsNone) {
+    const Rig rig;
+    const std::atomic<bool> cancelled = true;
+    Context context;
+    context.cancelled = &cancelled;
+    const auto bus = connect(*rig.cell);
+    EXPECT_FALSE(read_first_status(*bus, "cell-1", context).has_value());
+    const Job job = make_job(rig.folder.path);
+    const JobOutcome outcome = rig.dispatch(job, quick_dispatch(rig.drop), context);
+    EXPECT_EQ(outcome.verdict, StartVerdict::not_started);
+    EXPECT_TRUE(outcome.cancelled);
+    EXPECT_EQ(rig.cell->status().ack_seq, 0U);
 }
 
 TEST(HandOffOverTcp, AJobIdThatHasRunIsTakenUpAndNotStartedAgain) {
