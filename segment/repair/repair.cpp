@@ -300,7 +300,8 @@ class Repairing {
         report_.open_edges = faults.open + faults.inconsistent + faults.non_manifold;
         if (report_.open_edges > 0) report_.first_open_edge = mesh_.points[mesh_.triangles[faults.first_triangle][0]];
         report_.volume = faults.is_closed() ? volume_mm3(mesh_) : 0;
-        if (!options_.measure_deviation) return;
+        // Nobody is told of a result that is refused, and for a sheet, which lies on what closes it, it takes long.
+        if (!options_.measure_deviation || !(report_.is_solid() || options_.fill.fill == Fill::none)) return;
         const double unit = options_.mm_per_unit;
         for (Vec3& p : before_.points) p = unit * p;
         TriangleMesh after = mesh_;

@@ -29,7 +29,7 @@ struct RepairOptions {
     bool smooth_marks = false;
     MarkOptions marks;   // used with smooth_marks
     double wrap_mm = 0;  // last resort: wrap the scan with a ball of this radius; 0: off
-    bool measure_deviation = false;
+    bool measure_deviation = false;  // of a result that is a solid, or was meant to stay open
 };
 
 struct Repaired {
