@@ -158,6 +158,11 @@ struct Parser {
         add_common(c, common);
     }
 
+    void add_scale(CLI::App* c, std::optional<double>& scale) {
+        c->add_option("--scale", scale, "enlarge by this factor; recorded, and shown as a warning")
+            ->check(number_between(1e-6, 1e6, "a factor above 0"));
+    }
+
     void add_repair_choices(CLI::App* c, RepairChoiceArguments& a) {
         c->add_option("--weld", a.weld_mm, "make one point of border points that lie within so many mm (off)")
             ->check(number_between(0, many, "a length in mm"));
@@ -179,6 +184,7 @@ struct Parser {
         c->add_option("-o,--out", repair.out, "the file to write: .ply, which keeps every bit, or .stl")->required();
         c->add_option("--units", repair.units, "what one unit of the file is: mm, cm, m, in")
             ->check(one_of({"mm", "cm", "m", "in"}));
+        add_scale(c, repair.scale);
         add_repair_choices(c, repair);
         c->add_option("--crumbs", repair.crumbs, "solids too small to be pieces: keep or drop (keep)")
             ->check(one_of({"keep", "drop"}));
@@ -200,8 +206,7 @@ struct Parser {
                     "mend places where the scan runs through itself; the cut copes with them");
         c->add_option("--units", a.units, "what one unit of the scan is: mm, cm, m, in")
             ->check(one_of({"mm", "cm", "m", "in"}));
-        c->add_option("--scale", a.scale, "enlarge by this factor; recorded, and shown as a warning")
-            ->check(number_between(1e-6, 1e6, "a factor above 0"));
+        add_scale(c, a.scale);
         c->add_option("--cell", a.cell, "the cell file (docs/cell-file.md)");
         c->add_option("--preset", a.preset, "weights and stop rule by name: bunny, femur, vertebrae, skull")
             ->check(one_of({"bunny", "femur", "vertebrae", "skull"}));

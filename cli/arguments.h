@@ -39,6 +39,7 @@ struct RepairArguments : RepairChoiceArguments {
     std::filesystem::path scan;
     std::filesystem::path out;
     std::optional<std::string> units;
+    std::optional<double> scale;
     std::optional<std::string> crumbs;  // keep | drop
     bool keep_self_intersections = false;
     std::optional<double> mark_width;  // mm, of the widest mark

@@ -42,6 +42,13 @@ std::string size_line(const InspectedFile& file) {
            " (the file has no unit: say --units)";
 }
 
+std::string volume_line(const InspectedFile& file) {
+    const double volume = file.inspection.volume;
+    if (!file.units) return fixed(volume, 6) + " unit^3";
+    const double unit = mm_per(unit_named(*file.units));
+    return fixed(volume, 6) + " " + *file.units + "^3, " + volume_in_words(unit * unit * unit * volume);
+}
+
 void add_faults(std::vector<std::string>& text, const Inspection& i) {
     const std::pair<const char*, std::size_t> faults[] = {
         {"edges of more than two faces", i.non_manifold},
@@ -109,7 +116,7 @@ std::vector<std::string> lines(const InspectedFile& file) {
                        percent(i.crumb_area_share) + " of the surface");
     }
     add_holes(text, i, unit);
-    text.push_back("volume       " + fixed(i.volume, 6) + " " + unit + "^3" + (i.is_closed() ? "" : " (not closed)"));
+    text.push_back("volume       " + volume_line(file) + (i.is_closed() ? "" : " (not closed)"));
     text.push_back("area         " + fixed(i.area, 6) + " " + unit + "^2");
     add_faults(text, i);
     add_self_intersections(text, i);

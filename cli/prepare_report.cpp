@@ -66,10 +66,10 @@ bool PreparedProject::all_fit() const {
 
 std::vector<std::string> table(const PreparedProject& prepared, const Cell& cell) {
     std::vector<std::vector<std::string>> rows{
-        {"piece", "faces", "litres", "box mm", "block", "base", "undercut", "fits"}};
+        {"piece", "faces", "volume", "box mm", "block", "base", "undercut", "fits"}};
     for (const PieceReport& p : prepared.pieces) {
         const Setup& s = p.carving.setup;
-        rows.push_back({p.name, with_commas(p.faces), fixed(p.volume_mm3 / 1e6, 3), lengths(s.box.size()),
+        rows.push_back({p.name, with_commas(p.faces), volume_in_words(p.volume_mm3), lengths(s.box.size()),
                         cell.stock[s.stock].name, s.base ? "cut " + std::to_string(*s.base) : "none",
                         fixed(s.undercut, 3), p.job.empty() ? "no" : "yes"});
     }
@@ -79,7 +79,7 @@ std::vector<std::string> table(const PreparedProject& prepared, const Cell& cell
         double volume = 0;
         for (const SolidRecord& c : prepared.project.crumb_list) volume += c.volume_mm3;
         lines.push_back(
-            counted(crumbs, "crumb") + " (" + fixed(volume, 1) + " mm3 in all), listed in project.json" +
+            counted(crumbs, "crumb") + " (" + volume_in_words(volume) + " in all), listed in project.json" +
             (prepared.project.crumbs == CrumbChoice::keep ? " and kept in pieces/crumbs.ply" : ", dropped"));
     }
     const auto jobs = std::count_if(prepared.pieces.begin(), prepared.pieces.end(),

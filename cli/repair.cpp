@@ -21,6 +21,7 @@ IntakeOptions options_of(const RepairArguments& a) {
     };
     IntakeOptions options;
     if (a.units) options.mm_per_unit = mm_per(unit_named(*a.units));
+    options.scale = a.scale.value_or(1);
     options.may_lack_unit = !a.weld_mm && !a.smooth_marks && !a.wrap_mm;  // nothing is said in mm
     RepairChoices choices = repair_choices(a);
     choices.resolve_self_intersections = !a.keep_self_intersections;
@@ -55,6 +56,7 @@ int run(const RepairArguments& arguments, Terminal& terminal) {
     const IntakeOptions options = options_of(arguments);
     check_output(arguments.out);
     RepairedScan scan = repair_scan(arguments.scan, options, terminal.context());
+    enlarge(scan, options.scale);
     if (is_stl && !is_single_precision(scan.mesh)) {
         scan.warnings.emplace_back("STL holds single precision: points are rounded; a .ply file keeps every bit.");
     }

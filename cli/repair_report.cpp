@@ -128,6 +128,10 @@ std::vector<std::string> lines(const RepairedScan& scan, const RepairArguments& 
         text.push_back(step.name + std::string(step.name.size() < 13 ? 13 - step.name.size() : 1, ' ') + step.words);
     }
     if (r.deviation) text.push_back("distance     " + distance_line(scan));
+    if (r.open_edges == 0 && scan.mm_per_unit) {
+        const double unit = *scan.mm_per_unit;
+        text.push_back("volume       " + volume_in_words(unit * unit * unit * r.volume));
+    }
     text.push_back("verdict      " + verdict(r));
     return text;
 }
@@ -141,6 +145,7 @@ std::string document(const RepairedScan& scan, const RepairArguments& arguments)
         {"format", name_of(scan.format)},
         {"sha256", to_hex(scan.sha256)},
         {"units", scan.mm_per_unit ? Json(name_of(unit_of(*scan.mm_per_unit))) : Json()},
+        {"scale", arguments.scale.value_or(1)},
         {"faces_in", r.faces_in},
         {"vertices_in", r.points_in},
         {"faces", r.faces_out},

@@ -73,10 +73,10 @@ std::vector<std::string> preview_lines(const Preview& p, const Project& project)
                    (p.outline.loops.size() == 1 ? " loop, " : " loops, ") + fixed(p.outline.length_mm, 1) +
                    " mm long, within " + in_words(p.outline.box.min, 1) + " to " + in_words(p.outline.box.max, 1) +
                    " mm");
-    std::vector<std::vector<std::string>> rows{{"would make", "side", "faces", "litres"}};
+    std::vector<std::vector<std::string>> rows{{"would make", "side", "faces", "volume"}};
     for (const SolidPrice& s : p.solids) {
         rows.push_back({is_crumb(s, project) ? "crumb" : "piece", s.above ? "above" : "below", with_commas(s.faces),
-                        fixed(s.volume_mm3 / 1e6, 3)});
+                        volume_in_words(s.volume_mm3)});
     }
     add(text, columns(rows));
     text.push_back("Nothing was cut.");
@@ -84,10 +84,10 @@ std::vector<std::string> preview_lines(const Preview& p, const Project& project)
 }
 
 std::vector<std::string> standing_lines(const Project& project) {
-    std::vector<std::vector<std::string>> rows{{"piece", "made by", "faces", "litres"}};
+    std::vector<std::vector<std::string>> rows{{"piece", "made by", "faces", "volume"}};
     for (const SolidRecord& p : project.pieces) {
         rows.push_back({p.name, p.cut > 0 ? "cut " + std::to_string(p.cut) : "the scan", with_commas(p.faces),
-                        fixed(p.volume_mm3 / 1e6, 3)});
+                        volume_in_words(p.volume_mm3)});
     }
     std::vector<std::string> text = columns(rows);
     text.push_back(std::to_string(project.pieces.size()) + (project.pieces.size() == 1 ? " piece by " : " pieces by ") +

@@ -1,4 +1,4 @@
-// The bus over Modbus TCP; frames as in modbus_frame.h (docs/decisions/0015-requests-are-framed-by-us.md).
+// The bus over Modbus TCP; frames as in modbus_frame.h (docs/decisions/0016-requests-are-framed-by-us.md).
 //
 // Every call ends within `call_s`, even if the peer sends one byte at a time (tests/devices/modbus_tcp_test.cpp). Any
 // failure but an exception answer closes the connection, and so does an answer that is not wholly right; the next call

@@ -1,6 +1,8 @@
 #include "cam/job/text.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <system_error>
 
 namespace qchopper {
@@ -12,6 +14,17 @@ std::string fixed(double value, int decimals) {
     std::string digits(text, result.ptr);
     if (digits.starts_with("-") && digits.find_first_not_of("-0.") == std::string::npos) digits.erase(0, 1);
     return digits;
+}
+
+std::string volume_in_words(double mm3) {
+    constexpr double a_litre = 1e6;
+    const double size = std::abs(mm3);
+    if (size >= 0.9995 * a_litre) return fixed(mm3 / a_litre, 3) + " l";
+    const double ml = size / 1000;
+    if (!(ml > 0)) return "0 ml";
+    constexpr int most_decimals = 12;
+    const int before_point = static_cast<int>(std::floor(std::log10(ml)));
+    return fixed(mm3 / 1000, std::clamp(2 - before_point, 0, most_decimals)) + " ml";
 }
 
 std::string duration(std::uint32_t seconds) {

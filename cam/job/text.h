@@ -10,6 +10,9 @@ namespace qchopper {
 // A number with so many decimals; never "-0".
 std::string fixed(double value, int decimals);
 
+// "1.234 l"; below a litre in ml, with three digits: "320 ml", "0.0123 ml".
+std::string volume_in_words(double mm3);
+
 // "45 s", "12 min", "3 h 05 min".
 std::string duration(std::uint32_t seconds);
 

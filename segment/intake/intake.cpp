@@ -84,6 +84,10 @@ void check_range(const Box& box, double mm_per_unit, const std::string& name) {
     }
 }
 
+std::string scaled_in_words(double scale) {
+    return "The scan is scaled by " + in_digits(scale) + " (--scale): its pieces are not in true size.";
+}
+
 // Says what stands between the result and a solid.
 void check_solid(const RepairedScan& scan, const std::string& name, bool may_be_open) {
     const RepairReport& r = scan.report;
@@ -192,6 +196,13 @@ RepairedScan repair_scan(const std::filesystem::path& path, const IntakeOptions&
     return result;
 }
 
+void enlarge(RepairedScan& scan, double scale) {
+    if (scale == 1) return;
+    for (Vec3& p : scan.mesh.points) p = scale * p;
+    scan.report.volume *= scale * scale * scale;
+    scan.warnings.push_back(scaled_in_words(scale));
+}
+
 Intake take_in(const std::filesystem::path& path, const IntakeOptions& options, const Context& context) {
     RepairedScan scan = repair_scan(path, options, context);
     check_solid(scan, path.string(), false);
@@ -204,8 +215,7 @@ Intake take_in(const std::filesystem::path& path, const IntakeOptions& options, 
     intake.sha256 = scan.sha256;
     intake.report = {std::move(scan.report), {}};
     if (options.scale != 1) {
-        intake.report.warnings.push_back("The scan is scaled by " + in_digits(options.scale) +
-                                         " (--scale): its pieces are not in true size.");
+        intake.report.warnings.push_back(scaled_in_words(options.scale));
     }
     for (std::string& warning : scan.warnings) intake.report.warnings.push_back(std::move(warning));
     warn_of_size(intake, intake.report.warnings);

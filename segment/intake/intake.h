@@ -57,6 +57,10 @@ struct RepairedScan {
 // options, or no unit. With Fill::none a scan may stay open.
 RepairedScan repair_scan(const std::filesystem::path& path, const IntakeOptions& options, const Context& context = {});
 
+// Enlarges it about the origin of its file, with its volume; every place and length of the report stays that of the
+// scan, where it can be found again. Other than 1 it is told of in a warning.
+void enlarge(RepairedScan& scan, double scale);
+
 struct IntakeReport {
     RepairReport repair;
     std::vector<std::string> warnings;  // whole sentences for the operator

@@ -1,6 +1,7 @@
 #include "segment/repair/edge_groups.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "segment/repair/manifold.h"
 
@@ -28,6 +29,28 @@ EdgeGroups edge_groups(const TriangleMesh& mesh) {
     }
     groups.begin.push_back(count);
     return groups;
+}
+
+std::vector<AtAngle> around_edge(const TriangleMesh& mesh, std::span<const std::uint32_t> group) {
+    const std::uint32_t a = std::min(start_of(mesh, group[0]), end_of(mesh, group[0]));
+    const std::uint32_t b = std::max(start_of(mesh, group[0]), end_of(mesh, group[0]));
+    const Vec3 axis = normalized(mesh.points[b] - mesh.points[a]);
+    const auto side = [&](std::uint32_t h) {
+        const Vec3 d = mesh.points[mesh.triangles[h / 3][(h % 3 + 2) % 3]] - mesh.points[a];
+        return d - dot(axis, d) * axis;
+    };
+    const Vec3 u = normalized(side(group[0]));
+    const Vec3 v = cross(axis, u);
+    std::vector<AtAngle> sorted;
+    for (const std::uint32_t h : group) {
+        const Vec3 d = side(h);
+        const double angle = h == group[0] ? 0 : std::atan2(dot(v, d), dot(u, d));
+        sorted.push_back({std::isfinite(angle) ? angle : 0, h});  // lengths too large for their squares have none
+    }
+    std::sort(sorted.begin(), sorted.end(), [](const AtAngle& x, const AtAngle& y) {
+        return x.angle != y.angle ? x.angle < y.angle : x.half_edge < y.half_edge;
+    });
+    return sorted;
 }
 
 }  // namespace qchopper

@@ -25,4 +25,14 @@ struct EdgeGroups {
 };
 EdgeGroups edge_groups(const TriangleMesh& mesh);
 
+// A half-edge with the angle at which its triangle stands about the edge.
+struct AtAngle {
+    double angle;
+    std::uint32_t half_edge;
+};
+
+// The half-edges of one group about their edge, seen along it from the smaller end to the larger: ascending angles turn
+// left. The angle of the first of the group is 0.
+std::vector<AtAngle> around_edge(const TriangleMesh& mesh, std::span<const std::uint32_t> group);
+
 }  // namespace qchopper

@@ -39,9 +39,16 @@ Corners corners_of(const TriangleMesh& mesh, std::uint32_t triangle) {
     return {t, triangle, is_turned};
 }
 
+std::vector<Corners> sorted_by_corners(const TriangleMesh& mesh) {
+    std::vector<Corners> all;
+    all.reserve(mesh.triangles.size());
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) all.push_back(corners_of(mesh, t));
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
 // Without faulty edges two faces can only be one on the other when they are each other's neighbours three times.
-bool may_repeat(const TriangleMesh& mesh) {
-    const Edges found = edges(mesh);
+bool may_repeat(const TriangleMesh& mesh, const Edges& found) {
     if (found.faults.non_manifold + found.faults.inconsistent > 0) return true;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const std::uint32_t twin = found.twin[3 * t];
@@ -148,13 +155,31 @@ void keep_triangles(TriangleMesh& mesh, const std::vector<bool>& is_kept) {
     if (!mesh.cap_of.empty()) mesh.cap_of.resize(kept);
 }
 
+std::vector<bool> without_opposite_faces(const TriangleMesh& mesh) {
+    const std::vector<Corners> all = sorted_by_corners(mesh);
+    std::vector<bool> is_kept(mesh.triangles.size(), true);
+    for (std::size_t i = 0, end = 0; i < all.size(); i = end) {
+        std::size_t count[2] = {};
+        for (end = i; end < all.size() && all[end].sorted == all[i].sorted; ++end) ++count[all[end].is_turned ? 1 : 0];
+        const std::size_t pairs = std::min(count[0], count[1]);
+        std::size_t left[2] = {count[0] - pairs, count[1] - pairs};
+        for (std::size_t k = i; k < end; ++k) {
+            std::size_t& may_stay = left[all[k].is_turned ? 1 : 0];
+            is_kept[all[k].triangle] = may_stay > 0;
+            may_stay -= may_stay > 0;
+        }
+    }
+    return is_kept;
+}
+
 RepeatedFaces drop_repeated_faces(TriangleMesh& mesh) {
+    return drop_repeated_faces(mesh, edges(mesh));
+}
+
+RepeatedFaces drop_repeated_faces(TriangleMesh& mesh, const Edges& found) {
     RepeatedFaces counts;
-    if (!may_repeat(mesh)) return counts;
-    std::vector<Corners> all;
-    all.reserve(mesh.triangles.size());
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) all.push_back(corners_of(mesh, t));
-    std::sort(all.begin(), all.end());
+    if (!may_repeat(mesh, found)) return counts;
+    const std::vector<Corners> all = sorted_by_corners(mesh);
     std::vector<bool> is_kept(mesh.triangles.size(), true);
     for (std::size_t i = 0, end = 0; i < all.size(); i = end) {
         bool has[2] = {};

@@ -18,7 +18,7 @@ struct MarkOptions {
     double most_width = 6;    // across the line
     double most_depth = 1;    // of the bottom below the surface around it
     double least_depth = 0;   // of the bottom; 0: four times the roughness around, and at least 0.02 mm
-    double least_length = 0;  // of the line; 0: two and a half times most_width
+    double least_length = 0;  // of the line; 0: three times most_width
 };
 
 struct MarkReport {

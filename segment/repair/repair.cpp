@@ -4,11 +4,13 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "segment/error.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
+#include "segment/repair/balance.h"
 #include "segment/repair/border_weld.h"
 #include "segment/repair/crumbs.h"
 #include "segment/repair/faces.h"
@@ -80,11 +82,19 @@ class Repairing {
     void settle() {
         for (std::size_t pass = 0; pass < most_passes && !mesh_.triangles.empty(); ++pass) {
             ++report_.passes;
-            if (!pass_over()) return;
+            if (!pass_over() || pass + 1 == most_passes) return;  // welded, what only touches would meet again
             const std::size_t added = new_faces();
             weld(mesh_);
-            report_.faces_added -= added - new_faces();
+            take_back(added);
         }
+    }
+
+    // What closed a hole may go again: so many faces were new before. A face that was changed is new too, but closes
+    // nothing. Returns how many of those that closed holes went.
+    std::size_t take_back(std::size_t new_before) {
+        const std::size_t gone = std::min(new_before - new_faces(), report_.faces_added);
+        report_.faces_added -= gone;
+        return gone;
     }
 
     std::size_t new_faces() const {
@@ -93,8 +103,13 @@ class Repairing {
 
     // True if it changed more than the next pass would make again.
     bool pass_over() {
-        bool is_changed = drop_faces();
-        is_changed |= part_sheets();
+        const Edges found = edges(mesh_);
+        is_balanced_ = options_.drop_repeated && options_.split && is_balanced(mesh_, found);
+        bool is_changed = false;
+        if (!is_balanced_ || found.faults.is_closed() || !pair_faces(is_changed)) {
+            is_changed = drop_faces(found);
+            is_changed |= part_sheets();
+        }
         if (mesh_.triangles.empty()) return is_changed;
         const EdgeFaults faults = edges(mesh_).faults;
         if (faults.non_manifold + faults.inconsistent > 0) return is_changed;  // a step that was switched off
@@ -106,14 +121,29 @@ class Repairing {
         return is_changed;
     }
 
-    bool drop_faces() {
+    // Instead of the two steps after it, for faces that bound something as they are. False where they bound nothing.
+    bool pair_faces(bool& is_changed) {
+        step("faces paired");
+        const std::size_t added = new_faces();
+        const std::optional<ShellCounts> counts = close_balanced(mesh_);
+        is_balanced_ = counts.has_value();
+        if (!counts) return false;
+        report_.of_double_sheets += counts->cancelled - take_back(added);
+        if (report_.passes == 1) {
+            report_.edges_split = counts->edges_split;
+            report_.points_copied = counts->copies;
+        }
+        is_changed = counts->cancelled > 0;
+        return true;
+    }
+
+    bool drop_faces(const Edges& found) {
         if (!options_.drop_repeated) return false;
         step("repeated faces dropped");
         const std::size_t added = new_faces();
-        const RepeatedFaces counts = drop_repeated_faces(mesh_);
-        // What closed a hole may go again; only faces of the scan are told of.
-        const std::size_t scanned = counts.repeated + counts.of_sheets - (added - new_faces());
-        report_.faces_added -= added - new_faces();
+        const RepeatedFaces counts = drop_repeated_faces(mesh_, found);
+        // Only faces of the scan are told of.
+        const std::size_t scanned = counts.repeated + counts.of_sheets - take_back(added);
         report_.repeated += std::min(scanned, counts.repeated);
         report_.of_double_sheets += scanned - std::min(scanned, counts.repeated);
         return counts.repeated + counts.of_sheets > 0;
@@ -144,6 +174,7 @@ class Repairing {
 
     bool close() {
         step("holes closed");
+        if (is_balanced_ && report_.holes_filled == 0) return false;  // nothing is open, and nothing was before
         FilledHoles holes = fill_holes(mesh_, options_.fill, context_);
         report_.holes_filled += holes.filled;
         report_.holes_faired += holes.faired;
@@ -152,7 +183,7 @@ class Repairing {
         report_.left_open = std::move(holes.left);
         const std::size_t added = new_faces();
         const Sheets sheets = judge_sheets(mesh_, options_.drop_loose_sheets ? loose_sheet_share : 0);
-        report_.faces_added -= added - new_faces();
+        take_back(added);
         report_.loose_sheets += sheets.dropped;
         report_.loose_sheet_faces += sheets.dropped_faces;
         report_.sheets = sheets.left;
@@ -164,10 +195,12 @@ class Repairing {
     bool face_outwards() {
         step("shells turned outwards");
         if (!report_.left_open.empty()) return false;
-        const Outwards counts = qchopper::turn_outwards(mesh_, options_.turn_outwards);
+        const Outwards counts = is_balanced_ ? turn_touching_outwards(mesh_, options_.turn_outwards)
+                                             : turn_outwards(mesh_, options_.turn_outwards);
         report_.shells = counts.shells;
         report_.cavities = counts.cavities;
         report_.overlapping = counts.overlapping;
+        report_.left_inside_out = counts.left;
         report_.shells_turned += counts.turned;
         return counts.turned > 0;
     }
@@ -267,7 +300,8 @@ class Repairing {
         report_.open_edges = faults.open + faults.inconsistent + faults.non_manifold;
         if (report_.open_edges > 0) report_.first_open_edge = mesh_.points[mesh_.triangles[faults.first_triangle][0]];
         report_.volume = faults.is_closed() ? volume_mm3(mesh_) : 0;
-        if (!options_.measure_deviation) return;
+        // Nobody is told of a result that is refused, and for a sheet, which lies on what closes it, it takes long.
+        if (!options_.measure_deviation || !(report_.is_solid() || options_.fill.fill == Fill::none)) return;
         const double unit = options_.mm_per_unit;
         for (Vec3& p : before_.points) p = unit * p;
         TriangleMesh after = mesh_;
@@ -282,6 +316,7 @@ class Repairing {
     std::size_t steps_ = 0;
     TriangleMesh mesh_;
     TriangleMesh before_;
+    bool is_balanced_ = false;  // the mesh of this pass, as it began
     RepairReport report_;
 };
 

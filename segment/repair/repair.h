@@ -27,9 +27,9 @@ struct RepairOptions {
     bool drop_crumbs = false;       // solids smaller than 1/100,000 of the volume; else they are counted
     bool resolve_self_intersections = false;
     bool smooth_marks = false;
-    MarkOptions marks;   // used with smooth_marks
-    double wrap_mm = 0;  // last resort: wrap the scan with a ball of this radius; 0: off
-    bool measure_deviation = false;
+    MarkOptions marks;               // used with smooth_marks
+    double wrap_mm = 0;              // last resort: wrap the scan with a ball of this radius; 0: off
+    bool measure_deviation = false;  // of a result that is a solid, or was meant to stay open
 };
 
 struct Repaired {

@@ -155,6 +155,10 @@ std::vector<std::string> warnings(const RepairReport& r) {
         all.push_back(counted(r.overlapping, "shell lies", "shells lie") +
                       " inside another one that faces the same way: the scan overlaps itself there.");
     }
+    if (r.left_inside_out > 0) {
+        all.push_back(counted(r.left_inside_out, "shell is", "shells are") +
+                      " inside out and left so, because they touch others that are not: the surface is folded there.");
+    }
     if (r.crumbs_dropped && r.crumbs > 0) {
         all.push_back(counted(r.crumbs, "crumb was", "crumbs were") + " dropped.");
     }

@@ -50,7 +50,8 @@ struct RepairReport {
     std::size_t shells = 0;
     std::size_t cavities = 0;
     std::size_t shells_turned = 0;
-    std::size_t overlapping = 0;  // shells inside another one that faces the same way
+    std::size_t overlapping = 0;      // shells inside another one that faces the same way
+    std::size_t left_inside_out = 0;  // shells that hang on others which are not
     std::size_t crumbs = 0;
     std::size_t crumb_faces = 0;
     double crumb_area_share = 0;

@@ -4,7 +4,6 @@
 #include "segment/repair/sheets.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -129,26 +128,9 @@ class Separation {
     // Whether the half-edge runs away from the smaller end of its edge once its face is turned as decided.
     bool runs_up(std::uint32_t h) const { return (from(h) < end_of(mesh_, h)) != is_turned_[h / 3]; }
 
-    // Around the edge, seen along it from the smaller end to the larger: ascending angles turn left.
     std::vector<std::uint32_t> around(std::span<const std::uint32_t> group) const {
-        const std::uint32_t a = std::min(from(group[0]), end_of(mesh_, group[0]));
-        const std::uint32_t b = std::max(from(group[0]), end_of(mesh_, group[0]));
-        const Vec3 axis = normalized(mesh_.points[b] - mesh_.points[a]);
-        const auto side = [&](std::uint32_t h) {
-            const Vec3 d = mesh_.points[mesh_.triangles[h / 3][(h % 3 + 2) % 3]] - mesh_.points[a];
-            return d - dot(axis, d) * axis;
-        };
-        const Vec3 u = normalized(side(group[0]));
-        const Vec3 v = cross(axis, u);
-        std::vector<std::pair<double, std::uint32_t>> sorted;
-        for (const std::uint32_t h : group) {
-            const Vec3 d = side(h);
-            const double angle = h == group[0] ? 0 : std::atan2(dot(v, d), dot(u, d));
-            sorted.emplace_back(angle, h);
-        }
-        std::sort(sorted.begin(), sorted.end());
         std::vector<std::uint32_t> result;
-        for (const auto& [angle, h] : sorted) result.push_back(h);
+        for (const AtAngle& at : around_edge(mesh_, group)) result.push_back(at.half_edge);
         return result;
     }
 

@@ -50,6 +50,30 @@ TEST_F(Repair, MakesASolidAndSaysHow) {
     EXPECT_EQ(solid.points, vertebra().points);  // to the last bit
 }
 
+TEST_F(Repair, EnlargesByAFactorAndSaysSo) {
+    const program::Arguments plain{"repair", "scan.ply", "--units", "mm", "-o", "one.ply", "--json"};
+    const program::Arguments twice{"repair", "scan.ply", "--units", "mm", "-o", "two.ply", "--json", "--scale", "2"};
+    const json one = json::parse(run(plain).out);
+    const Ended ended = run(twice);
+    ASSERT_EQ(ended.code, exit_done) << ended.err;
+    const json two = json::parse(ended.out);
+    EXPECT_EQ(two["scale"], 2);
+    EXPECT_DOUBLE_EQ(two["volume"], 8 * one["volume"].get<double>());
+    EXPECT_NE(ended.err.find("The scan is scaled by 2 (--scale)"), std::string::npos) << ended.err;
+    TriangleMesh expected = written("one.ply");
+    for (Vec3& p : expected.points) p = 2 * p;
+    EXPECT_EQ(written("two.ply"), expected);
+    EXPECT_EQ(run({"repair", "scan.ply", "-o", "none.ply", "--scale", "0"}).code, exit_use);
+}
+
+TEST_F(Repair, TellsASmallVolumeInMillilitres) {
+    write_file(folder.path / "cube.off",
+               "OFF\n4 4 0\n0 0 0\n30 0 0\n0 30 0\n0 0 30\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");
+    EXPECT_NE(run({"repair", "cube.off", "--units", "mm", "-o", "solid.ply"}).out.find("volume       4.50 ml"),
+              std::string::npos);
+    EXPECT_NE(run({"inspect", "cube.off", "--units", "mm"}).out.find("4.50 ml"), std::string::npos);
+}
+
 TEST_F(Repair, OfASolidIsTheSameFile) {
     ASSERT_EQ(run({"repair", "scan.ply", "-o", "once.ply"}).code, exit_done);
     ASSERT_EQ(run({"repair", "once.ply", "-o", "twice.ply"}).code, exit_done);

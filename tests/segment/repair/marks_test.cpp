@@ -4,9 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <map>
+#include <random>
+#include <utility>
 
 #include "segment/error.h"
+#include "segment/intake/read_mesh.h"
 #include "segment/mesh/edges.h"
+#include "segment/mesh/measure.h"
+#include "segment/repair/weld.h"
 #include "segment/sample/draw_marks.h"
 #include "segment/sample/sample.h"
 #include "tests/shapes.h"
@@ -40,6 +47,28 @@ MarkOptions options_for(const DrawnMarks& drawn) {
     options.most_width = 1.25 * drawn.width;
     options.most_depth = 1.5 * drawn.depth;
     return options;
+}
+
+// Every triangle in four, at the middles of its edges.
+TriangleMesh subdivided(const TriangleMesh& mesh) {
+    TriangleMesh result;
+    result.points = mesh.points;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle_of;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+        const auto [at, is_new] =
+            middle_of.insert({std::minmax(a, b), static_cast<std::uint32_t>(result.points.size())});
+        if (is_new) result.points.push_back(0.5 * (mesh.points[a] + mesh.points[b]));
+        return at->second;
+    };
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const std::uint32_t ab = middle(a, b);
+        const std::uint32_t bc = middle(b, c);
+        const std::uint32_t ca = middle(c, a);
+        for (const Triangle& t : {Triangle{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}) {
+            result.triangles.push_back(t);
+        }
+    }
+    return result;
 }
 
 double distance_to(const std::vector<std::vector<Vec3>>& lines, Vec3 p) {
@@ -119,13 +148,40 @@ TEST(Marks, OfASkullAreLiftedAndTheBoneIsLeftAlone) {
     expect_marks_lifted(marked_sample(Specimen::skull), 0.8, 0.75);
 }
 
+// As large as a bone, by triangles small enough that a line of a pen could be told on them.
+TriangleMesh fine(const TriangleMesh& shape) {
+    constexpr double diagonal = 120;
+    constexpr double longest = 2;
+    TriangleMesh mesh = shape;
+    const Box box = bounds(shape);
+    for (Vec3& p : mesh.points) p = (diagonal / norm(box.size())) * (p - box.centre());
+    for (bool is_any = true; is_any;) {
+        is_any = false;
+        for (const Triangle& t : mesh.triangles) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                is_any = is_any || norm(mesh.points[t[(k + 1) % 3]] - mesh.points[t[k]]) > longest;
+            }
+        }
+        if (is_any) mesh = subdivided(mesh);
+    }
+    return mesh;
+}
+
 TEST(Marks, ShapesWithoutMarksKeepEveryBit) {
-    for (const shapes::Named& shape : shapes::all_closed()) {
-        TriangleMesh mesh = shape.mesh;
-        MarkOptions options;
-        options.most_width = 3;
-        smooth_marks(mesh, options);
-        EXPECT_EQ(mesh, shape.mesh) << shape.name;
+    std::vector<shapes::Named> all = shapes::all_closed();
+    for (shapes::Named& shape : all) {
+        // Facets as wide as a line, with a crease on both sides, lie below a smooth surface as a line does
+        // (docs/repair.md): so these balls are round.
+        if (shape.name != "two balls") continue;
+        shape.mesh = shapes::joined({shapes::ball({0, 0, 0}, 10, 60), shapes::ball({0, 0, 30}, 12, 60)});
+    }
+    for (const shapes::Named& shape : all) {
+        const TriangleMesh before = fine(shape.mesh);
+        TriangleMesh mesh = before;
+        const MarkReport report = smooth_marks(mesh);
+        EXPECT_FALSE(report.is_too_coarse) << shape.name;
+        EXPECT_EQ(report.marks, 0U) << shape.name << ", up to " << report.most_depth << " mm";
+        EXPECT_TRUE(mesh == before) << shape.name;
     }
 }
 
@@ -136,18 +192,50 @@ TEST(Marks, OfTrianglesLargerThanALineNothingIsSaid) {
     EXPECT_EQ(ball, before);
 }
 
+// From below what is looked at to ten times what a mark must be deep on an even surface.
 TEST(Marks, ANoiseIsNoMark) {
-    TriangleMesh ball = shapes::ball({0, 0, 0}, 200, 250);
-    std::uint32_t state = 1;
-    for (Vec3& p : ball.points) {
-        state = state * 1664525 + 1013904223;
-        p = (1 + 2e-6 * (static_cast<double>(state >> 16) / 65536 - 0.5)) * p;
+    const TriangleMesh ball = shapes::ball({0, 0, 0}, 40, 100);
+    for (const double sigma_mm : {0.002, 0.02, 0.05, 0.1, 0.2}) {
+        std::mt19937 random(1);
+        std::normal_distribution<double> noise(0, sigma_mm);
+        TriangleMesh noisy = ball;
+        for (Vec3& p : noisy.points) p = (1 + noise(random) / 40) * p;
+        const TriangleMesh before = noisy;
+        const MarkReport report = smooth_marks(noisy);
+        EXPECT_FALSE(report.is_too_coarse);
+        EXPECT_EQ(report.marks, 0U) << sigma_mm;
+        EXPECT_TRUE(noisy == before) << sigma_mm;
     }
-    const TriangleMesh before = ball;
-    MarkOptions options;
-    options.most_width = 12;
-    smooth_marks(ball, options);
-    EXPECT_EQ(ball, before);
+}
+
+// A line in the same noise is still found where it is deep enough to be told from it.
+TEST(Marks, ALineInANoiseIsAMark) {
+    for (const double sigma_mm : {0.002, 0.02}) {
+        Marked m = marked(shapes::ball({0, 0, 0}, 60, 150), 2);
+        std::mt19937 random(1);
+        std::normal_distribution<double> noise(0, sigma_mm);
+        for (std::size_t i = 0; i < m.mesh.points.size(); ++i) {
+            const double by = noise(random) / 60;
+            m.mesh.points[i] = (1 + by) * m.mesh.points[i];
+            m.clean.points[i] = (1 + by) * m.clean.points[i];
+        }
+        TriangleMesh smoothed = m.mesh;
+        EXPECT_GT(smooth_marks(smoothed).marks, 0U) << sigma_mm;
+        EXPECT_GE(removed(m, smoothed).depth, 0.7) << sigma_mm;
+    }
+}
+
+TEST(Marks, OfARealScanWithoutInkTheDefaultsLiftNothing) {
+    const std::filesystem::path path = std::filesystem::path(QCHOPPER_MESHES) / "bunny_bun_zipper.ply";
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+    TriangleMesh mesh = read_mesh(path).mesh;
+    weld(mesh);
+    for (Vec3& p : mesh.points) p = 1000 * p;  // the file is in metres
+    const TriangleMesh before = mesh;
+    const MarkReport report = smooth_marks(mesh);
+    EXPECT_FALSE(report.is_too_coarse);
+    EXPECT_EQ(report.marks, 0U) << report.most_depth;
+    EXPECT_TRUE(mesh == before);
 }
 
 TEST(Marks, MeasuresThatMakeNoSenseAreRefused) {

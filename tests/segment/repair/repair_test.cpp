@@ -187,6 +187,23 @@ TEST(Repair, TellsTheDistanceInMillimetres) {
     EXPECT_EQ(repair(shapes::ball({0, 0, 0}, 10), options).report.deviation->largest().triangles, 0U);
 }
 
+// A sheet lies on what closes it flat: of that no distance is known for sure but after millions of points.
+TEST(Repair, OfWhatIsRefusedNoDistanceIsLookedFor) {
+    TriangleMesh sheet;
+    for (std::uint32_t i = 0; i < 15; ++i) sheet.points.push_back({double(i / 5), double(i % 5), 0});
+    for (const std::uint32_t a : {0U, 1U, 2U, 3U, 5U, 6U, 7U, 8U}) {
+        sheet.triangles.push_back({a, a + 5, a + 6});
+        sheet.triangles.push_back({a, a + 6, a + 1});
+    }
+    RepairOptions options;
+    options.measure_deviation = true;
+    const Repaired refused = repair(sheet, options);
+    EXPECT_EQ(refused.report.sheets, 1U);
+    EXPECT_FALSE(refused.report.deviation.has_value());
+    options.fill.fill = Fill::none;
+    EXPECT_TRUE(repair(sheet, options).report.deviation.has_value()) << "what may stay open is written, and measured";
+}
+
 TEST(Repair, LengthsAreMillimetres) {
     const TriangleMesh box = shapes::box({0, 0, 0}, {1, 1, 1}, 2);
     TriangleMesh torn = unwelded(box);

@@ -1,0 +1,208 @@
+// Why this always ends with a closed manifold: at an edge of many faces any pairing of those that run along it one way
+// with those that run the other way makes every fan around a point a cycle, so the surface is closed. It can still not
+// be written with one number for each point where two pairs of one edge lie in the same fan at both ends of it: the
+// edge then has four faces. Exchanging the partners of two such pairs parts both fans, each into two with one of the
+// pairs; since fans only ever part, a pass over all edges takes out all of them. A fan of two faces would be two faces
+// on each other with opposite turns, and those are gone.
+
+#include "segment/repair/balance.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "segment/repair/edge_groups.h"
+#include "segment/repair/faces.h"
+#include "segment/repair/manifold.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+constexpr double same_angle = 1e-9;  // about an edge: what lies nearer is taken to lie on each other
+
+bool runs_up(const TriangleMesh& mesh, std::uint32_t h) {
+    return start_of(mesh, h) < end_of(mesh, h);
+}
+
+bool is_balanced(const TriangleMesh& mesh, const EdgeGroups& groups) {
+    for (std::size_t g = 0; g < groups.count(); ++g) {
+        const std::span<const std::uint32_t> group = groups[g];
+        const auto up = std::count_if(group.begin(), group.end(), [&](std::uint32_t h) { return runs_up(mesh, h); });
+        if (2 * static_cast<std::size_t>(up) != group.size()) return false;
+    }
+    return true;
+}
+
+class Pairing {
+ public:
+    explicit Pairing(TriangleMesh& mesh)
+        : mesh_(mesh), groups_(edge_groups(mesh)), partner_(3 * mesh.triangles.size(), nobody) {}
+
+    ShellCounts run() {
+        ShellCounts counts;
+        for (std::size_t g = 0; g < groups_.count(); ++g) {
+            if (groups_[g].size() > 2) ++counts.edges_split;
+            pair_wedges(groups_[g]);
+        }
+        number_fans();
+        for (std::size_t g = 0; g < groups_.count(); ++g) {
+            if (groups_[g].size() > 2) part_pairs_of_one_edge(groups_[g]);
+        }
+        counts.copies = give_every_fan_a_point();
+        return counts;
+    }
+
+ private:
+    static std::uint32_t next(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
+    static std::uint32_t previous(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
+    // The next corner in the fan around a point. A corner has the number of the half-edge that starts there.
+    std::uint32_t next_in_fan(std::uint32_t corner) const { return partner_[previous(corner)]; }
+
+    void pair(std::uint32_t a, std::uint32_t b) {
+        partner_[a] = b;
+        partner_[b] = a;
+    }
+
+    // Those that bound the same wedge of material: a face that runs down has material on its left, one that runs up on
+    // its right, so around the edge they match like brackets.
+    void pair_wedges(std::span<const std::uint32_t> group) {
+        if (group.size() == 2) return pair(group[0], group[1]);
+        std::vector<std::uint32_t> open;
+        std::vector<std::uint32_t> closing;  // of brackets that were opened before the ring was cut
+        for (const std::uint32_t h : ring_of(group)) {
+            if (!runs_up(mesh_, h)) {
+                open.push_back(h);
+            } else if (open.empty()) {
+                closing.push_back(h);
+            } else {
+                pair(open.back(), h);
+                open.pop_back();
+            }
+        }
+        assert(open.size() == closing.size());
+        for (const std::uint32_t h : closing) {
+            pair(open.back(), h);
+            open.pop_back();
+        }
+    }
+
+    // By angle. Of those that lie on each other first the ones that end a wedge, so that solids which touch there stay
+    // two, from the last to the first, so that a shell which is there twice stays two: brackets match inside out.
+    std::vector<std::uint32_t> ring_of(std::span<const std::uint32_t> group) const {
+        const std::vector<AtAngle> ring = around_edge(mesh_, group);
+        std::vector<std::uint32_t> result;
+        std::vector<std::uint32_t> opening;
+        for (std::size_t i = 0, end = 0; i < ring.size(); i = end) {
+            for (end = i + 1; end < ring.size() && ring[end].angle - ring[end - 1].angle <= same_angle;) ++end;
+            opening.clear();
+            const std::size_t first = result.size();
+            for (std::size_t k = i; k < end; ++k) {
+                (runs_up(mesh_, ring[k].half_edge) ? result : opening).push_back(ring[k].half_edge);
+            }
+            std::sort(result.begin() + static_cast<std::ptrdiff_t>(first), result.end(), std::greater<>());
+            std::sort(opening.begin(), opening.end());
+            result.insert(result.end(), opening.begin(), opening.end());
+        }
+        return result;
+    }
+
+    void number_fans() {
+        fan_.assign(partner_.size(), nobody);
+        for (std::uint32_t corner = 0; corner < partner_.size(); ++corner) {
+            if (fan_[corner] == nobody) name_fan(corner, fans_++);
+        }
+    }
+
+    void name_fan(std::uint32_t corner, std::uint32_t name) {
+        for (; fan_[corner] != name; corner = next_in_fan(corner)) fan_[corner] = name;
+    }
+
+    // After two corners of one fan came into different ones: the smaller gets a new name, so that naming all fans anew
+    // is cheap however often they part.
+    void name_parted(std::uint32_t a, std::uint32_t b) {
+        std::uint32_t at = next_in_fan(a);
+        for (std::uint32_t other = next_in_fan(b); at != a && other != b; at = next_in_fan(at)) {
+            other = next_in_fan(other);
+        }
+        name_fan(at == a ? a : b, fans_++);
+    }
+
+    void part_pairs_of_one_edge(std::span<const std::uint32_t> group) {
+        std::vector<std::uint32_t> up;
+        for (const std::uint32_t h : group) {
+            if (runs_up(mesh_, h)) up.push_back(h);
+        }
+        const auto ends = [&](std::uint32_t h) { return std::pair(fan_[h], fan_[partner_[h]]); };
+        for (bool is_any = true; is_any;) {
+            is_any = false;
+            std::sort(up.begin(), up.end(),
+                      [&](std::uint32_t a, std::uint32_t b) { return ends(a) != ends(b) ? ends(a) < ends(b) : a < b; });
+            for (std::size_t i = 0; i + 1 < up.size(); ++i) {
+                if (ends(up[i]) != ends(up[i + 1])) continue;
+                exchange(up[i], up[i + 1]);
+                is_any = true;
+            }
+        }
+    }
+
+    void exchange(std::uint32_t a, std::uint32_t b) {
+        const std::uint32_t c = partner_[a];
+        const std::uint32_t d = partner_[b];
+        pair(a, d);
+        pair(b, c);
+        name_parted(a, b);
+        name_parted(c, d);
+    }
+
+    // The first fan keeps the point, every other one gets a copy.
+    std::size_t give_every_fan_a_point() {
+        const std::size_t before = mesh_.points.size();
+        std::vector<std::uint32_t> point_of(fans_, nobody);
+        std::vector<bool> is_taken(before);
+        for (std::uint32_t h = 0; h < partner_.size(); ++h) {
+            std::uint32_t& corner = mesh_.triangles[h / 3][h % 3];
+            std::uint32_t& point = point_of[fan_[h]];
+            if (point == nobody && is_taken[corner]) {
+                point = static_cast<std::uint32_t>(mesh_.points.size());
+                mesh_.points.push_back(Vec3(mesh_.points[corner]));
+            } else if (point == nobody) {
+                point = corner;
+                is_taken[corner] = true;
+            }
+            corner = point;
+        }
+        return mesh_.points.size() - before;
+    }
+
+    TriangleMesh& mesh_;
+    EdgeGroups groups_;
+    std::vector<std::uint32_t> partner_;  // per half-edge the one on the other side of its edge
+    std::vector<std::uint32_t> fan_;      // per corner
+    std::uint32_t fans_ = 0;
+};
+
+}  // namespace
+
+bool is_balanced(const TriangleMesh& mesh, const Edges& found) {
+    if (found.faults.is_closed()) return true;
+    return found.faults.open + found.faults.inconsistent == 0 && is_balanced(mesh, edge_groups(mesh));
+}
+
+std::optional<ShellCounts> close_balanced(TriangleMesh& mesh) {
+    const std::vector<bool> is_kept = without_opposite_faces(mesh);
+    const std::size_t before = mesh.triangles.size();
+    const auto kept = static_cast<std::size_t>(std::count(is_kept.begin(), is_kept.end(), true));
+    if (kept == 0) return std::nullopt;
+    if (kept < before) keep_triangles(mesh, is_kept);
+    ShellCounts counts = Pairing(mesh).run();
+    counts.cancelled = before - kept;
+    return counts;
+}
+
+}  // namespace qchopper
