@@ -23,4 +23,11 @@ struct CapTriangles {
 };
 CapTriangles triangulate_caps(std::span<const Point2> points, std::span<const Loop> loops);
 
+// The loops that take a cap. Two triangles that meet along two edges leave a loop of two points: it closes by itself.
+std::vector<Loop> capped(std::vector<Loop> loops);
+
+// The same with the regions given, as nest() makes them of capped loops.
+CapTriangles triangulate_regions(std::span<const Point2> points, std::span<const Loop> loops,
+                                 std::span<const CapRegion> regions);
+
 }  // namespace qchopper

@@ -110,9 +110,8 @@ std::vector<Loop> trace_loops(const Section& section) {
     return loops;
 }
 
-std::vector<Point2> flattened(const std::vector<Vec3>& points, Vec3 normal) {
+std::vector<Point2> flattened(const std::vector<Vec3>& points, Vec3 normal, Vec3 origin) {
     const auto [u, v] = frame_across(normal);
-    const Vec3 origin = points.front();
     std::vector<Point2> flat;
     flat.reserve(points.size());
     for (const Vec3& p : points) flat.push_back({dot(u, p - origin), dot(v, p - origin)});
@@ -198,8 +197,11 @@ std::optional<CutHalves> cut(const TriangleMesh& mesh, const Plane& plane, std::
     if (straddlers.empty()) return std::nullopt;
     const Section section = find_section(mesh, plane, std::move(straddlers));
     const std::vector<Loop> loops = trace_loops(section);
-    const std::vector<Point2> flat = flattened(section.points, plane.normal);
-    const CapTriangles caps = triangulate_caps(flat, loops);
+    const std::vector<Point2> flat = flattened(section.points, plane.normal, section.points.front());
+    const std::vector<Loop> with_cap = capped(loops);
+    // Nested in the coordinates of the sweep, to the last bit: what it predicts is what the cut makes.
+    const std::vector<CapRegion> regions = nest(flattened(section.points, plane.normal, mesh.points.front()), with_cap);
+    const CapTriangles caps = triangulate_regions(flat, with_cap, regions);
 
     CutHalves result;
     result.loops = loops.size();
