@@ -80,5 +80,29 @@ TEST(Touching, TheSweepPredictsTheCutAndNoCapIsFolded) {
     }
 }
 
+// Where solids cross there is no right answer, but there is one: pieces, faces and bases of the cut are those
+// predicted.
+TEST(Touching, WhereSolidsCrossTheSweepPredictsTheCutToo) {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> place(-8, 8);
+    const auto somewhere = [&] { return Vec3{place(random), place(random), place(random)}; };
+    for (int round = 0; round < 40; ++round) {
+        std::vector<TriangleMesh> parts{shapes::box({-12, -12, -12}, {12, 12, 12}, 3)};
+        for (int i = 0; i < 6; ++i) {
+            TriangleMesh part = i % 3 == 0   ? shapes::ball(somewhere(), 3 + i, 8)
+                                : i % 3 == 1 ? shapes::torus(somewhere(), 6, 2, 10)
+                                             : shapes::rotated(shapes::box({-2, -3, -4}, somewhere(), 2), {1, 1, 0}, i);
+            if (random() % 2 == 0) part = shapes::turned_inside_out(part);
+            parts.push_back(std::move(part));
+        }
+        const Piece piece = piece_of(shapes::joined(parts));
+        const Vec3 normal = random_normal(random);
+        std::vector<double> wanted;
+        for (int i = -11; i < 12; ++i) wanted.push_back(i);
+        expect_same(piece, normal, wanted, {}, "crossing, round " + std::to_string(round));
+        if (HasFailure()) return;
+    }
+}
+
 }  // namespace
 }  // namespace qchopper
