@@ -19,7 +19,8 @@ namespace qchopper {
 struct CapTriangles {
     std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise
     std::size_t regions = 0;
-    std::size_t forced_regions = 0;  // loops that cross or touch themselves: closed all the same, but not flat-covered
+    std::size_t forced_regions =
+        0;  // loops that cross, or run the wrong way round: closed all the same, but the cap folds
 };
 CapTriangles triangulate_caps(std::span<const Point2> points, std::span<const Loop> loops);
 

@@ -21,6 +21,7 @@ void expect_flat_caps(const TriangleMesh& mesh, const Plane& plane, const std::s
     if (!halves) return;
     const double size = norm(bounds(mesh).size());
     EXPECT_EQ(halves->forced_regions, 0U) << what;
+    EXPECT_EQ(crossing_regions(mesh, plane), 0U) << what;
     EXPECT_TRUE(edges(halves->above.mesh).faults.is_closed()) << what;
     EXPECT_TRUE(edges(halves->below.mesh).faults.is_closed()) << what;
     EXPECT_NEAR((volume_mm3(halves->above.mesh) + volume_mm3(halves->below.mesh)) / volume_mm3(mesh), 1, 1e-9) << what;
@@ -85,6 +86,7 @@ TEST(Touching, TheSweepPredictsTheCutAndNoCapIsFolded) {
 TEST(Touching, WhereSolidsCrossTheSweepPredictsTheCutToo) {
     std::mt19937 random(2);
     std::uniform_real_distribution<double> place(-8, 8);
+    int planes_that_cross = 0;
     const auto somewhere = [&] { return Vec3{place(random), place(random), place(random)}; };
     for (int round = 0; round < 40; ++round) {
         std::vector<TriangleMesh> parts{shapes::box({-12, -12, -12}, {12, 12, 12}, 3)};
@@ -100,8 +102,15 @@ TEST(Touching, WhereSolidsCrossTheSweepPredictsTheCutToo) {
         std::vector<double> wanted;
         for (int i = -11; i < 12; ++i) wanted.push_back(i);
         expect_same(piece, normal, wanted, {}, "crossing, round " + std::to_string(round));
+        for (const double offset : wanted) {
+            const auto halves = cut(*piece.mesh, {normal, offset}, 1);
+            const std::size_t crossing = crossing_regions(*piece.mesh, {normal, offset});
+            EXPECT_EQ(crossing, halves ? halves->forced_regions : 0);
+            if (crossing > 0) ++planes_that_cross;
+        }
         if (HasFailure()) return;
     }
+    EXPECT_GT(planes_that_cross, 100);
 }
 
 }  // namespace
