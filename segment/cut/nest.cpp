@@ -49,6 +49,48 @@ bool is_on(std::span<const Point2> points, const Loop& loop, Point2 p, double re
     return false;
 }
 
+// Tells of many points whether they are on a loop: its edges by the rows that they pass, as many rows as edges.
+// The rows run askew, because sides of built shapes run along the axes.
+class Outline {
+ public:
+    Outline(std::span<const Point2> points, const Loop& loop, double reach)
+        : points_(points), loop_(loop), reach_(reach), rows_(loop.size()) {
+        double high = -std::numeric_limits<double>::infinity();
+        for (const std::uint32_t p : loop) {
+            low_ = std::min(low_, across(points[p]));
+            high = std::max(high, across(points[p]));
+        }
+        per_mm_ = high > low_ ? static_cast<double>(loop.size()) / (high - low_) : 0;
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const double a = across(points[loop[i]]);
+            const double b = across(points[loop[next(i)]]);
+            const std::size_t last = row(std::max(a, b) + 2 * reach);
+            for (std::size_t r = row(std::min(a, b) - 2 * reach); r <= last; ++r) rows_[r].push_back(i);
+        }
+    }
+    bool has(Point2 p) const {
+        const std::vector<std::size_t>& edges = rows_[row(across(p))];
+        return std::any_of(edges.begin(), edges.end(), [&](std::size_t i) {
+            return is_on_segment(p, points_[loop_[i]], points_[loop_[next(i)]], reach_);
+        });
+    }
+
+ private:
+    static double across(Point2 p) { return 0.62 * p.x + 0.78 * p.y; }
+    std::size_t next(std::size_t i) const { return i + 1 < loop_.size() ? i + 1 : 0; }
+    std::size_t row(double at) const {
+        const double r = (at - low_) * per_mm_;
+        return r <= 0 ? 0 : std::min(static_cast<std::size_t>(r), rows_.size() - 1);
+    }
+
+    std::span<const Point2> points_;
+    const Loop& loop_;
+    double reach_;
+    double low_ = std::numeric_limits<double>::infinity();
+    double per_mm_ = 0;
+    std::vector<std::vector<std::size_t>> rows_;
+};
+
 // A point well inside the loop: in the widest gap between the heights of its points, in the middle of the widest
 // stretch there. Nothing for a loop without breadth.
 std::optional<Point2> interior_point(std::span<const Point2> points, const Loop& loop, double reach) {
@@ -84,19 +126,21 @@ enum class Place { outside, inside, same };
 // always the first. Where all its points are, the middles of its edges are asked, then a point inside it.
 Place place(std::span<const Point2> points, const Loop& loop, const Loop& other, double reach) {
     const auto by_point = [&](Point2 p) { return is_inside(points, other, p) ? Place::inside : Place::outside; };
+    if (!is_on(points, other, points[loop.front()], reach)) return by_point(points[loop.front()]);
+    const Outline outline(points, other, reach);
     for (const std::uint32_t p : loop) {
-        if (!is_on(points, other, points[p], reach)) return by_point(points[p]);
+        if (!outline.has(points[p])) return by_point(points[p]);
     }
     for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
         const Point2 a = points[loop[i]];
         const Point2 b = points[loop[j]];
         const Point2 middle{a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2};
-        if (!is_on(points, other, middle, reach)) return by_point(middle);
+        if (!outline.has(middle)) return by_point(middle);
     }
     const std::optional<Point2> within = interior_point(points, loop, reach);
     if (!within || !is_inside(points, other, *within)) return Place::outside;
-    const bool is_same =
-        std::all_of(other.begin(), other.end(), [&](std::uint32_t p) { return is_on(points, loop, points[p], reach); });
+    const Outline own(points, loop, reach);
+    const bool is_same = std::all_of(other.begin(), other.end(), [&](std::uint32_t p) { return own.has(points[p]); });
     return is_same ? Place::same : Place::inside;
 }
 
