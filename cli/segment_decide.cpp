@@ -3,6 +3,7 @@
 #include "cam/job/text.h"
 #include "cli/segment_project.h"
 #include "cli/segment_values.h"
+#include "segment/cut/cut.h"
 #include "segment/error.h"
 #include "segment/files/file.h"
 #include "segment/search/plan.h"
@@ -75,9 +76,13 @@ class Deciding {
     Proposal propose() {
         const std::size_t p = piece();
         const Piece& target = project_.segmentation().pieces[p];
-        Proposal proposal{target.name, target.mesh->triangles.size(), rules_hold_,
-                          project_.ranking(p, terminal_.context()), a_.top.value_or(10)};
+        Proposal proposal{target.name,         target.mesh->triangles.size(),
+                          rules_hold_,         project_.ranking(p, terminal_.context()),
+                          a_.top.value_or(10), {}};
         if (proposal.ranked.empty()) refuse("No plane parts piece " + target.name + ".");
+        for (std::size_t k = 1; k <= std::min(proposal.top, proposal.ranked.size()); ++k) {
+            if (crossing_regions(*target.mesh, proposal.ranked[k - 1].plane) > 0) proposal.crossing.push_back(k);
+        }
         return proposal;
     }
 
@@ -138,6 +143,7 @@ class Deciding {
         const Candidate candidate{r.plane, r.wanted_offset, r.normal, r.offset};
         preview.solids = project_.book().price_of(target, candidate, terminal_.context())->solids;
         preview.outline = outline(*target.mesh, r.plane);
+        preview.sections_cross = crossing_regions(*target.mesh, r.plane) > 0;
         answer_.preview = std::move(preview);
     }
 

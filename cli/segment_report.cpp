@@ -29,6 +29,11 @@ bool is_crumb(const SolidPrice& solid, const Project& project) {
     return solid.volume_mm3 < project.settings.objectives.crumb_volume_mm3;
 }
 
+// Of planes in which the piece runs through itself; the cut says it too (cut_piece.cpp).
+std::string sections_cross(const std::string& planes) {
+    return "The sections of " + planes + " cross: the piece runs through itself there, and the caps would overlap.";
+}
+
 // Undo and redo by the names of what they would take back or bring again; empty: nothing.
 std::string undo_in_words(const Project& project) {
     const Decision* decision = to_undo(project.history);
@@ -58,6 +63,9 @@ std::vector<std::string> proposal_lines(const Proposal& p, const std::filesystem
                         fixed(r.terms.undercut, 4), fixed(r.terms.total, 4)});
     }
     add(text, columns(rows));
+    std::string crossing;
+    for (const std::size_t k : p.crossing) crossing += (crossing.empty() ? "K " : ", ") + std::to_string(k);
+    if (!crossing.empty()) text.push_back(sections_cross(crossing));
     if (!p.ranked.empty()) {
         text.push_back("Nothing was cut. Take one by: qchopper segment " + folder.string() + " --piece " + p.piece +
                        " --accept K");
@@ -79,6 +87,7 @@ std::vector<std::string> preview_lines(const Preview& p, const Project& project)
                         volume_in_words(s.volume_mm3)});
     }
     add(text, columns(rows));
+    if (p.sections_cross) text.push_back(sections_cross("this plane"));
     text.push_back("Nothing was cut.");
     return text;
 }
@@ -119,6 +128,7 @@ Json proposal_json(const Proposal& p, const Project& project) {
     for (std::size_t k = 0; k < std::min(p.top, p.ranked.size()); ++k) {
         Json plane{{"k", k + 1}};
         plane.update(plane_json(p.ranked[k], project));
+        plane["sections_cross"] = std::find(p.crossing.begin(), p.crossing.end(), k + 1) != p.crossing.end();
         planes.push_back(plane);
     }
     return {{"piece", p.piece},
@@ -144,6 +154,7 @@ Json preview_json(const Preview& p, const Project& project) {
     }
     return {{"piece", p.piece},
             {"plane", plane_json(p.plane, project)},
+            {"sections_cross", p.sections_cross},
             {"loops", loops},
             {"length_mm", p.outline.length_mm},
             {"box_min_mm", to_json(p.outline.box.min)},

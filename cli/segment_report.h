@@ -17,8 +17,9 @@ struct Proposal {
     std::string piece;
     std::size_t faces = 0;
     bool rules_hold = false;
-    std::vector<Ranked> ranked;  // all
-    std::size_t top = 10;        // so many are shown
+    std::vector<Ranked> ranked;         // all
+    std::size_t top = 10;               // so many are shown
+    std::vector<std::size_t> crossing;  // of those shown, the places (from 1) of planes whose sections cross
 };
 
 // What one plane would make.
@@ -27,6 +28,7 @@ struct Preview {
     Ranked plane;
     Outline outline;
     std::vector<SolidPrice> solids;
+    bool sections_cross = false;  // the piece runs through itself in this plane
 };
 
 struct SegmentAnswer {

@@ -17,6 +17,7 @@
 #include <limits>
 #include <optional>
 
+#include "segment/cut/contact.h"
 #include "segment/cut/ears.h"
 
 namespace qchopper {
@@ -99,19 +100,19 @@ std::optional<Triangles> delaunay(std::span<const Point2> points, std::span<cons
 
 }  // namespace
 
-CapTriangles triangulate_caps(std::span<const Point2> points, std::span<const Loop> loops_in) {
+CapTriangles triangulate_regions(std::span<const Point2> points, std::span<const Loop> loops,
+                                 std::span<const CapRegion> regions) {
     CapTriangles result;
-    // Two triangles that meet along two edges leave a loop of two points: it closes by itself and takes no cap.
-    std::vector<Loop> kept;
-    std::copy_if(loops_in.begin(), loops_in.end(), std::back_inserter(kept),
-                 [](const Loop& l) { return l.size() > 2; });
-    const std::span<const Loop> loops = kept;
-    for (const CapRegion& region : nest(points, loops)) {
+    for (const CapRegion& region : regions) {
         ++result.regions;
         std::vector<const Loop*> region_loops{&loops[region.outer]};
         for (const std::size_t hole : region.holes) region_loops.push_back(&loops[hole]);
         std::optional<Triangles> triangles;
         if (region.is_simple) triangles = delaunay(points, region_loops);
+        if (!triangles) {
+            const std::optional<std::vector<Point2>> parted = without_contacts(points, region_loops);
+            if (parted) triangles = delaunay(*parted, region_loops);
+        }
         if (!triangles) {
             ++result.forced_regions;
             std::vector<Loop> holes;
@@ -121,6 +122,16 @@ CapTriangles triangulate_caps(std::span<const Point2> points, std::span<const Lo
         result.triangles.insert(result.triangles.end(), triangles->begin(), triangles->end());
     }
     return result;
+}
+
+std::vector<Loop> capped(std::vector<Loop> loops) {
+    std::erase_if(loops, [](const Loop& l) { return l.size() < 3; });
+    return loops;
+}
+
+CapTriangles triangulate_caps(std::span<const Point2> points, std::span<const Loop> loops) {
+    const std::vector<Loop> kept = capped({loops.begin(), loops.end()});
+    return triangulate_regions(points, kept, nest(points, kept));
 }
 
 }  // namespace qchopper

@@ -19,8 +19,16 @@ namespace qchopper {
 struct CapTriangles {
     std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise
     std::size_t regions = 0;
-    std::size_t forced_regions = 0;  // loops that cross or touch themselves: closed all the same, but not flat-covered
+    std::size_t forced_regions =
+        0;  // loops that cross, or run the wrong way round: closed all the same, but the cap folds
 };
 CapTriangles triangulate_caps(std::span<const Point2> points, std::span<const Loop> loops);
+
+// The loops that take a cap. Two triangles that meet along two edges leave a loop of two points: it closes by itself.
+std::vector<Loop> capped(std::vector<Loop> loops);
+
+// The same with the regions given, as nest() makes them of capped loops.
+CapTriangles triangulate_regions(std::span<const Point2> points, std::span<const Loop> loops,
+                                 std::span<const CapRegion> regions);
 
 }  // namespace qchopper

@@ -110,9 +110,8 @@ std::vector<Loop> trace_loops(const Section& section) {
     return loops;
 }
 
-std::vector<Point2> flattened(const std::vector<Vec3>& points, Vec3 normal) {
+std::vector<Point2> flattened(const std::vector<Vec3>& points, Vec3 normal, Vec3 origin) {
     const auto [u, v] = frame_across(normal);
-    const Vec3 origin = points.front();
     std::vector<Point2> flat;
     flat.reserve(points.size());
     for (const Vec3& p : points) flat.push_back({dot(u, p - origin), dot(v, p - origin)});
@@ -187,24 +186,50 @@ class HalfWriter {
     Half half_;
 };
 
-}  // namespace
-
-std::optional<CutHalves> cut(const TriangleMesh& mesh, const Plane& plane, std::int32_t cut_number) {
+std::vector<std::uint8_t> points_above(const TriangleMesh& mesh, const Plane& plane) {
     std::vector<std::uint8_t> is_above(mesh.points.size());
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
         is_above[v] = height(plane.normal, mesh.points[v]) >= plane.offset ? 1 : 0;
     }
+    return is_above;
+}
+
+struct CappedSection {
+    Section section;
+    CapTriangles caps;
+    std::size_t loops = 0;
+    double area_mm2 = 0;
+};
+
+std::optional<CappedSection> capped_section(const TriangleMesh& mesh, const Plane& plane,
+                                            const std::vector<std::uint8_t>& is_above) {
     std::vector<Straddler> straddlers = find_straddlers(mesh, is_above);
     if (straddlers.empty()) return std::nullopt;
-    const Section section = find_section(mesh, plane, std::move(straddlers));
-    const std::vector<Loop> loops = trace_loops(section);
-    const std::vector<Point2> flat = flattened(section.points, plane.normal);
-    const CapTriangles caps = triangulate_caps(flat, loops);
-
-    CutHalves result;
+    CappedSection result;
+    result.section = find_section(mesh, plane, std::move(straddlers));
+    const std::vector<Vec3>& points = result.section.points;
+    std::vector<Loop> loops = trace_loops(result.section);
     result.loops = loops.size();
-    result.forced_regions = caps.forced_regions;
-    for (const Loop& loop : loops) result.cap_area_mm2 += signed_area(flat, loop);
+    const std::vector<Point2> flat = flattened(points, plane.normal, points.front());
+    for (const Loop& loop : loops) result.area_mm2 += signed_area(flat, loop);
+    loops = capped(std::move(loops));
+    // Nested in the coordinates of the sweep, to the last bit: what it predicts is what the cut makes.
+    const std::vector<CapRegion> regions = nest(flattened(points, plane.normal, mesh.points.front()), loops);
+    result.caps = triangulate_regions(flat, loops, regions);
+    return result;
+}
+
+}  // namespace
+
+std::optional<CutHalves> cut(const TriangleMesh& mesh, const Plane& plane, std::int32_t cut_number) {
+    const std::vector<std::uint8_t> is_above = points_above(mesh, plane);
+    const std::optional<CappedSection> capped = capped_section(mesh, plane, is_above);
+    if (!capped) return std::nullopt;
+    const Section& section = capped->section;
+    CutHalves result;
+    result.loops = capped->loops;
+    result.forced_regions = capped->caps.forced_regions;
+    result.cap_area_mm2 = capped->area_mm2;
     HalfWriter above(mesh, is_above, true, section.points.size());
     HalfWriter below(mesh, is_above, false, section.points.size());
     std::size_t next_straddler = 0;
@@ -217,9 +242,14 @@ std::optional<CutHalves> cut(const TriangleMesh& mesh, const Plane& plane, std::
             (is_above[mesh.triangles[t][0]] != 0 ? above : below).whole(t);
         }
     }
-    result.above = above.finish(section, caps, true, cut_number);
-    result.below = below.finish(section, caps, false, cut_number);
+    result.above = above.finish(section, capped->caps, true, cut_number);
+    result.below = below.finish(section, capped->caps, false, cut_number);
     return result;
+}
+
+std::size_t crossing_regions(const TriangleMesh& mesh, const Plane& plane) {
+    const std::optional<CappedSection> capped = capped_section(mesh, plane, points_above(mesh, plane));
+    return capped ? capped->caps.forced_regions : 0;
 }
 
 }  // namespace qchopper

@@ -34,11 +34,14 @@ struct CutHalves {
     Half below;
     double cap_area_mm2 = 0;  // signed: sum over the loops of the section
     std::size_t loops = 0;
-    std::size_t forced_regions = 0;  // cap regions whose loops cross: the input intersects itself there
+    std::size_t forced_regions = 0;  // cap regions whose loops cross: the input runs through itself there
 };
 
 // Returns nothing if the plane misses the mesh: that is an answer, not an error. New caps are marked cut_number in
 // cap_of. Throws InputError if the mesh is open where the plane passes; repair closes it.
 std::optional<CutHalves> cut(const TriangleMesh& mesh, const Plane& plane, std::int32_t cut_number);
+
+// The forced_regions of a cut that is not made: the sections cross there, and a cap would overlap itself.
+std::size_t crossing_regions(const TriangleMesh& mesh, const Plane& plane);
 
 }  // namespace qchopper

@@ -3,14 +3,15 @@
 #include <cassert>
 
 #include "segment/cut/cut.h"
+#include "segment/cut/half_solids.h"
 #include "segment/mesh/edges.h"
-#include "segment/mesh/shells.h"
 
 namespace qchopper {
 namespace {
 
-void add_solids(CutPieces& result, const Piece& parent, TriangleMesh half, const Bound& bound) {
-    for (TriangleMesh& solid : split_solids(half, bound.plane.normal)) {
+void add_solids(CutPieces& result, const Piece& parent, const TriangleMesh& half, const HalfSolids& solids,
+                const Bound& bound) {
+    for (TriangleMesh& solid : split_solids(half, solids.shells, solids.solids)) {
         assert(edges(solid).faults.is_closed());
         Piece piece;
         piece.mesh = std::make_shared<const TriangleMesh>(std::move(solid));
@@ -23,7 +24,7 @@ void add_solids(CutPieces& result, const Piece& parent, TriangleMesh half, const
 }  // namespace
 
 std::optional<CutPieces> cut_piece(const Piece& piece, const Plane& plane, std::int32_t cut_number) {
-    std::optional<CutHalves> halves = cut(*piece.mesh, plane, cut_number);
+    const std::optional<CutHalves> halves = cut(*piece.mesh, plane, cut_number);
     if (!halves) return std::nullopt;
     CutPieces result;
     result.cap_area_mm2 = halves->cap_area_mm2;
@@ -32,8 +33,9 @@ std::optional<CutPieces> cut_piece(const Piece& piece, const Plane& plane, std::
                                   std::to_string(halves->forced_regions) +
                                   " place(s) of this cut: the pieces are closed, but their caps overlap there");
     }
-    add_solids(result, piece, std::move(halves->above.mesh), {cut_number, plane, true});
-    add_solids(result, piece, std::move(halves->below.mesh), {cut_number, plane, false});
+    const SolidsOfHalves solids = solids_of_halves(*piece.mesh, plane, *halves);
+    add_solids(result, piece, halves->above.mesh, solids.above, {cut_number, plane, true});
+    add_solids(result, piece, halves->below.mesh, solids.below, {cut_number, plane, false});
     return result;
 }
 

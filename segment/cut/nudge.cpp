@@ -9,6 +9,7 @@ namespace {
 
 constexpr double window_share = 1e-7;  // of the extent
 constexpr double least_ulps = 64;
+constexpr double equal_share = 1e-9;  // of the extent: an offset read in float32 lies a little beside what it means
 
 struct Gap {
     double low;
@@ -55,12 +56,22 @@ double flat_area(const Heights& heights, double low, double high) {
     return area;
 }
 
+// Widths that differ by no more than this are equal. A vertex at a distance from the wanted offset makes the gap on one
+// of its sides narrower by that distance and the gap on the other side wider, so the widths differ by twice as much.
+double equal_width(const Heights& heights, double wanted) {
+    const double near = equal_share * heights.range.size();
+    const auto next = std::lower_bound(heights.sorted_near.begin(), heights.sorted_near.end(), wanted - near);
+    const bool is_on_vertex = next != heights.sorted_near.end() && *next <= wanted + near;
+    return std::max(heights.least_width, is_on_vertex ? 2 * near + heights.least_width : near);
+}
+
 Gap best_gap(const Heights& heights, const std::vector<Gap>& all, double wanted) {
     double widest = 0;
     for (const Gap& gap : all) widest = std::max(widest, gap.width());
+    const double least = std::max(widest - equal_width(heights, wanted), std::min(widest, heights.least_width));
     std::vector<Gap> tied;
     for (const Gap& gap : all) {
-        if (gap.width() >= widest - heights.least_width) tied.push_back(gap);
+        if (gap.width() >= least) tied.push_back(gap);
     }
     // Cap areas relative to that of the lowest gap; areas that differ only by rounding count as equal.
     std::vector<double> cap(tied.size(), 0);

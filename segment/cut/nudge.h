@@ -1,9 +1,9 @@
 // Moves wanted offsets off the vertices, so that no vertex lies numerically on a plane.
 //
 // The offset becomes the middle of the widest vertex-free gap within 1e-7 of the piece's extent around the wanted one.
-// Of gaps equally wide (one vertex or one flat region on the plane) the one with the smaller cap, so that no skin stays
-// on a flat region; then the nearer; then the lower. A stored offset is never nudged again. The sweep, the cut and the
-// report all use the nudged offset (tests/segment/cut/nudge_test.cpp).
+// Of gaps equally wide (one vertex or one flat region on the plane, or within 1e-9 of the extent beside it) the one
+// with the smaller cap, so that no skin stays on a flat region; then the nearer; then the lower. A stored offset is
+// never nudged again. The sweep, the cut and the report all use the nudged offset (tests/segment/cut/nudge_test.cpp).
 
 #pragma once
 

@@ -1,6 +1,7 @@
 #include "segment/mesh/shells.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -12,6 +13,13 @@ namespace qchopper {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr double touch_share = 1e-9;   // of the mesh: surfaces as near as this touch
+constexpr double empty_share = 1e-12;  // of the cube of a shell's size: two sheets that coincide, in material or not
+
+void grow(Box& box, Vec3 p) {
+    box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y), std::min(box.min.z, p.z)};
+    box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y), std::max(box.max.z, p.z)};
+}
 
 // A frame whose lines run along `along` at constant height and side. The rule ">= is above" makes every closed surface
 // cross a line an even number of times, also through vertices.
@@ -20,9 +28,14 @@ struct LineFrame {
     Vec3 along;
 };
 
-LineFrame line_frame(Vec3 axis) {
+// One direction square to the axis, or another: a cavity whose farthest vertex touches another surface is asked again.
+constexpr int directions = 6;
+LineFrame line_frame(Vec3 axis, int number) {
     const PlaneFrame across = frame_across(normalized(axis));
-    return {across.v, across.u};
+    if (number == 0) return {across.v, across.u};
+    const double c = std::cos(number * 1.1);
+    const double s = std::sin(number * 1.1);
+    return {c * across.v - s * across.u, c * across.u + s * across.v};
 }
 
 struct Coordinates {
@@ -57,17 +70,19 @@ std::optional<double> crossing(const Coordinates (&corner)[3], double h, double 
 struct Search {
     Coordinates start;
     Tether tether;
-    double nearest = std::numeric_limits<double>::infinity();
-    bool is_hit = false;
+    double nearest = std::numeric_limits<double>::infinity();       // of all surface
+    double nearest_exit = std::numeric_limits<double>::infinity();  // of surface through which the line leaves material
+    bool is_touched = false;  // another surface at the vertex itself: what is around it there is not certain
 };
 
-// From each cavity's farthest vertex, in the order of their heights.
-std::vector<Search> searches(const TriangleMesh& mesh, const Shells& shells, const LineFrame& frame, Vec3 axis) {
+// From the farthest vertex of each cavity that is asked for, in the order of their heights.
+std::vector<Search> searches(const TriangleMesh& mesh, const Shells& shells, const LineFrame& frame, Vec3 axis,
+                             const std::vector<bool>& is_asked) {
     std::vector<std::uint32_t> farthest(shells.count(), none);
     std::vector<double> best(shells.count(), -std::numeric_limits<double>::infinity());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const std::uint32_t shell = shells.shell_of[t];
-        if (shells.volume[shell] >= 0) continue;
+        if (!is_asked[shell]) continue;
         for (const std::uint32_t v : mesh.triangles[t]) {
             const double along = dot(frame.along, mesh.points[v]);
             if (along <= best[shell]) continue;
@@ -110,15 +125,16 @@ SearchRange searches_at(std::vector<Search>& all, const Box& box, Vec3 axis) {
 }
 
 // Could the line of this search still find something nearer in the box?
-bool may_meet(const Search& search, const Box& box, const LineFrame& frame) {
+bool may_meet(const Search& search, const Box& box, const LineFrame& frame, double touch) {
     const Vec3 centre = box.centre();
     const double along = dot(frame.along, centre);
     const double half = reach(box, frame.along);
     return std::abs(dot(frame.side, centre) - search.start.s) <= reach(box, frame.side) &&
-           along + half >= search.start.t && along - half <= search.nearest;
+           along + half >= search.start.t - touch && along - half <= search.nearest + touch;
 }
 
-void try_triangle(Search& search, const TriangleMesh& mesh, const LineFrame& frame, Vec3 axis, std::size_t triangle) {
+void try_triangle(Search& search, const TriangleMesh& mesh, const LineFrame& frame, Vec3 axis, std::size_t triangle,
+                  double touch) {
     const Triangle& v = mesh.triangles[triangle];
     const double h[3] = {dot(axis, mesh.points[v[0]]), dot(axis, mesh.points[v[1]]), dot(axis, mesh.points[v[2]])};
     const int above = (h[0] >= search.start.h) + (h[1] >= search.start.h) + (h[2] >= search.start.h);
@@ -129,19 +145,35 @@ void try_triangle(Search& search, const TriangleMesh& mesh, const LineFrame& fra
         corner[k] = {h[k], dot(frame.side, p), dot(frame.along, p)};
     }
     const std::optional<double> at = crossing(corner, search.start.h, search.start.s);
-    if (!at || *at <= search.start.t || *at >= search.nearest) return;
-    search.nearest = *at;
+    if (!at) return;
+    if (std::abs(*at - search.start.t) <= touch) search.is_touched = true;
+    if (*at <= search.start.t) return;
+    search.nearest = std::min(search.nearest, *at);
+    if (*at >= search.nearest_exit || dot(area_vector(mesh, triangle), frame.along) <= 0) return;
+    search.nearest_exit = *at;
     search.tether.triangle = static_cast<std::uint32_t>(triangle);
-    search.is_hit = true;
+}
+
+// Where the lines along one direction first leave material. One pass over the triangles.
+std::vector<Search> look_along(const TriangleMesh& mesh, const Shells& shells, const LineFrame& frame, Vec3 axis,
+                               const std::vector<bool>& is_asked, double touch) {
+    std::vector<Search> all = searches(mesh, shells, frame, axis, is_asked);
+    for (std::size_t b = 0; b < shells.block.size(); ++b) {
+        const std::size_t last = std::min(mesh.triangles.size(), (b + 1) * triangles_per_block);
+        const auto [begin, end] = searches_at(all, shells.block[b], axis);
+        for (auto it = begin; it != end; ++it) {
+            if (!may_meet(*it, shells.block[b], frame, touch)) continue;
+            for (std::size_t t = b * triangles_per_block; t < last; ++t) {
+                if (shells.shell_of[t] != it->tether.cavity) try_triangle(*it, mesh, frame, axis, t, touch);
+            }
+        }
+    }
+    return all;
 }
 
 }  // namespace
 
 Shells shells(const TriangleMesh& mesh) {
-    const auto grow = [](Box& box, Vec3 p) {
-        box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y), std::min(box.min.z, p.z)};
-        box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y), std::max(box.max.z, p.z)};
-    };
     DisjointSets sets(mesh.points.size());
     for (const Triangle& t : mesh.triangles) {
         sets.unite(t[0], t[1]);
@@ -196,39 +228,60 @@ Shells shells(const TriangleMesh& mesh) {
 
 std::vector<Tether> tethers(const TriangleMesh& mesh, const Shells& shells, Vec3 axis) {
     std::vector<Tether> result;
-    const bool has_cavity = std::any_of(shells.volume.begin(), shells.volume.end(), [](double v) { return v < 0; });
-    if (!has_cavity || shells.count() == 1) return result;
-    const LineFrame frame = line_frame(axis);
-    std::vector<Search> all = searches(mesh, shells, frame, axis);
-    for (std::size_t b = 0; b < shells.block.size(); ++b) {
-        const std::size_t last = std::min(mesh.triangles.size(), (b + 1) * triangles_per_block);
-        const auto [begin, end] = searches_at(all, shells.block[b], axis);
-        for (auto it = begin; it != end; ++it) {
-            if (!may_meet(*it, shells.block[b], frame)) continue;
-            for (std::size_t t = b * triangles_per_block; t < last; ++t) {
-                if (shells.shell_of[t] != it->tether.cavity) try_triangle(*it, mesh, frame, axis, t);
-            }
-        }
+    if (shells.count() < 2) return result;
+    std::vector<bool> is_asked(shells.count());
+    Box all = shells.box.front();
+    for (std::size_t shell = 0; shell < shells.count(); ++shell) {
+        is_asked[shell] = shells.volume[shell] <= empty_share * std::pow(norm(shells.box[shell].size()), 3);
+        grow(all, shells.box[shell].min);
+        grow(all, shells.box[shell].max);
     }
-    for (const Search& s : all) {
-        // The line must leave material where it meets the surface; else the shell is inside out, not a cavity.
-        if (s.is_hit && dot(area_vector(mesh, s.tether.triangle), frame.along) > 0) result.push_back(s.tether);
+    if (std::find(is_asked.begin(), is_asked.end(), true) == is_asked.end()) return result;
+    const double touch = touch_share * norm(all.size());
+    std::vector<Tether> doubtful;
+    for (int number = 0; number < directions; ++number) {
+        const LineFrame frame = line_frame(axis, number);
+        for (const Search& s : look_along(mesh, shells, frame, axis, is_asked, touch)) {
+            // The line must leave material where it first meets surface; else the shell is inside out, not a cavity.
+            if (s.tether.triangle == none || s.nearest_exit > s.nearest + touch) continue;
+            if (s.is_touched) {
+                if (number == 0) doubtful.push_back(s.tether);
+                continue;
+            }
+            result.push_back(s.tether);
+            is_asked[s.tether.cavity] = false;
+        }
+        if (std::find(is_asked.begin(), is_asked.end(), true) == is_asked.end()) break;
+    }
+    for (const Tether& tether : doubtful) {
+        if (is_asked[tether.cavity]) result.push_back(tether);
+    }
+    return result;
+}
+
+Solids solids(const Shells& shells, std::span<const std::array<std::uint32_t, 2>> ties) {
+    Solids result;
+    result.solid_of_shell.assign(shells.count(), none);
+    DisjointSets sets(shells.count());
+    for (const auto& [a, b] : ties) sets.unite(a, b);
+    for (std::uint32_t shell = 0; shell < shells.count(); ++shell) {
+        std::uint32_t& solid = result.solid_of_shell[sets.root(shell)];
+        if (solid == none) solid = static_cast<std::uint32_t>(result.count++);
+        result.solid_of_shell[shell] = solid;
     }
     return result;
 }
 
 Solids solids(const TriangleMesh& mesh, const Shells& shells, Vec3 axis) {
-    Solids result;
-    result.solid_of_shell.assign(shells.count(), none);
-    DisjointSets sets(shells.count());
-    const std::vector<Tether> ties = tethers(mesh, shells, axis);
-    for (const Tether& tie : ties) sets.unite(tie.cavity, shells.shell_of[tie.triangle]);
-    const auto cavities = std::count_if(shells.volume.begin(), shells.volume.end(), [](double v) { return v < 0; });
-    result.loose_cavities = static_cast<std::size_t>(cavities) - ties.size();
-    for (std::uint32_t shell = 0; shell < shells.count(); ++shell) {
-        std::uint32_t& solid = result.solid_of_shell[sets.root(shell)];
-        if (solid == none) solid = static_cast<std::uint32_t>(result.count++);
-        result.solid_of_shell[shell] = solid;
+    std::vector<std::array<std::uint32_t, 2>> ties;
+    std::vector<bool> is_tied(shells.count());
+    for (const Tether& tether : tethers(mesh, shells, axis)) {
+        ties.push_back({tether.cavity, shells.shell_of[tether.triangle]});
+        is_tied[tether.cavity] = true;
+    }
+    Solids result = solids(shells, ties);
+    for (std::size_t shell = 0; shell < shells.count(); ++shell) {
+        if (shells.volume[shell] < 0 && !is_tied[shell]) ++result.loose_cavities;
     }
     return result;
 }
@@ -254,7 +307,10 @@ TriangleMesh extract(const TriangleMesh& mesh, const std::vector<std::uint32_t>&
 
 std::vector<TriangleMesh> split_solids(const TriangleMesh& mesh, Vec3 axis) {
     const Shells all_shells = shells(mesh);
-    const Solids all_solids = solids(mesh, all_shells, axis);
+    return split_solids(mesh, all_shells, solids(mesh, all_shells, axis));
+}
+
+std::vector<TriangleMesh> split_solids(const TriangleMesh& mesh, const Shells& all_shells, const Solids& all_solids) {
     if (all_solids.count == 1) return {mesh};
     // One pass for all solids: a scan can have hundreds.
     std::vector<TriangleMesh> parts(all_solids.count);

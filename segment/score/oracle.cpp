@@ -5,8 +5,8 @@
 #include <map>
 
 #include "segment/cut/cut.h"
+#include "segment/cut/half_solids.h"
 #include "segment/mesh/measure.h"
-#include "segment/mesh/shells.h"
 #include "segment/score/fragility.h"
 
 namespace qchopper {
@@ -67,17 +67,16 @@ std::vector<SolidPrice> measure_solids(const TriangleMesh& mesh, const std::vect
     return solids;
 }
 
-std::vector<SolidPrice> measure_half(const Half& half, const Piece& piece, const Bound& bound) {
+std::vector<SolidPrice> measure_half(const Half& half, const HalfSolids& solids, const Piece& piece,
+                                     const Bound& bound) {
     std::vector<Bound> bounds = piece.bounds;
     bounds.push_back(bound);
-    const Shells all_shells = shells(half.mesh);
-    const Solids all_solids = solids(half.mesh, all_shells, bound.plane.normal);
     std::vector<std::uint32_t> solid_of(half.mesh.triangles.size());
     for (std::size_t t = 0; t < solid_of.size(); ++t) {
-        solid_of[t] = all_solids.solid_of_shell[all_shells.shell_of[t]];
+        solid_of[t] = solids.solids.solid_of_shell[solids.shells.shell_of[t]];
     }
     const std::vector<Vec3> normals = triangle_normals(half.mesh, bounds, &half.parent, piece.mesh.get());
-    std::vector<SolidPrice> prices = measure_solids(half.mesh, normals, solid_of, all_solids.count, bounds);
+    std::vector<SolidPrice> prices = measure_solids(half.mesh, normals, solid_of, solids.solids.count, bounds);
     for (SolidPrice& price : prices) price.above = bound.above;
     return prices;
 }
@@ -89,8 +88,9 @@ std::optional<Price> price_by_cutting(const Piece& piece, const Plane& plane, co
     if (!halves) return std::nullopt;
     Price price;
     price.cap_area_mm2 = halves->cap_area_mm2;
-    price.solids = measure_half(halves->above, piece, {new_cut, plane, true});
-    const std::vector<SolidPrice> below = measure_half(halves->below, piece, {new_cut, plane, false});
+    const SolidsOfHalves solids = solids_of_halves(*piece.mesh, plane, *halves);
+    price.solids = measure_half(halves->above, solids.above, piece, {new_cut, plane, true});
+    const std::vector<SolidPrice> below = measure_half(halves->below, solids.below, piece, {new_cut, plane, false});
     price.solids.insert(price.solids.end(), below.begin(), below.end());
     if (price.cap_area_mm2 > 0) {
         price.fragility = objectives.fragility_form == FragilityForm::thinness

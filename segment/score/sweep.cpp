@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "segment/cut/half_solids.h"
 #include "segment/mesh/disjoint_sets.h"
 #include "segment/score/fragility_sweep.h"
 #include "segment/score/section.h"
@@ -41,7 +42,7 @@ class Side {
         }
         for (const auto& [a, b] : slabs.ties) add_edge(a, b);
         for (const Tether& t : ties) {
-            add_edge(slabs.node_of[t.vertex], slabs.node_of[far_corner(t.triangle)]);
+            add_edge(slabs.node_of[t.vertex], slabs.node_of[far_corner(*prepared.piece->mesh, t, normal, above)]);
         }
     }
 
@@ -56,16 +57,6 @@ class Side {
     }
 
  private:
-    // The tether lies at the cavity's height; of the triangle that it meets, this corner is on its side of any plane.
-    std::uint32_t far_corner(std::uint32_t triangle) const {
-        const TriangleMesh& mesh = *p_.piece->mesh;
-        const Triangle& v = mesh.triangles[triangle];
-        return *std::max_element(v.begin(), v.end(), [&](std::uint32_t a, std::uint32_t b) {
-            const double difference = height(normal_, mesh.points[a]) - height(normal_, mesh.points[b]);
-            return above_ ? difference < 0 : difference > 0;
-        });
-    }
-
     // An edge counts from the slab of its end nearer to the planes.
     void add_edge(std::uint32_t a, std::uint32_t b) {
         if (a == b) return;

@@ -5,7 +5,9 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
+#include "segment/intake/write_ply.h"
 #include "tests/cli/program.h"
+#include "tests/shapes.h"
 
 namespace qchopper {
 namespace {
@@ -58,6 +60,26 @@ TEST_F(Segment, PreviewsAPlaneWithoutCutting) {
     EXPECT_EQ(program::difference(before, program::contents(folder.path)), "");
     const json made = answer({"p.qch", "--plane", "0,0,1,0"});
     EXPECT_EQ(seen["preview"]["makes"].size(), made["pieces"].size()) << seen.dump(1);
+}
+
+// A cavity that pokes out of its solid: planes through both say so before the cut, and the cut says it again.
+TEST_F(Segment, SaysBeforeAndAfterTheCutWhereThePieceRunsThroughItself) {
+    const TriangleMesh poking = shapes::joined(
+        {shapes::box({0, 0, 0}, {40, 40, 40}, 2), shapes::turned_inside_out(shapes::ball({20, 20, 38}, 5))});
+    write_file(folder.path / "poking.ply", to_ply(poking));
+    answer({"poking.ply", "--units", "mm", "-o", "x.qch"});
+    EXPECT_EQ(answer({"x.qch", "--preview", "1,0,0,0.1"})["preview"]["sections_cross"], true);
+    EXPECT_EQ(answer({"x.qch", "--preview", "1,0,0,15.1"})["preview"]["sections_cross"], false);
+    const std::string shown = run({"segment", "x.qch", "--preview", "1,0,0,0.1", "-q"}).out;
+    EXPECT_NE(shown.find("The sections of this plane cross"), std::string::npos) << shown;
+    const json proposed = answer({"x.qch", "--step", "--top", "118"});
+    std::size_t crossing = 0;
+    for (const json& plane : proposed["proposal"]["planes"]) crossing += plane["sections_cross"] == true ? 1 : 0;
+    EXPECT_GT(crossing, 0U);
+    EXPECT_LT(crossing, proposed["proposal"]["planes"].size());
+    const program::Ended made = run({"segment", "x.qch", "--plane", "1,0,0,0.1", "-q"});
+    EXPECT_EQ(made.code, 0);
+    EXPECT_NE(made.err.find("intersects itself in 1 place"), std::string::npos) << made.err;
 }
 
 TEST_F(Segment, TakesBackTwoDecisionsAndBringsThemAgain) {

@@ -50,6 +50,35 @@ TEST(Nudge, AtAFlatRegionTheSmallerCapWins) {
     EXPECT_NEAR(halves->cap_area_mm2, 20 * 30, 1e-6);
 }
 
+// An offset that was typed, or read in float32, lies a little beside the flat region that it means. Beside the region
+// by up to 1e-9 of the extent, on either side, in either orientation: the smaller cap wins as on the region itself.
+TEST(Nudge, BesideAFlatRegionByABillionthOfTheExtentIsOnIt) {
+    for (const bool is_turned : {false, true}) {
+        for (const Vec3& far : {Vec3{0, 0, 0}, Vec3{300, -200, 1000}}) {
+            TriangleMesh mesh = shapes::stairs();
+            if (is_turned) mesh = shapes::rotated(mesh, {1, 0, 0}, 3.14159265358979323846);
+            const Piece stairs = piece_of(shapes::moved(mesh, far));
+            const double tread = far.z + (is_turned ? -10 : 10);
+            const double on_it = nudge_one(stairs, {0, 0, 1}, tread)->offset;
+            const double size = extent(*stairs.mesh, {0, 0, 1}).size();
+            ASSERT_EQ(on_it < tread, is_turned);
+            for (const double share : {1e-12, 1e-10, 4e-10, 6e-10, 9.9e-10}) {
+                for (const double side : {-1, 1}) {
+                    const double wanted = tread + side * share * size;
+                    const auto nudged = nudge_one(stairs, {0, 0, 1}, wanted);
+                    ASSERT_TRUE(nudged);
+                    EXPECT_FALSE(nudged->is_widened);
+                    EXPECT_EQ(nudged->offset < tread, is_turned) << share * side;
+                    EXPECT_NEAR(nudged->offset, on_it, 1e-9 * size) << share * side;
+                }
+            }
+            // Well beside it the wider gap wins, whatever the caps.
+            const double wanted = tread + (is_turned ? 1 : -1) * 1e-8 * size;
+            EXPECT_EQ(nudge_one(stairs, {0, 0, 1}, wanted)->offset < tread, !is_turned);
+        }
+    }
+}
+
 TEST(Nudge, ASingleVertexOnThePlaneGoesToTheLowerSide) {
     const Piece ball = piece_of(shapes::ball({0, 0, 0}, 10, 8));
     const Vec3 normal = normalized({1, 0.3, 0.2});

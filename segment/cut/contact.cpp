@@ -1,0 +1,215 @@
+#include "segment/cut/contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace qchopper {
+namespace {
+
+// Shares of the region's size. Rounding stays far below the first; what a nudged plane leaves between two vertices is
+// far above the last.
+constexpr double contact_share = 1e-11;
+constexpr double move_share = 1e-10;
+constexpr double probe_share = 1e-9;
+constexpr double equal_angle = 1e-6;
+
+Point2 operator-(Point2 a, Point2 b) {
+    return {a.x - b.x, a.y - b.y};
+}
+
+Point2 along(Point2 p, double angle, double distance) {
+    return {p.x + distance * std::cos(angle), p.y + distance * std::sin(angle)};
+}
+
+double angle_of(Point2 d) {
+    return std::atan2(d.y, d.x);
+}
+
+// From one angle counter-clockwise to another: 0 to 2 pi.
+double turn(double from, double to) {
+    const double t = std::fmod(to - from, 2 * std::numbers::pi);
+    return t < 0 ? t + 2 * std::numbers::pi : t;
+}
+
+// A point of a loop, and the points before and after it that lie elsewhere.
+struct Corner {
+    Point2 at;
+    Point2 before;
+    Point2 after;
+    std::uint32_t point = 0;
+    bool is_doubled_before = false;  // the neighbour lies in the same place
+    bool is_doubled_after = false;
+};
+
+// The two sides of a corner: the material from the way out counter-clockwise to the way in, and the rest.
+struct Sides {
+    double out = 0;
+    double material = 0;  // angle
+    double into_material() const { return out + material / 2; }
+    double into_void() const { return out + material / 2 + std::numbers::pi; }
+};
+
+struct Edge {
+    Point2 a;
+    Point2 b;
+    std::size_t from = 0;  // corners
+    std::size_t to = 0;
+};
+
+class Parter {
+ public:
+    Parter(std::span<const Point2> points, std::span<const Loop* const> loops) : points_(points), loops_(loops) {
+        Point2 min{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        Point2 max{-min.x, -min.y};
+        for (const Loop* loop : loops) {
+            for (const std::uint32_t p : *loop) {
+                min = {std::min(min.x, points[p].x), std::min(min.y, points[p].y)};
+                max = {std::max(max.x, points[p].x), std::max(max.y, points[p].y)};
+            }
+        }
+        low_ = min.y;
+        size_ = std::hypot(max.x - min.x, max.y - min.y);
+        reach_ = contact_share * size_;
+        for (const Loop* loop : loops) add_corners(*loop);
+        fill_rows(max.y);
+    }
+
+    std::optional<std::vector<Point2>> run() {
+        std::vector<Point2> moved(points_.begin(), points_.end());
+        bool is_any = false;
+        for (std::size_t c = 0; c < corners_.size(); ++c) {
+            const std::optional<double> way = way_out(c);
+            if (!way) continue;
+            moved[corners_[c].point] = along(corners_[c].at, *way, move_share * size_);
+            is_any = true;
+        }
+        if (!is_any) return std::nullopt;
+        for (std::size_t i = 0; i < loops_.size(); ++i) {
+            const double area = signed_area(moved, *loops_[i]);
+            if (i == 0 ? area <= 0 : area >= 0) return std::nullopt;
+        }
+        return moved;
+    }
+
+ private:
+    bool is_same_place(Point2 a, Point2 b) const {
+        return std::abs(a.x - b.x) <= reach_ && std::abs(a.y - b.y) <= reach_;
+    }
+
+    void add_corners(const Loop& loop) {
+        const std::size_t n = loop.size();
+        const std::size_t first = corners_.size();
+        for (std::size_t i = 0; i < n; ++i) {
+            Corner c;
+            c.point = loop[i];
+            c.at = points_[loop[i]];
+            std::size_t before = (i + n - 1) % n;
+            std::size_t after = (i + 1) % n;
+            c.is_doubled_before = is_same_place(points_[loop[before]], c.at);
+            c.is_doubled_after = is_same_place(points_[loop[after]], c.at);
+            while (before != i && is_same_place(points_[loop[before]], c.at)) before = (before + n - 1) % n;
+            while (after != i && is_same_place(points_[loop[after]], c.at)) after = (after + 1) % n;
+            c.before = points_[loop[before]];
+            c.after = points_[loop[after]];
+            edges_.push_back({c.at, points_[loop[(i + 1) % n]], first + i, first + (i + 1) % n});
+            corners_.push_back(c);
+        }
+    }
+
+    // Edges by the rows that they pass, as many rows as edges.
+    void fill_rows(double high) {
+        rows_.resize(edges_.size() + 1);
+        per_mm_ = high > low_ ? static_cast<double>(edges_.size()) / (high - low_) : 0;
+        for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+            const auto [low, top] = std::minmax(edges_[e].a.y, edges_[e].b.y);
+            for (std::size_t r = row(low - reach_); r <= row(top + reach_); ++r) rows_[r].push_back(e);
+        }
+    }
+    std::size_t row(double y) const {
+        const double r = (y - low_) * per_mm_;
+        return r <= 0 ? 0 : std::min(static_cast<std::size_t>(r), rows_.size() - 1);
+    }
+
+    bool is_touched_by(Point2 p, const Edge& e) const {
+        if (p.x < std::min(e.a.x, e.b.x) - reach_ || p.x > std::max(e.a.x, e.b.x) + reach_) return false;
+        if (p.y < std::min(e.a.y, e.b.y) - reach_ || p.y > std::max(e.a.y, e.b.y) + reach_) return false;
+        const Point2 d = e.b - e.a;
+        const Point2 q = p - e.a;
+        return std::abs(d.x * q.y - d.y * q.x) <= reach_ * std::hypot(d.x, d.y);
+    }
+
+    // Even-odd, in the region as it was.
+    bool is_material(Point2 p) const {
+        bool inside = false;
+        for (const std::uint32_t number : rows_[row(p.y)]) {
+            const Edge& e = edges_[number];
+            if ((e.a.y > p.y) != (e.b.y > p.y) && p.x < (e.b.x - e.a.x) * (p.y - e.a.y) / (e.b.y - e.a.y) + e.a.x) {
+                inside = !inside;
+            }
+        }
+        return inside;
+    }
+
+    Sides sides(const Corner& c) const {
+        Sides s;
+        s.out = angle_of(c.after - c.at);
+        s.material = turn(s.out, angle_of(c.before - c.at));
+        // A spike: is it one of void or one of material?
+        if (s.material < equal_angle || s.material > 2 * std::numbers::pi - equal_angle) {
+            const bool is_around = is_material(along(c.at, s.out + std::numbers::pi, probe_share * size_));
+            s.material = is_around ? 2 * std::numbers::pi : 0;
+        }
+        return s;
+    }
+
+    // Which way a corner has to move to come free; nothing if it touches nothing, or on both its sides.
+    std::optional<double> way_out(std::size_t number) const {
+        const Corner& c = corners_[number];
+        if (c.is_doubled_before != c.is_doubled_after) {
+            return angle_of((c.is_doubled_before ? c.after : c.before) - c.at);
+        }
+        bool in_material = false;
+        bool in_void = false;
+        std::optional<Sides> own;
+        for (const std::uint32_t e : rows_[row(c.at.y)]) {
+            const Edge& edge = edges_[e];
+            if (edge.from == number || edge.to == number || !is_touched_by(c.at, edge)) continue;
+            if (!own) own = sides(c);
+            for (const Point2 end : {edge.a, edge.b}) {
+                if (is_same_place(end, c.at)) continue;
+                const double angle = turn(own->out, angle_of(end - c.at));
+                if (angle < equal_angle || angle > 2 * std::numbers::pi - equal_angle) continue;
+                if (std::abs(angle - own->material) < equal_angle) continue;
+                (angle < own->material ? in_material : in_void) = true;
+            }
+        }
+        if (!own) return std::nullopt;
+        if (!in_material && !in_void) {  // only edges along its own: pinched is what is not there a little farther
+            const bool has_material = is_material(along(c.at, own->into_material(), probe_share * size_));
+            (has_material ? in_void : in_material) = true;
+        }
+        if (in_material == in_void) return std::nullopt;
+        return in_material ? own->into_void() : own->into_material();
+    }
+
+    std::span<const Point2> points_;
+    std::span<const Loop* const> loops_;
+    double low_ = 0;
+    double size_ = 0;
+    double reach_ = 0;
+    double per_mm_ = 0;
+    std::vector<Corner> corners_;
+    std::vector<Edge> edges_;
+    std::vector<std::vector<std::uint32_t>> rows_;
+};
+
+}  // namespace
+
+std::optional<std::vector<Point2>> without_contacts(std::span<const Point2> points,
+                                                    std::span<const Loop* const> loops) {
+    return Parter(points, loops).run();
+}
+
+}  // namespace qchopper
