@@ -9,6 +9,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "cli/examples.h"
 #include "cli/segment_values.h"
 #include "cli/version.h"
 #include "segment/error.h"
@@ -16,23 +17,7 @@
 namespace qchopper {
 namespace {
 
-constexpr const char* examples = R"(Examples:
-  qchopper sample vertebra --faces 50000 -o vertebra.ply
-  qchopper inspect vertebra.ply --units mm
-  qchopper repair vertebra.ply --units mm -o solid.ply
-  qchopper prepare vertebra.ply --units mm --cell cells/foam-1.toml --min-cuts 3 -o vertebra.qch
-  qchopper segment vertebra.ply --units mm -o by-hand.qch
-  qchopper segment by-hand.qch --step
-  qchopper segment by-hand.qch --accept 1
-  qchopper explain vertebra.qch --cut 1
-  qchopper export vertebra.qch --format 3mf
-  qchopper dry-run vertebra.qch
-  qchopper cell-sim --listen 127.0.0.1:15020 --drop drop --consent ask
-  qchopper dispatch vertebra.qch --to 127.0.0.1:15020 --drop drop
-
-Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use, 65 the scan is wrong,
-66 input missing, 69 cell not reachable, 73/74 cannot write, 75 try again later, 76 protocol, 78 settings file,
-130 stopped (finished work is kept).)";
+constexpr const char* scan_formats = "PLY, STL, OBJ, OFF, GLB, glTF or 3MF, packed by gzip or not";
 
 // Edits that turn one word into another.
 std::size_t distance(const std::string& a, const std::string& b) {
@@ -119,7 +104,7 @@ struct Parser {
     std::string max_obb;
 
     Parser() {
-        app.footer(examples);
+        app.footer(examples_of(""));
         app.require_subcommand(1);
         app.set_version_flag("--version", std::string("qchopper ") + version);
         add_sample();
@@ -132,6 +117,7 @@ struct Parser {
         add_dry_run();
         add_cell_sim();
         add_dispatch();
+        for (CLI::App* command : app.get_subcommands({})) command->footer(examples_of(command->get_name()));
     }
 
     void add_sample() {
@@ -151,7 +137,7 @@ struct Parser {
 
     void add_inspect() {
         CLI::App* c = app.add_subcommand("inspect", "say what a scan is and what is wrong with it");
-        c->add_option("SCAN", inspect.scan, "PLY, STL, OBJ, OFF, GLB, glTF or 3MF; - is standard input")->required();
+        c->add_option("SCAN", inspect.scan, std::string(scan_formats) + "; - is standard input")->required();
         c->add_option("--units", inspect.units, "what one unit of the file is: mm, cm, m, in")
             ->check(one_of({"mm", "cm", "m", "in"}));
         c->add_flag("--deep", inspect.deep, "look for faces that run through each other too");
@@ -180,7 +166,7 @@ struct Parser {
 
     void add_repair() {
         CLI::App* c = app.add_subcommand("repair", "make a closed solid of a scan and say what that took");
-        c->add_option("SCAN", repair.scan, "a scan of any kind that inspect reads; - is standard input")->required();
+        c->add_option("SCAN", repair.scan, std::string(scan_formats) + "; - is standard input")->required();
         c->add_option("-o,--out", repair.out, "the file to write: .ply, which keeps every bit, or .stl")->required();
         c->add_option("--units", repair.units, "what one unit of the file is: mm, cm, m, in")
             ->check(one_of({"mm", "cm", "m", "in"}));
@@ -227,6 +213,9 @@ struct Parser {
             ->check(one_of({"thinness", "thesis"}));
         c->add_option("--crumbs", a.crumbs, "solids too small to be pieces: keep or drop (keep)")
             ->check(one_of({"keep", "drop"}));
+        c->add_option("--fragment-volume", a.fragment_volume_mm3,
+                      "solids of less than so many mm3 are no pieces (a hundred-thousandth of the scan's volume)")
+            ->check(number_between(0, many, "a volume in mm3"));
         c->add_option("--weights", a.weights,
                       "of the four terms: face_ratio=10,fragility=5,piece_count=50,undercut=10 (any of them)")
             ->check(CLI::Validator(
@@ -245,7 +234,8 @@ struct Parser {
 
     void add_prepare() {
         CLI::App* c = app.add_subcommand("prepare", "the whole way: from a scan to job files");
-        c->add_option("SCAN", prepare.input, "PLY or STL; or the folder NAME.qch of a project to go on with")
+        c->add_option("SCAN", prepare.input,
+                      std::string(scan_formats) + "; or the folder NAME.qch of a project to go on with")
             ->required();
         add_project_options(c, prepare);
         c->add_option("-o,--out", prepare.out, "the project folder to make: NAME.qch");
@@ -254,7 +244,8 @@ struct Parser {
 
     void add_segment() {
         CLI::App* c = app.add_subcommand("segment", "cut a scan one decision at a time; --help lists the decisions");
-        c->add_option("SCAN", segment.input, "PLY or STL to make a project of; or the folder NAME.qch of one")
+        c->add_option("SCAN", segment.input,
+                      std::string(scan_formats) + ", to make a project of; or the folder NAME.qch of one")
             ->required();
         add_project_options(c, segment);
         c->add_flag("--step", segment.step, "propose the best planes for the next piece; cut nothing");
@@ -279,6 +270,10 @@ struct Parser {
                 },
                 ""));
         c->add_option("--piece", segment.piece, "the piece to be cut next (the one that the rules choose)");
+        c->add_option("--discard", segment.discard,
+                      "leave a piece out for good: head rest, debris, table; undone alike");
+        c->add_flag("--write-pieces", segment.write_pieces,
+                    "write the pieces of the project folder after each decision");
         c->add_flag("--undo", segment.undo, "take the last decision back");
         c->add_flag("--redo", segment.redo, "put the decision that was taken back in force again");
         c->add_flag("--reset", segment.reset, "take all cuts back; --undo brings them again");

@@ -64,6 +64,7 @@ struct ProjectArguments : RepairChoiceArguments {
     std::optional<int> beam;
     std::optional<double> time_limit_s;
     std::optional<std::string> crumbs;  // keep | drop
+    std::optional<double> fragment_volume_mm3;
     std::optional<std::filesystem::path> out;
 };
 
@@ -78,6 +79,7 @@ struct SegmentArguments : ProjectArguments {
     std::optional<std::size_t> accept;   // a place in the ranking, from 1
     std::optional<std::string> plane;    // nx,ny,nz,d
     std::optional<std::string> preview;  // a place, or nx,ny,nz,d
+    std::optional<std::string> discard;  // a piece
     bool undo = false;
     bool redo = false;
     bool reset = false;
@@ -87,6 +89,7 @@ struct SegmentArguments : ProjectArguments {
     // How.
     std::optional<std::string> piece;
     std::optional<std::size_t> top;
+    bool write_pieces = false;
 };
 
 struct ExplainArguments {

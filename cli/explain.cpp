@@ -8,6 +8,7 @@
 #include "cli/exit_code.h"
 #include "cli/explanation.h"
 #include "cli/segment_project.h"
+#include "cli/segment_report.h"
 #include "segment/files/file.h"
 #include "segment/intake/intake.h"
 #include "segment/score/pricing.h"
@@ -142,10 +143,11 @@ int run(const ExplainArguments& arguments, Terminal& terminal) {
     for (const std::string& piece : cut.pieces) made += (made.empty() ? "" : ", ") + piece;
     terminal.show("cut " + std::to_string(cut.number) + " on piece " + cut.piece + " makes " + made +
                   (cut.crumbs > 0 ? " and " + std::to_string(cut.crumbs) + " crumbs" : ""));
+    for (const std::string& line : discarded_lines(project)) terminal.show(line);
     terminal.show(verdict(e));
     for (const std::string& line : columns(table(e))) terminal.show(line);
     terminal.show("plot: " + picture.string());
-    terminal.json(document(e, picture.string()));
+    terminal.json(document(e, project, picture.string()));
     return exit_done;
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cam/job/text.h"
+#include "cli/segment_report.h"
 
 namespace qchopper {
 namespace {
@@ -105,7 +106,7 @@ std::vector<std::vector<std::string>> table(const Explanation& e) {
     return rows;
 }
 
-std::string document(const Explanation& e, const std::string& picture) {
+std::string document(const Explanation& e, const Project& project, const std::string& picture) {
     Json best = Json::array();
     for (std::size_t i = 0; i < std::min(e.ranked.size(), shown); ++i) best.push_back(to_json(e.ranked[i]));
     const Weights& w = e.objectives.weights;
@@ -114,6 +115,7 @@ std::string document(const Explanation& e, const std::string& picture) {
                     {"piece", e.cut.piece},
                     {"pieces", e.cut.pieces},
                     {"crumbs", e.cut.crumbs},
+                    {"discarded", discarded_json(project)},
                     {"weights",
                      {{"face_ratio", w.face_ratio},
                       {"fragility", w.fragility},

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "segment/picture/plot.h"
-#include "segment/search/segmentation.h"
+#include "segment/search/project.h"
 
 namespace qchopper {
 
@@ -33,7 +33,7 @@ std::vector<std::vector<std::string>> table(const Explanation& explanation);
 
 Plot plot(const Explanation& explanation, const std::string& project);
 
-// The one JSON document; `picture` is where the plot was written.
-std::string document(const Explanation& explanation, const std::string& picture);
+// The one JSON document, with what is discarded in the project; `picture` is where the plot was written.
+std::string document(const Explanation& explanation, const Project& project, const std::string& picture);
 
 }  // namespace qchopper

@@ -2,8 +2,6 @@
 
 #include "cam/export/export.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -13,8 +11,11 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/segment_project.h"
+#include "cli/segment_report.h"
 #include "cli/segment_setups.h"
+#include "cli/shell_word.h"
 #include "cli/version.h"
+#include "segment/files/temporary_folder.h"
 #include "segment/intake/read_mesh.h"
 #include "segment/picture/picture.h"
 #include "segment/simplify/simplify.h"
@@ -75,7 +76,7 @@ std::vector<Piece> pieces_of(const fs::path& folder, const Project& project, boo
         piece.mesh = std::make_shared<const TriangleMesh>(read_mesh(file).mesh);
         if (piece.mesh->triangles.size() != solid.faces) {
             throw InputError(InputFault::mesh, file.string() + " is not the piece that the project made",
-                             "write it again by: qchopper prepare " + folder.string());
+                             "write it again by: qchopper prepare " + shell_word(folder));
         }
         pieces.push_back(std::move(piece));
     }
@@ -118,7 +119,7 @@ std::vector<Row> rows_of(const std::vector<Piece>& pieces, const Project& projec
     }
     if (rows.empty()) {
         throw InputError(InputFault::use, "the project has no piece " + a.piece.value_or("at all"),
-                         "see its pieces by: qchopper segment " + a.project.string());
+                         "see its pieces by: qchopper segment " + shell_word(a.project));
     }
     return rows;
 }
@@ -143,25 +144,19 @@ void simplify_all(std::vector<Row>& rows, const ExportArguments& a, Terminal& te
 // The folder appears whole or not at all.
 void write_folder(std::vector<Row>& rows, ExportFormat format, const std::string& ending, const fs::path& out,
                   const Context& context) {
-    const fs::path aside = out.string() + ".tmp." + std::to_string(::getpid());
-    std::error_code ignored;
     try {
-        fs::create_directories(aside);
+        TemporaryFolder aside(out);
         for (std::size_t i = 0; i < rows.size(); ++i) {
             context.check_cancelled();
             context.progress("pieces written", i, rows.size());
             const std::string name = rows[i].piece.name + "." + ending;
-            write_file(aside / name, export_file(format, rows[i].piece));
+            write_file(aside.path() / name, export_file(format, rows[i].piece));
             rows[i].file = out / name;
         }
-        fs::rename(aside, out);
+        aside.move_to_its_place();
     } catch (const fs::filesystem_error& e) {
-        fs::remove_all(aside, ignored);
         throw InputError(InputFault::create, out.string() + " cannot be made: " + e.code().message(),
                          "choose another place");
-    } catch (...) {
-        fs::remove_all(aside, ignored);
-        throw;
     }
 }
 
@@ -220,7 +215,8 @@ std::string document(const std::vector<Row>& rows, const ExportArguments& a, con
                 {"units", a.format == "glb" ? "m" : "mm"},
                 {"output", out.string()},
                 {"centre_mm", {centre.x, centre.y, centre.z}},
-                {"pieces", pieces}}
+                {"pieces", pieces},
+                {"discarded", discarded_json(project)}}
         .dump(1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -235,8 +231,9 @@ int run(const ExportArguments& arguments, Terminal& terminal) {
     std::optional<Cell> cell;
     if (arguments.pose == "setup") {
         if (!fs::exists(folder / "cell.toml")) {
-            throw InputError(InputFault::use, folder.string() + " knows no cell, so nobody knows how its pieces lie",
-                             "name one by: qchopper prepare " + folder.string() + " --cell FILE; or leave --pose out");
+            throw InputError(
+                InputFault::use, folder.string() + " knows no cell, so nobody knows how its pieces lie",
+                "name one by: qchopper segment " + shell_word(folder) + " --cell FILE; or leave --pose out");
         }
         cell = read_cell(folder / "cell.toml");
     }
@@ -244,6 +241,7 @@ int run(const ExportArguments& arguments, Terminal& terminal) {
     simplify_all(rows, arguments, terminal);
     write_all(rows, arguments, out, project, terminal.context());
     for (const std::string& line : table(rows, arguments.simplify_mm || arguments.max_faces)) terminal.show(line);
+    for (const std::string& line : discarded_lines(project)) terminal.show(line);
     terminal.json(document(rows, arguments, out, project));
     const bool is_met =
         std::none_of(rows.begin(), rows.end(), [](const Row& r) { return r.simplified.has_too_many_faces; });

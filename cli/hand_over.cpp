@@ -7,6 +7,7 @@
 #include "cam/job/job.h"
 #include "cli/columns.h"
 #include "cli/exit_code.h"
+#include "cli/shell_word.h"
 #include "segment/search/project.h"
 
 namespace qchopper {
@@ -33,7 +34,7 @@ std::vector<PieceJob> jobs_of(const std::filesystem::path& folder, const std::op
     const Project project = load_project(folder);
     if (project.stage != Stage::done) {
         throw InputError(InputFault::use, folder.string() + " is not finished",
-                         "finish it first: qchopper prepare " + folder.string());
+                         "finish it first: qchopper prepare " + shell_word(folder));
     }
     std::vector<PieceJob> jobs;
     for (const SolidRecord& record : project.pieces) {

@@ -11,6 +11,7 @@
 #include "cli/prepare_report.h"
 #include "cli/segment_project.h"
 #include "cli/segment_setups.h"
+#include "cli/shell_word.h"
 #include "cli/version.h"
 #include "segment/intake/inspect.h"
 #include "segment/intake/intake.h"
@@ -29,8 +30,8 @@ void check_options(const PrepareArguments& a, bool is_project) {
     };
     if (is_project) {
         const bool has_any = a.units || a.scale || a.preset || a.min_cuts || a.max_faces || a.max_obb || a.fits_cell ||
-                             a.stop || a.fragility || a.weights || a.beam || a.crumbs || a.out || is_any_given(a) ||
-                             (a.cell && fs::exists(a.input / "cell.toml"));
+                             a.stop || a.fragility || a.weights || a.beam || a.crumbs || a.fragment_volume_mm3 ||
+                             a.out || is_any_given(a) || (a.cell && fs::exists(a.input / "cell.toml"));
         if (has_any) {
             fail(a.input.string() + " is a project: its settings were fixed when it was made",
                  "leave the options out to go on with it, or prepare the scan again");
@@ -42,7 +43,8 @@ void check_options(const PrepareArguments& a, bool is_project) {
     if (!a.out) fail("no project folder is named", "say -o NAME.qch");
 }
 
-// First 16 bytes of a SHA-256 over the scan and the decisions: the same cuts of the same scan, the same id.
+// First 16 bytes of a SHA-256 over the scan and the decisions: the same cuts of the same scan and the same pieces
+// discarded, the same id.
 Uuid project_id(const Project& project) {
     std::string text = project.scan.sha256;
     char line[128];
@@ -51,6 +53,9 @@ Uuid project_id(const Project& project) {
         std::snprintf(line, sizeof line, "\n%s %a %a %a %a", cut.piece.c_str(), p.normal.x, p.normal.y, p.normal.z,
                       p.offset);
         text += line;
+    }
+    for (const Discard& discard : project.discards) {
+        text += "\ndiscard " + discard.piece + " " + std::to_string(discard.after);
     }
     std::snprintf(line, sizeof line, "\n%a %s", project.scan.scale, name_of(project.scan.unit).c_str());
     text += line;
@@ -98,15 +103,18 @@ class Preparation {
     void make_cuts() {
         take_away_products(folder_, project_);
         const FitsCell fits = [&](const Piece& piece) { return setups_.of(piece).envelope.fits(); };
+        BeamProgress progress =
+            beam_progress(project_, segmentation_, [&]() -> const TriangleMesh& { return intake_.mesh; });
         const auto save = [&](const Segmentation& s) {
             record(project_, s);
+            project_.beam = progress.saved();
             save_project(folder_, project_);
             keep_words();
             terminal_.say(cut_line(s.cuts.back()));
         };
         PieceBook book(project_.settings.objectives, project_.settings.candidates);
         const SearchEnd end =
-            search(segmentation_, project_.settings, book, fits, save, terminal_.context(), time_limit_s_);
+            search(segmentation_, project_.settings, book, fits, save, terminal_.context(), time_limit_s_, &progress);
         for (const std::string& warning : segmentation_.warnings) terminal_.warn(warning);
         record(project_, segmentation_);
         project_.ended_because = end.reason;
@@ -116,13 +124,14 @@ class Preparation {
             terminal_.warn(project_.warnings.back());
         }
         is_out_of_time_ = end.is_out_of_time && !end.is_finished;
-        project_.stage = Stage::cut;
+        project_.beam = is_out_of_time_ ? progress.saved() : std::nullopt;
+        project_.stage = is_out_of_time_ ? Stage::cutting : Stage::cut;
         save_project(folder_, project_);
     }
 
     void keep_words() {
         terminal_.unchanged = "The " + std::to_string(segmentation_.cuts.size()) + " cuts made so far are kept in " +
-                              folder_.string() + "; go on with: qchopper prepare " + folder_.string() + ".";
+                              folder_.string() + "; go on with: qchopper prepare " + shell_word(folder_) + ".";
     }
 
     void write_jobs() {
@@ -199,29 +208,22 @@ int start(const PrepareArguments& a, Terminal& terminal) {
     return report(Preparation(out, project, std::move(intake), cell, terminal, a.time_limit_s).run(), cell, terminal);
 }
 
-// A project that segment has made may not know its cell yet.
-void take_cell(const fs::path& folder, const PrepareArguments& a) {
-    if (fs::exists(folder / "cell.toml")) return;
-    if (!a.cell) {
-        throw InputError(InputFault::use, folder.string() + " knows no cell yet",
-                         "say --cell FILE, for example cells/foam-1.toml");
-    }
-    read_cell(*a.cell);  // an impossible one is refused before it is taken
-    write_file(folder / "cell.toml", read_file(*a.cell));
-}
-
 int go_on(const fs::path& folder, const PrepareArguments& a, Terminal& terminal) {
     const ProjectLock lock(folder);
     Project project = load_project(folder);
     clear_leftovers(folder);
-    take_cell(folder, a);
+    if (!fs::exists(folder / "cell.toml")) {  // segment may have made it
+        if (!a.cell) {
+            throw InputError(InputFault::use, folder.string() + " knows no cell yet",
+                             "say --cell FILE, for example cells/foam-1.toml");
+        }
+        take_cell(folder, *a.cell, terminal);
+    }
     const Cell cell = read_cell(folder / "cell.toml");
     terminal.unchanged = "The project is unchanged.";
     Intake intake = take_in_scan(project, terminal);
     terminal.say(folder.string() + ": goes on after " + std::to_string(project.cuts.size()) + " cuts");
-    if (project.settings.beam > 1 && project.stage == Stage::cutting && !project.cuts.empty()) {
-        terminal.say("The beam starts again from these cuts.");
-    }
+    if (project.beam) terminal.say("The beam of " + std::to_string(project.beam->branches.size()) + " goes on.");
     return report(Preparation(folder, project, std::move(intake), cell, terminal, a.time_limit_s).run(), cell,
                   terminal);
 }

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/columns.h"
+#include "cli/segment_report.h"
+#include "cli/shell_word.h"
 #include "cli/terminal.h"
 
 namespace qchopper {
@@ -82,13 +84,15 @@ std::vector<std::string> table(const PreparedProject& prepared, const Cell& cell
             counted(crumbs, "crumb") + " (" + volume_in_words(volume) + " in all), listed in project.json" +
             (prepared.project.crumbs == CrumbChoice::keep ? " and kept in pieces/crumbs.ply" : ", dropped"));
     }
+    for (const std::string& line : discarded_lines(prepared.project)) lines.push_back(line);
     const auto jobs = std::count_if(prepared.pieces.begin(), prepared.pieces.end(),
                                     [](const PieceReport& p) { return !p.job.empty(); });
     const std::string folder = prepared.folder.string();
     lines.push_back(counted(prepared.pieces.size(), "piece") + " by " + counted(prepared.project.cuts.size(), "cut") +
                     ", " + counted(static_cast<std::size_t>(jobs), "job") + " in " + folder + "/jobs, pictures in " +
                     folder + "/pictures.");
-    lines.push_back("Next: qchopper dry-run " + folder + "   or   qchopper dispatch " + folder);
+    const std::string word = shell_word(prepared.folder);
+    lines.push_back("Next: qchopper dry-run " + word + "   or   qchopper dispatch " + word);
     return lines;
 }
 
@@ -118,6 +122,7 @@ std::string document(const PreparedProject& prepared, const Cell& cell) {
                     {"cuts", cuts},
                     {"pieces", pieces},
                     {"crumbs", crumbs},
+                    {"discarded", discarded_json(p)},
                     {"warnings", p.warnings}};
     return json.dump(1, ' ', false, Json::error_handler_t::replace);
 }

@@ -3,6 +3,7 @@
 #include "cam/job/text.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/segment_project.h"
 #include "segment/intake/inspect.h"
 #include "segment/intake/write_ply.h"
 #include "segment/intake/write_stl.h"
@@ -17,6 +18,7 @@ int run(const SampleArguments& arguments, Terminal& terminal) {
         throw InputError(InputFault::use, arguments.out.string() + " ends neither in .ply nor in .stl",
                          "name a .ply file");
     }
+    check_output(arguments.out);
     SampleOptions options;
     options.faces = arguments.faces;
     options.holes = arguments.holes;

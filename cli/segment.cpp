@@ -4,8 +4,10 @@
 #include "cli/exit_code.h"
 #include "cli/segment_decide.h"
 #include "cli/segment_project.h"
+#include "cli/segment_report.h"
 #include "cli/segment_setups.h"
 #include "cli/segment_values.h"
+#include "cli/shell_word.h"
 #include "segment/search/products.h"
 #include "segment/search/replay_plan.h"
 
@@ -24,6 +26,7 @@ std::string action_of(const SegmentArguments& a) {
     const std::pair<bool, const char*> all[] = {{a.step, "--step"},
                                                 {a.accept.has_value(), "--accept"},
                                                 {a.plane.has_value(), "--plane"},
+                                                {a.discard.has_value(), "--discard"},
                                                 {a.undo, "--undo"},
                                                 {a.redo, "--redo"},
                                                 {a.preview.has_value(), "--preview"},
@@ -50,7 +53,7 @@ void check_together(const SegmentArguments& a, const std::string& action, bool i
     }
     if (a.top && action != "--step") refuse("--top says nothing to " + doing, "use it with --step");
     if (a.time_limit_s && action != "--auto") refuse("--time-limit says nothing to " + doing, "use it with --auto");
-    if (is_project && a.weights && is_one_of(action, {"--undo", "--redo", "--reset", "--plan"})) {
+    if (is_project && a.weights && is_one_of(action, {"--discard", "--undo", "--redo", "--reset", "--plan"})) {
         refuse("--weights and " + action + " are two decisions", "say one after the other");
     }
 }
@@ -58,7 +61,7 @@ void check_together(const SegmentArguments& a, const std::string& action, bool i
 void check_project(const SegmentArguments& a, const std::string& action) {
     const std::pair<bool, const char*> fixed_ones[] = {
         {a.units.has_value(), "--units"},         {a.scale.has_value(), "--scale"},
-        {a.cell.has_value(), "--cell"},           {a.preset.has_value(), "--preset"},
+        {a.preset.has_value(), "--preset"},       {a.fragment_volume_mm3.has_value(), "--fragment-volume"},
         {a.crumbs.has_value(), "--crumbs"},       {a.out.has_value(), "--out"},
         {a.fragility.has_value(), "--fragility"}, {a.replayed.has_value(), "--replay"},
         {is_any_given(a), "a choice of repair"}};
@@ -68,22 +71,28 @@ void check_project(const SegmentArguments& a, const std::string& action) {
                    "leave it out, or make a new project of the scan");
         }
     }
+    std::error_code error;
+    if (a.cell && fs::exists(a.input / "cell.toml", error)) {
+        refuse(a.input.string() + " is a project that knows its cell already",
+               "leave --cell out, or make a new project of the scan");
+    }
     if ((given_rules(a) || a.stop || a.beam) && action != "--auto") {
         refuse("stop rules and --beam tell the search how to go on", "use them with --auto");
     }
 }
 
 void check_scan(const SegmentArguments& a, const std::string& action) {
-    if (is_one_of(action, {"--accept", "--undo", "--redo", "--reset", "--plan"})) {
+    if (is_one_of(action, {"--accept", "--discard", "--undo", "--redo", "--reset", "--plan"})) {
         refuse(a.input.string() + " is a scan: " + action + " needs a project",
-               "make one first: qchopper segment " + a.input.string() + " --units UNIT -o NAME.qch");
+               "make one first: qchopper segment " + shell_word(a.input) + " --units UNIT -o NAME.qch");
     }
     check_unit(a.input, a);
     if (!a.out) refuse("no project folder is named", "say -o NAME.qch");
     if (a.fits_cell && !a.cell) refuse("--fits-cell needs a cell", "say --cell FILE, for example cells/foam-1.toml");
 }
 
-int tell(const SegmentAnswer& answer, const OpenProject& project, Terminal& terminal) {
+int tell(SegmentAnswer answer, const OpenProject& project, Terminal& terminal) {
+    answer.pieces_written = project.are_pieces_written();
     for (const std::string& line : lines(answer, project.folder(), project.project())) terminal.show(line);
     terminal.json(document(answer, project.folder(), project.project()));
     return answer.is_demand_met ? exit_done : exit_demand_broken;
@@ -104,6 +113,7 @@ int decide_in(const fs::path& folder, Project project, std::optional<TriangleMes
         setups.emplace(*cell);
         fits_cell = [&](const Piece& piece) { return setups->of(piece).envelope.fits(); };
     }
+    if (a.write_pieces) open.keep_pieces_written();
     return tell(decide(open, a, fits_cell, terminal), open, terminal);
 }
 
@@ -111,13 +121,18 @@ std::string kept_words(const Segmentation& segmentation, const fs::path& folder)
     return "The " + std::to_string(segmentation.cuts.size()) + " cuts made so far are kept in " + folder.string() + ".";
 }
 
-int replay_in(const fs::path& folder, Project project, TriangleMesh scan, const Plan& plan, Terminal& terminal) {
+int replay_in(const fs::path& folder, Project project, TriangleMesh scan, const Plan& plan, bool write_pieces,
+              Terminal& terminal) {
     OpenProject open(folder, std::move(project), [&] { return std::move(scan); });
+    if (write_pieces) open.keep_pieces_written();
     Segmentation segmentation = open.segmentation();
+    std::size_t discarded = 0;
     const auto keep = [&](const Segmentation& s) {
         open.adopt(s);
         terminal.unchanged = kept_words(s, folder);
-        terminal.say(cut_line(s.cuts.back()));
+        const bool is_cut = s.discarded.size() == discarded;
+        terminal.say(is_cut ? cut_line(s.cuts.back()) : discarded_lines(open.project()).back());
+        discarded = s.discarded.size();
     };
     const PlanReplay replay = replay_plan(plan, open.project().scan, segmentation, open.project().settings, open.book(),
                                           keep, terminal.context());
@@ -126,7 +141,11 @@ int replay_in(const fs::path& folder, Project project, TriangleMesh scan, const 
     char off[32];
     std::snprintf(off, sizeof off, "%.3g %%", 100 * replay.largest_volume_off);
     const std::string until = std::to_string(segmentation.cuts.size()) + " of " + std::to_string(plan.cuts.size());
-    answer.done = until + " cuts of the plan are made; the volumes of the pieces differ by at most " + off + ".";
+    const std::string left_out =
+        std::to_string(segmentation.discarded.size()) + " of " + std::to_string(plan.discards.size());
+    answer.done = until + " cuts of the plan are made" +
+                  (plan.discards.empty() ? "" : ", " + left_out + " pieces of it discarded") +
+                  "; the volumes of the pieces differ by at most " + off + ".";
     if (!replay.applies) {
         answer.is_demand_met = false;
         answer.notes.push_back("The plan does not apply: " + replay.why + ". " + kept_words(segmentation, folder));
@@ -168,7 +187,7 @@ int start(const SegmentArguments& a, Terminal& terminal) {
     create_project(out, project, cell_file);
     terminal.unchanged = "The project " + out.string() + " is made, with no cut.";
     const ProjectLock lock(out);
-    if (plan) return replay_in(out, std::move(project), std::move(intake.mesh), *plan, terminal);
+    if (plan) return replay_in(out, std::move(project), std::move(intake.mesh), *plan, a.write_pieces, terminal);
     SegmentArguments decisions = a;
     decisions.weights.reset();  // the project is made with them
     return decide_in(out, std::move(project), std::move(intake.mesh), decisions, terminal);
@@ -195,6 +214,7 @@ int run(const SegmentArguments& a, Terminal& terminal) {
     const ProjectLock lock(folder);
     Project project = load_project(folder);
     clear_leftovers(folder);
+    if (a.cell) take_cell(folder, *a.cell, terminal);
     return decide_in(folder, std::move(project), std::nullopt, a, terminal);
 }
 

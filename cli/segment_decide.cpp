@@ -1,9 +1,13 @@
 #include "cli/segment_decide.h"
 
+#include <array>
+#include <cstdio>
+
 #include "cam/job/text.h"
 #include "cli/segment_project.h"
 #include "cli/segment_values.h"
 #include "segment/cut/cut.h"
+#include "segment/cut/nudge.h"
 #include "segment/error.h"
 #include "segment/files/file.h"
 #include "segment/search/plan.h"
@@ -20,6 +24,7 @@ class Deciding {
 
     SegmentAnswer answer() {
         if (a_.weights) change_weights();
+        if (a_.discard) discard_piece();
         if (a_.undo || a_.redo) go_back_or_forth();
         if (a_.reset) reset();
         if (a_.step) answer_.proposal = propose();
@@ -55,19 +60,32 @@ class Deciding {
 
     void reset() {
         if (!project_.decide_reset()) return refuse("There is no cut to take back.");
-        answer_.done = "All cuts are taken back; --undo brings them again.";
+        answer_.done = "All cuts and discarded pieces are taken back; --undo brings them again.";
+    }
+
+    void discard_piece() {
+        const std::size_t p = piece_named(*a_.discard);
+        const std::string name = project_.segmentation().pieces[p].name;
+        if (!project_.decide_discard(name)) {
+            return refuse("Piece " + name + " is the only one, nothing would be left. Nothing was discarded.");
+        }
+        terminal_.warn(project_.segmentation().warnings.back());
+        answer_.done = "Piece " + name + " is discarded; --undo brings it again.";
+    }
+
+    std::size_t piece_named(const std::string& name) {
+        if (const auto named = project_.piece_named(name)) return *named;
+        std::string names;
+        for (const Piece& p : project_.segmentation().pieces) names += (names.empty() ? "" : ", ") + p.name;
+        throw InputError(InputFault::use, "there is no piece " + name + " now", "the pieces are " + names);
     }
 
     std::size_t piece() {
-        if (a_.piece) {
-            if (const auto named = project_.piece_named(*a_.piece)) return *named;
-            std::string names;
-            for (const Piece& p : project_.segmentation().pieces) names += (names.empty() ? "" : ", ") + p.name;
-            throw InputError(InputFault::use, "there is no piece " + *a_.piece + " now", "the pieces are " + names);
-        }
+        if (a_.piece) return piece_named(*a_.piece);
         const OpenProject::Next next = project_.next(fits_cell_);
         if (!next.piece) {
-            throw InputError(InputFault::mesh, "the scan holds nothing but crumbs", "check the scan");
+            throw InputError(InputFault::mesh, "the scan holds nothing but crumbs",
+                             "check the scan, or make the project again with a smaller --fragment-volume");
         }
         rules_hold_ = next.rules_hold;
         return *next.piece;
@@ -106,21 +124,32 @@ class Deciding {
 
     void cut_by_plane() {
         const std::size_t p = piece();
-        const std::optional<Ranked> own = project_.own_plane(p, *plane_from(*a_.plane), terminal_.context());
-        if (!own) return miss(p);
+        const Plane plane = *plane_from(*a_.plane);
+        const std::optional<Ranked> own = project_.own_plane(p, plane, terminal_.context());
+        if (!own) return tell_why_not(p, plane);
         cut(p, {*own}, 0);
     }
 
-    void miss(std::size_t p) {
-        refuse("The plane does not part piece " + project_.segmentation().pieces[p].name +
-               ": it misses it, or leaves only crumbs on one side. Nothing was cut.");
+    void tell_why_not(std::size_t p, const Plane& plane) {
+        const Piece& target = project_.segmentation().pieces[p];
+        const Extent range = extent(*target.mesh, plane.normal);
+        const double limit = project_.project().settings.objectives.crumb_volume_mm3;
+        const std::string why = project_.misses(p, plane)
+                                    ? "misses piece " + target.name
+                                    : "makes only fragments of piece " + target.name + " on one side (solids below " +
+                                          fixed(limit / 1000, 6) + " ml)";
+        std::array<char, 32> offset{};  // of any size
+        std::snprintf(offset.data(), offset.size(), "%.9g", plane.offset);
+        refuse("The plane at " + std::string(offset.data()) + " mm " + why + ", which extends from " +
+               fixed(range.low, 3) + " to " + fixed(range.high, 3) + " mm along that direction. Nothing was cut.");
     }
 
     void cut(std::size_t p, const std::vector<Ranked>& ranked, std::size_t k) {
         const std::size_t warned = project_.segmentation().warnings.size();
         if (!project_.decide_cut(
                 cut_by(project_.segmentation(), p, ranked, k, project_.project().settings.runners_up))) {
-            return miss(p);
+            return refuse("The plane does not part piece " + project_.segmentation().pieces[p].name +
+                          ", although its price says so: the scan runs through itself there. Nothing was cut.");
         }
         const std::vector<std::string>& warnings = project_.segmentation().warnings;
         for (std::size_t i = warned; i < warnings.size(); ++i) terminal_.warn(warnings[i]);
@@ -135,8 +164,9 @@ class Deciding {
         if (const auto k = place_from(*a_.preview)) {
             preview.plane = place(project_.ranking(p, terminal_.context()), *k);
         } else {
-            const auto own = project_.own_plane(p, *plane_from(*a_.preview), terminal_.context());
-            if (!own) return miss(p);
+            const Plane plane = *plane_from(*a_.preview);
+            const auto own = project_.own_plane(p, plane, terminal_.context());
+            if (!own) return tell_why_not(p, plane);
             preview.plane = *own;
         }
         const Ranked& r = preview.plane;
@@ -171,7 +201,7 @@ class Deciding {
         }
         if (rules.fits_cell && !fits_cell_) {
             throw InputError(InputFault::use, "the project knows no cell, so fits-cell cannot be a stop rule",
-                             "name the cell when the project is made: --cell FILE");
+                             "name the cell: --cell FILE");
         }
         project_.set_search(rules, a_.beam ? static_cast<std::size_t>(*a_.beam) : settings.beam);
         const bool is_beam = project_.project().settings.beam > 1;
@@ -185,16 +215,14 @@ class Deciding {
         answer_.done = "The search ended: " + end.reason + "; cost " + fixed(end.cost, 4) + ".";
         if (!end.is_finished) refuse("The stop rules do not hold.");
         if (end.is_out_of_time && !end.is_finished) {
-            answer_.notes.emplace_back("All cuts are kept; go on by --auto." +
-                                       std::string(is_beam ? " The beam starts again from there." : ""));
+            answer_.notes.emplace_back("All cuts are kept; go on by --auto.");
         }
     }
 
     void keep_words(std::size_t cuts, bool is_beam) {
         terminal_.unchanged = "The " + std::to_string(cuts) + " cuts " +
                               (is_beam ? "of the best segmentation so far" : "made so far") + " are kept in " +
-                              project_.folder().string() + "; go on by --auto" +
-                              (is_beam ? ": the beam starts again from there." : ".");
+                              project_.folder().string() + "; go on by --auto.";
     }
 
     OpenProject& project_;

@@ -7,11 +7,14 @@
 #include "cam/job/text.h"
 #include "cli/repair_report.h"
 #include "cli/segment_values.h"
+#include "cli/shell_word.h"
 #include "segment/error.h"
+#include "segment/files/temporary_folder.h"
 #include "segment/intake/inspect.h"
 #include "segment/mesh/measure.h"
 #include "segment/repair/crumbs.h"
 #include "segment/search/presets.h"
+#include "segment/search/rank.h"
 
 namespace qchopper {
 namespace {
@@ -27,7 +30,7 @@ SearchSettings settings_of(const ProjectArguments& a, double scan_volume_mm3) {
     }
     if (a.weights) settings.objectives.weights = weights_from(*a.weights)->over(settings.objectives.weights);
     if (a.beam) settings.beam = static_cast<std::size_t>(*a.beam);
-    settings.objectives.crumb_volume_mm3 = crumb_share * scan_volume_mm3;
+    settings.objectives.crumb_volume_mm3 = a.fragment_volume_mm3.value_or(crumb_share * scan_volume_mm3);
     return settings;
 }
 
@@ -70,7 +73,7 @@ void check_output(const fs::path& out) {
     if (fs::exists(out, error)) {
         throw InputError(InputFault::create, out.string() + " exists already",
                          fs::exists(out / "project.json", error)
-                             ? "go on with it by: qchopper prepare " + out.string() + ", or choose another name"
+                             ? "go on with it by: qchopper prepare " + shell_word(out) + ", or choose another name"
                              : "choose another name");
     }
     const fs::path parent = out.has_parent_path() ? out.parent_path() : fs::path(".");
@@ -148,32 +151,35 @@ Project new_project(const fs::path& scan, const Intake& intake, const ProjectArg
 }
 
 void create_project(const fs::path& folder, const Project& project, const std::optional<Bytes>& cell_file) {
-    const fs::path aside = folder.string() + ".tmp." + std::to_string(::getpid());
-    std::error_code ignored;  // what hinders the making may hinder the removal
     try {
-        fs::create_directories(aside / "pieces");
-        fs::create_directory(aside / "jobs");
-        fs::create_directory(aside / "pictures");
-        if (cell_file) write_file(aside / "cell.toml", *cell_file);
-        save_project(aside, project);
-        fs::rename(aside, folder);
+        TemporaryFolder aside(folder);
+        fs::create_directories(aside.path() / "pieces");
+        fs::create_directory(aside.path() / "jobs");
+        fs::create_directory(aside.path() / "pictures");
+        if (cell_file) write_file(aside.path() / "cell.toml", *cell_file);
+        save_project(aside.path(), project);
+        aside.move_to_its_place();
     } catch (const fs::filesystem_error& e) {
-        fs::remove_all(aside, ignored);
         throw InputError(InputFault::create, folder.string() + " cannot be made: " + e.code().message(),
                          "choose another place");
-    } catch (...) {
-        fs::remove_all(aside, ignored);
-        throw;
     }
+}
+
+void take_cell(const fs::path& folder, const fs::path& cell_file, Terminal& terminal) {
+    read_cell(cell_file);  // an impossible one is refused before it is taken
+    write_file(folder / "cell.toml", read_file(cell_file));
+    terminal.say(folder.string() + ": its cell is now that of " + cell_file.string());
+    terminal.unchanged = "The project knows its cell now; its decisions are unchanged.";
 }
 
 std::string cut_line(const Cut& cut) {
     const Terms& t = cut.chosen.terms;
     std::string made;
     for (const std::string& name : cut.pieces) made += (made.empty() ? "" : ", ") + name;
-    // Another than the best may have been accepted; the best is then among those that were passed over.
+    // Another than the best may have been accepted; the best is then among those that were passed over. Of totals that
+    // differ by a tie none is better.
     const bool is_best = std::all_of(cut.runners_up.begin(), cut.runners_up.end(),
-                                     [&](const Ranked& r) { return r.terms.total >= t.total; });
+                                     [&](const Ranked& r) { return r.terms.total + tie >= t.total; });
     const std::string which = cut.chosen.normal < 0
                                   ? "given plane"
                                   : (is_best ? "best of " : "one of ") + std::to_string(cut.candidates) + " planes";

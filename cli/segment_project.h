@@ -44,6 +44,9 @@ Project new_project(const std::filesystem::path& scan, const Intake& intake, con
 // The folder appears whole or not at all. `cell_file`: the bytes of the cell file, if a cell is known.
 void create_project(const std::filesystem::path& folder, const Project& project, const std::optional<Bytes>& cell_file);
 
+// Gives a project that knows no cell yet the one of a file. Throws InputError (config) if that is impossible.
+void take_cell(const std::filesystem::path& folder, const std::filesystem::path& cell_file, Terminal& terminal);
+
 // "cut 2 on piece B: best of 120 planes, total 3.929 (...); makes D, E".
 std::string cut_line(const Cut& cut);
 

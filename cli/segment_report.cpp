@@ -5,6 +5,7 @@
 
 #include "cam/job/text.h"
 #include "cli/columns.h"
+#include "cli/shell_word.h"
 #include "cli/terminal.h"
 
 namespace qchopper {
@@ -67,7 +68,7 @@ std::vector<std::string> proposal_lines(const Proposal& p, const std::filesystem
     for (const std::size_t k : p.crossing) crossing += (crossing.empty() ? "K " : ", ") + std::to_string(k);
     if (!crossing.empty()) text.push_back(sections_cross(crossing));
     if (!p.ranked.empty()) {
-        text.push_back("Nothing was cut. Take one by: qchopper segment " + folder.string() + " --piece " + p.piece +
+        text.push_back("Nothing was cut. Take one by: qchopper segment " + shell_word(folder) + " --piece " + p.piece +
                        " --accept K");
     }
     return text;
@@ -104,6 +105,7 @@ std::vector<std::string> standing_lines(const Project& project) {
                    with_commas(project.crumb_list.size()) +
                    (project.crumb_list.size() == 1 ? " crumb. Weights: " : " crumbs. Weights: ") +
                    weights_in_words(project.settings.objectives.weights) + ".");
+    add(text, discarded_lines(project));
     for (const auto& [option, what] : {std::pair{"--undo", undo_in_words(project)}, {"--redo", redo_in_words(project)}})
         if (!what.empty()) text.push_back(std::string(option) + ": " + what);
     return text;
@@ -115,6 +117,8 @@ Json plane_json(const Ranked& r, const Project& project) {
             {"offset_mm", r.plane.offset},
             {"offset_in_scan_mm", r.plane.offset + height(r.plane.normal, project.scan.centre)},
             {"wanted_offset_mm", r.wanted_offset},
+            {"normal_number", r.normal},
+            {"offset_number", r.offset},
             {"terms",
              {{"face_ratio", t.face_ratio},
               {"fragility", t.fragility},
@@ -180,13 +184,44 @@ Json text_or_null(const std::string& text) {
 
 }  // namespace
 
+std::vector<std::string> discarded_lines(const Project& project) {
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < project.discarded.size(); ++i) {
+        const SolidRecord& solid = project.discarded[i];
+        const std::size_t after = project.discards.at(i).after;
+        lines.push_back("discarded " + (after > 0 ? "after cut " + std::to_string(after) : "before the first cut") +
+                        ": piece " + solid.name + ", " + with_commas(solid.faces) + " faces, " +
+                        fixed(solid.volume_mm3 / 1000, 3) + " ml (" +
+                        fixed(100 * solid.volume_mm3 / project.scan.volume_mm3, 2) + " % of the scan)");
+    }
+    return lines;
+}
+
+Json discarded_json(const Project& project) {
+    Json all = Json::array();
+    for (std::size_t i = 0; i < project.discarded.size(); ++i) {
+        const SolidRecord& solid = project.discarded[i];
+        all.push_back({{"name", solid.name},
+                       {"after", project.discards.at(i).after},
+                       {"cut", solid.cut},
+                       {"faces", solid.faces},
+                       {"volume_mm3", solid.volume_mm3}});
+    }
+    return all;
+}
+
 std::vector<std::string> lines(const SegmentAnswer& answer, const std::filesystem::path& folder,
                                const Project& project) {
     std::vector<std::string> text;
     if (!answer.done.empty()) text.push_back(answer.done);
     add(text, answer.notes);
     if (answer.plan)
-        text.push_back("Plan of " + std::to_string(project.cuts.size()) + " cuts: " + answer.plan->string());
+        text.push_back(
+            "Plan of " + std::to_string(project.cuts.size()) + " cuts" +
+            (project.discards.empty() ? "" : " and " + std::to_string(project.discards.size()) + " discarded pieces") +
+            ": " + answer.plan->string());
+    if (answer.plan) add(text, discarded_lines(project));
+    if (answer.pieces_written) text.push_back("The pieces are in " + (folder / "pieces").string() + ".");
     if (answer.proposal) add(text, proposal_lines(*answer.proposal, folder));
     if (answer.preview) add(text, preview_lines(*answer.preview, project));
     if (!answer.proposal && !answer.preview && !answer.plan) add(text, standing_lines(project));
@@ -215,7 +250,9 @@ std::string document(const SegmentAnswer& answer, const std::filesystem::path& f
               {"cuts", cuts_json(project)},
               {"pieces", pieces},
               {"crumbs", project.crumb_list.size()},
+              {"discarded", discarded_json(project)},
               {"warnings", project.warnings}};
+    if (answer.pieces_written) json["pieces_written"] = (folder / "pieces").string();
     if (answer.plan) json["plan"] = answer.plan->string();
     if (answer.proposal) json["proposal"] = proposal_json(*answer.proposal, project);
     if (answer.preview) json["preview"] = preview_json(*answer.preview, project);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,7 +39,14 @@ struct SegmentAnswer {
     std::optional<Proposal> proposal;
     std::optional<Preview> preview;
     std::optional<std::filesystem::path> plan;  // that was written
+    bool pieces_written = false;
 };
+
+// What was discarded, in the same words and keys in every report:
+// "discarded after cut 2: piece C, 1,234 faces, 12.345 ml (3.21 % of the scan)", none if nothing is discarded;
+// [ { name, after, cut, faces, volume_mm3 } ... ], after so many cuts, made by cut, 0 for the scan.
+std::vector<std::string> discarded_lines(const Project& project);
+nlohmann::ordered_json discarded_json(const Project& project);
 
 std::vector<std::string> lines(const SegmentAnswer& answer, const std::filesystem::path& folder,
                                const Project& project);

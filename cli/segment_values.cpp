@@ -1,11 +1,15 @@
 #include "cli/segment_values.h"
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "segment/intake/text.h"
+
 namespace qchopper {
 namespace {
+
+constexpr double largest_weight = 1e12;
 
 std::vector<std::string> split(const std::string& text) {
     std::vector<std::string> words{""};
@@ -19,10 +23,18 @@ std::vector<std::string> split(const std::string& text) {
 }
 
 std::optional<double> number_from(const std::string& text) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool is_ok = error == std::errc() && end == text.data() + text.size() && std::abs(value) <= 1e12;
-    return is_ok ? std::optional(value) : std::nullopt;
+    const std::optional<double> value = number(text);  // what is too small for a double is zero
+    return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+// The length of a direction of any length but zero. Scaling by a power of two keeps all bits, and squares then neither
+// vanish nor overflow.
+std::optional<Vec3> unit_from(Vec3 direction) {
+    const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+    if (largest == 0) return std::nullopt;
+    const int power = -std::ilogb(largest);
+    const Vec3 scaled{std::ldexp(direction.x, power), std::ldexp(direction.y, power), std::ldexp(direction.z, power)};
+    return std::abs(norm(direction) - 1) > 1e-14 ? normalized(scaled) : direction;
 }
 
 std::optional<double>* weight_named(GivenWeights& weights, const std::string& name) {
@@ -52,7 +64,7 @@ std::optional<GivenWeights> weights_from(const std::string& text) {
         std::optional<double>* weight = weight_named(weights, is_bare ? order[i] : words[i].substr(0, equals));
         if (weight == nullptr || *weight) return std::nullopt;  // unknown, or named twice
         *weight = number_from(is_bare ? words[i] : words[i].substr(equals + 1));
-        if (!*weight || **weight < 0) return std::nullopt;
+        if (!*weight || **weight < 0 || **weight > largest_weight) return std::nullopt;
     }
     return weights;
 }
@@ -66,10 +78,9 @@ std::optional<Plane> plane_from(const std::string& text) {
         if (!value) return std::nullopt;
         v[i] = *value;
     }
-    const Vec3 direction{v[0], v[1], v[2]};
-    if (!(norm(direction) > 1e-12)) return std::nullopt;
-    const Vec3 unit = std::abs(norm(direction) - 1) > 1e-14 ? normalized(direction) : direction;
-    return canonical({unit, v[3]});
+    const std::optional<Vec3> unit = unit_from({v[0], v[1], v[2]});
+    if (!unit) return std::nullopt;
+    return canonical({*unit, v[3]});
 }
 
 std::optional<std::size_t> place_from(const std::string& text) {

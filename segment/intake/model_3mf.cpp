@@ -21,6 +21,8 @@ namespace {
 
 // Names come as "namespace|name".
 constexpr std::string_view core = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02|";
+// Version 0.93 of the format; what is read of it was the same there.
+constexpr std::string_view core_before = "http://schemas.microsoft.com/3dmanufacturing/2013/01|";
 constexpr std::string_view path_attribute = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06|path";
 constexpr std::string_view lattice_start = "http://schemas.microsoft.com/3dmanufacturing/beamlattice/";
 constexpr std::string_view start_relation = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
@@ -171,7 +173,10 @@ class ModelHandler : public Place {
  private:
     // Empty for an element of another namespace.
     static std::string_view in_core(std::string_view element) {
-        return element.starts_with(core) ? element.substr(core.size()) : std::string_view();
+        for (const std::string_view name_space : {core, core_before}) {
+            if (element.starts_with(name_space)) return element.substr(name_space.size());
+        }
+        return {};
     }
 
     void start_model(std::string_view element, Attributes attributes) {

@@ -27,6 +27,15 @@ bool has(const std::array<std::string_view, n>& words, std::string_view word) {
     return std::find(words.begin(), words.end(), word) != words.end();
 }
 
+// The first word of a line that OBJ has not, but a program may have added: "attr", "xyzrgb". What begins with a number
+// or holds other bytes than a text is damage, and skipping it could lose a face.
+bool is_like_a_word(std::string_view word) {
+    const auto is_text = [](char c) { return c > 0x20 && c < 0x7f; };
+    const char first = word.front();
+    return std::all_of(word.begin(), word.end(), is_text) && (first < '0' || first > '9') && first != '-' &&
+           first != '+' && first != '.';
+}
+
 bool is_obj_word(std::string_view word) {
     return word == "v" || word == "f" || word == "fo" || word == "trace_obj" || has(passed_words, word) ||
            has(curved_words, word);
@@ -92,6 +101,7 @@ class ObjReader {
         while (const std::optional<std::string_view> line = lines_.next()) read_line(*line);
         add_early_faces();
         if (scan_.mesh.triangles.size() > most_triangles) refuse("more than 1.4 billion triangles");
+        warn_of_unknown_lines();
         if (curved_ > 0) {
             scan_.warnings.push_back(std::to_string(curved_) +
                                      " curved surfaces and curves were left out, the first in " + "line " +
@@ -107,8 +117,22 @@ class ObjReader {
         if (word.empty() || has(passed_words, word) || word == "trace_obj") return;
         if (word == "v") return read_point(words);
         if (word == "f" || word == "fo") return read_face(words);
-        if (!has(curved_words, word)) refuse("begins with " + quoted(word) + ", which no OBJ line does");
-        if (curved_++ == 0) first_curved_ = lines_.number();
+        if (has(curved_words, word)) {
+            if (curved_++ == 0) first_curved_ = lines_.number();
+            return;
+        }
+        if (!is_like_a_word(word)) refuse("begins with " + quoted(word) + ", which no OBJ line does");
+        if (unknown_++ > 0) return;
+        first_unknown_ = lines_.number();
+        unknown_word_ = quoted(word);
+    }
+
+    void warn_of_unknown_lines() {
+        if (unknown_ == 0) return;
+        scan_.warnings.push_back(std::to_string(unknown_) +
+                                 (unknown_ == 1 ? " line of unknown kind was" : " lines of unknown kind were") +
+                                 " skipped, the first is line " + std::to_string(first_unknown_) +
+                                 ", which begins with " + unknown_word_ + ".");
     }
 
     // x y z; a weight or a colour may follow and means nothing to a face.
@@ -200,6 +224,9 @@ class ObjReader {
     EarlyFaces early_;
     std::size_t curved_ = 0;
     std::size_t first_curved_ = 0;
+    std::size_t unknown_ = 0;
+    std::size_t first_unknown_ = 0;
+    std::string unknown_word_;
 };
 
 }  // namespace

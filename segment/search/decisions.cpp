@@ -9,6 +9,7 @@ std::string words(const Decision& decision) {
     if (const Cut* cut = std::get_if<Cut>(&decision)) {
         return "cut " + std::to_string(cut->number) + " on piece " + cut->piece;
     }
+    if (const auto* discard = std::get_if<Discard>(&decision)) return "discard of piece " + discard->piece;
     return std::holds_alternative<WeightsChange>(decision) ? "change of weights" : "reset";
 }
 
@@ -20,6 +21,20 @@ std::vector<Cut> standing_cuts(const History& history) {
         if (const Cut* cut = std::get_if<Cut>(&decision)) cuts.push_back(*cut);
     }
     return cuts;
+}
+
+std::vector<Discard> standing_discards(const History& history) {
+    std::vector<Discard> discards;
+    std::size_t cuts = 0;
+    for (std::size_t i = 0; i < history.standing; ++i) {
+        const Decision& decision = history.decisions[i];
+        if (std::holds_alternative<Cut>(decision)) ++cuts;
+        if (const auto* discard = std::get_if<Discard>(&decision)) discards.push_back({discard->piece, cuts});
+        if (!std::holds_alternative<Reset>(decision)) continue;
+        discards.clear();
+        cuts = 0;
+    }
+    return discards;
 }
 
 Weights standing_weights(const History& history) {

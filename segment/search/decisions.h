@@ -1,4 +1,5 @@
-// What was decided in a project, in order: cuts, changes of weights, resets. Undo goes back in it, redo forward.
+// What was decided in a project, in order: cuts, discarded pieces, changes of weights, resets. Undo goes back in it,
+// redo forward.
 //
 // Decisions that were undone are kept until something new is decided. Undo then redo is identity, and what stands
 // depends only on the decisions in force (tests/segment/search/decisions_test.cpp).
@@ -20,12 +21,19 @@ struct WeightsChange {
     bool operator==(const WeightsChange&) const = default;
 };
 
-// Takes all cuts back; the weights stay.
+// Takes all cuts and discarded pieces back; the weights stay.
 struct Reset {
     bool operator==(const Reset&) const = default;
 };
 
-using Decision = std::variant<Cut, WeightsChange, Reset>;
+// A piece is left out: head rest, debris, table.
+struct Discard {
+    std::string piece;
+    std::size_t after = 0;  // so many cuts stood; follows from its place among the decisions
+    bool operator==(const Discard&) const = default;
+};
+
+using Decision = std::variant<Cut, WeightsChange, Reset, Discard>;
 
 struct History {
     Weights weights_at_start;
@@ -34,10 +42,11 @@ struct History {
     bool operator==(const History&) const = default;
 };
 
-// "cut 3 on piece B", "change of weights", "reset".
+// "cut 3 on piece B", "discard of piece C", "change of weights", "reset".
 std::string words(const Decision& decision);
 
 std::vector<Cut> standing_cuts(const History& history);
+std::vector<Discard> standing_discards(const History& history);
 Weights standing_weights(const History& history);
 
 // Adds a decision after those in force; those undone are gone.

@@ -7,6 +7,16 @@
 #include "segment/search/products.h"
 
 namespace qchopper {
+namespace {
+
+std::optional<Candidate> nudged_off(const Piece& piece, const Plane& plane) {
+    const Plane wanted = canonical(plane);
+    const std::optional<Nudged> nudged = nudge(piece, wanted.normal, std::span(&wanted.offset, 1)).front();
+    if (!nudged) return std::nullopt;
+    return Candidate{{wanted.normal, nudged->offset}, wanted.offset, -1, -1};
+}
+
+}  // namespace
 
 OpenProject::OpenProject(std::filesystem::path folder, Project project, std::function<TriangleMesh()> take_in_scan)
     : folder_(std::move(folder)), project_(std::move(project)), take_in_scan_(std::move(take_in_scan)) {}
@@ -56,12 +66,15 @@ std::vector<Ranked> OpenProject::ranking(std::size_t piece, const Context& conte
 }
 
 std::optional<Ranked> OpenProject::own_plane(std::size_t piece, const Plane& plane, const Context& context) {
+    const std::optional<Candidate> candidate = nudged_off(segmentation().pieces[piece], plane);
+    if (!candidate) return std::nullopt;
+    return rank_plane(segmentation(), piece, *candidate, project_.settings, book(), context);
+}
+
+bool OpenProject::misses(std::size_t piece, const Plane& plane) {
     const Piece& target = segmentation().pieces[piece];
-    const Plane wanted = canonical(plane);
-    const std::optional<Nudged> nudged = nudge(target, wanted.normal, std::span(&wanted.offset, 1)).front();
-    if (!nudged) return std::nullopt;
-    return rank_plane(segmentation(), piece, {{wanted.normal, nudged->offset}, wanted.offset, -1, -1},
-                      project_.settings, book(), context);
+    const std::optional<Candidate> candidate = nudged_off(target, plane);
+    return !candidate || !book().price_of(target, *candidate, {});
 }
 
 bool OpenProject::decide_cut(Cut cut) {
@@ -72,10 +85,15 @@ bool OpenProject::decide_cut(Cut cut) {
 }
 
 void OpenProject::adopt(const Segmentation& segmentation) {
+    adopt(segmentation, std::nullopt);
+}
+
+void OpenProject::adopt(const Segmentation& segmentation, std::optional<BeamState> beam) {
     take_away_products(folder_, project_);
     segmentation_ = segmentation;
     project_.ended_because.clear();
     record(project_, *segmentation_);
+    project_.beam = std::move(beam);
     save();
 }
 
@@ -83,12 +101,20 @@ bool OpenProject::decide_weights(const Weights& weights) {
     if (weights == project_.settings.objectives.weights) return false;
     decide(project_.history, WeightsChange{weights});
     project_.settings.objectives.weights = weights;
+    project_.beam.reset();
     save();
     return true;
 }
 
+bool OpenProject::decide_discard(const std::string& piece) {
+    Segmentation after = segmentation();
+    if (!discard(after, piece)) return false;
+    adopt(after);
+    return true;
+}
+
 bool OpenProject::decide_reset() {
-    if (project_.cuts.empty()) return false;
+    if (project_.cuts.empty() && project_.discards.empty()) return false;
     take_away_products(folder_, project_);
     decide(project_.history, Reset{});
     stand_at(project_.history.standing);
@@ -115,9 +141,12 @@ std::optional<Decision> OpenProject::redo() {
 void OpenProject::stand_at(std::size_t standing) {
     project_.history.standing = standing;
     project_.settings.objectives.weights = standing_weights(project_.history);
+    project_.beam.reset();
     std::vector<Cut> cuts = standing_cuts(project_.history);
-    if (cuts != project_.cuts) {
+    std::vector<Discard> discards = standing_discards(project_.history);
+    if (cuts != project_.cuts || discards != project_.discards) {
         project_.cuts = std::move(cuts);
+        project_.discards = std::move(discards);
         segmentation_.reset();
         record(project_, segmentation());
     }
@@ -128,6 +157,7 @@ void OpenProject::set_search(const StopRules& stop, std::size_t beam) {
     if (stop == project_.settings.stop && beam == project_.settings.beam) return;
     project_.settings.stop = stop;
     project_.settings.beam = beam;
+    project_.beam.reset();
     save();
 }
 
@@ -135,13 +165,16 @@ SearchEnd OpenProject::search(const FitsCell& fits_cell, const std::function<voi
                               const Context& context, std::optional<double> time_limit_s) {
     take_away_products(folder_, project_);
     Segmentation working = segmentation();
+    BeamProgress progress = beam_progress(project_, working, [this]() -> const TriangleMesh& { return scan(); });
     const auto keep = [&](const Segmentation& best) {
-        adopt(best);
+        adopt(best, progress.saved());
         on_round(best);
     };
-    const SearchEnd end = qchopper::search(working, project_.settings, book(), fits_cell, keep, context, time_limit_s);
-    adopt(working);
-    if (end.is_out_of_time && !end.is_finished) return end;
+    const SearchEnd end =
+        qchopper::search(working, project_.settings, book(), fits_cell, keep, context, time_limit_s, &progress);
+    const bool goes_on = end.is_out_of_time && !end.is_finished;
+    adopt(working, goes_on ? progress.saved() : std::nullopt);
+    if (goes_on) return end;
     project_.ended_because = end.reason;
     if (!end.is_finished) project_.warnings.push_back(rules_do_not_hold + end.reason);
     write_pieces(folder_, working, project_.crumbs);
@@ -150,8 +183,14 @@ SearchEnd OpenProject::search(const FitsCell& fits_cell, const std::function<voi
     return end;
 }
 
+void OpenProject::keep_pieces_written() {
+    pieces_are_written_ = true;
+    write_pieces(folder_, segmentation(), project_.crumbs);
+}
+
 void OpenProject::save() {
     save_project(folder_, project_);
+    if (pieces_are_written_) write_pieces(folder_, segmentation(), project_.crumbs);
 }
 
 }  // namespace qchopper

@@ -43,13 +43,22 @@ class OpenProject {
     // Its normal and offset have the number -1.
     std::optional<Ranked> own_plane(std::size_t piece, const Plane& plane, const Context& context);
 
+    // Why not: true if it misses the piece, or runs so near to its end or to a cut that bounds it that it parts
+    // nothing.
+    bool misses(std::size_t piece, const Plane& plane);
+
     // Decisions. False, and nothing changes: the plane misses, the weights are those that stand, no cut stands.
     bool decide_cut(Cut cut);
     bool decide_weights(const Weights& weights);
+    bool decide_discard(const std::string& piece);  // no such piece, or the only one
     bool decide_reset();
     // Gives the decision that was taken back or put in force again; nothing if there is none.
     std::optional<Decision> undo();
     std::optional<Decision> redo();
+
+    // From now on the pieces are written whenever the project is saved, not only at the end of a search.
+    void keep_pieces_written();
+    bool are_pieces_written() const { return pieces_are_written_; }
 
     // How the search is to go on; no decision, so undo does not take it back.
     void set_search(const StopRules& stop, std::size_t beam);
@@ -59,10 +68,11 @@ class OpenProject {
     SearchEnd search(const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
                      const Context& context, std::optional<double> time_limit_s);
 
-    // Makes the cuts of a segmentation that grew outside of here (replay_plan.h) decisions.
+    // Makes the next cut or discarded piece of a segmentation that grows outside of here (replay_plan.h) a decision.
     void adopt(const Segmentation& segmentation);
 
  private:
+    void adopt(const Segmentation& segmentation, std::optional<BeamState> beam);
     void stand_at(std::size_t standing);
     void save();
 
@@ -72,6 +82,7 @@ class OpenProject {
     std::optional<TriangleMesh> scan_;
     std::optional<Segmentation> segmentation_;
     std::unique_ptr<PieceBook> book_;
+    bool pieces_are_written_ = false;
 };
 
 }  // namespace qchopper

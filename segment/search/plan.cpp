@@ -19,18 +19,26 @@ const Piece& piece_named(const Segmentation& segmentation, const std::string& na
                          [&](const Piece& p) { return p.name == name; });
 }
 
-PlanCut plan_cut(const Cut& cut, const Piece& piece, Vec3 centre) {
+PlanPiece plan_piece(const Piece& piece, Vec3 centre) {
     const std::optional<Vec3> inside = deep_point(*piece.mesh);
     if (!inside) throw InputError(InputFault::mesh, "piece " + piece.name + " has no inside", "check the scan");
-    PlanCut p;
-    p.number = cut.number;
-    p.piece = cut.piece;
-    p.path = path_of(piece);
-    p.from_centre = cut.chosen.plane.offset;
+    return {piece.name, path_of(piece), *inside + centre, volume_mm3(*piece.mesh)};
+}
+
+PlanCut plan_cut(const Cut& cut, const Piece& piece, Vec3 centre) {
+    PlanCut p{plan_piece(piece, centre), cut.number, {}, cut.chosen.plane.offset, {}};
     p.plane = {cut.chosen.plane.normal, p.from_centre + height(cut.chosen.plane.normal, centre)};
-    p.inside = *inside + centre;
-    p.volume_mm3 = volume_mm3(*piece.mesh);
     return p;
+}
+
+// What is discarded after so many cuts as the segmentation has.
+void add_discards(Plan& plan, Segmentation& segmentation, const std::vector<Discard>& discards) {
+    for (const Discard& d : discards) {
+        if (d.after != segmentation.cuts.size()) continue;
+        plan.discards.push_back(
+            {plan_piece(piece_named(segmentation, d.piece), plan.scan.centre), static_cast<std::int32_t>(d.after)});
+        discard(segmentation, d.piece);
+    }
 }
 
 }  // namespace
@@ -50,6 +58,7 @@ Plan make_plan(const Project& project, const TriangleMesh& scan) {
     plan.weights = project.settings.objectives.weights;
     const double crumb_volume = project.settings.objectives.crumb_volume_mm3;
     Segmentation segmentation = uncut(scan, crumb_volume);
+    add_discards(plan, segmentation, project.discards);
     for (const Cut& cut : project.cuts) {
         PlanCut p = plan_cut(cut, piece_named(segmentation, cut.piece), s.centre);
         apply(segmentation, cut, crumb_volume);
@@ -58,6 +67,7 @@ Plan make_plan(const Project& project, const TriangleMesh& scan) {
         }
         std::sort(p.makes_mm3.rbegin(), p.makes_mm3.rend());
         plan.cuts.push_back(std::move(p));
+        add_discards(plan, segmentation, project.discards);
     }
     return plan;
 }

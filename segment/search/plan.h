@@ -22,16 +22,28 @@ struct PathSide {
     bool operator==(const PathSide&) const = default;
 };
 
-struct PlanCut {
+// By what a piece is found again.
+struct PlanPiece {
+    std::string piece;           // its name where the plan was made
+    std::vector<PathSide> path;  // where it lies in the BSP
+    Vec3 inside;                 // a point deep in it
+    double volume_mm3 = 0;
+    bool operator==(const PlanPiece&) const = default;
+};
+
+// The piece is that before the cut.
+struct PlanCut : PlanPiece {
     std::int32_t number = 0;
-    std::string piece;              // its name where the plan was made
-    std::vector<PathSide> path;     // where it lies in the BSP
     Plane plane;                    // in the scan's own frame
     double from_centre = 0;         // the same offset counted from PlanScan::centre, exact to the last bit
-    Vec3 inside;                    // a point deep in the piece before the cut
-    double volume_mm3 = 0;          // of the piece before the cut
     std::vector<double> makes_mm3;  // volumes of the pieces that the cut made, largest first
     bool operator==(const PlanCut&) const = default;
+};
+
+// A piece that is discarded.
+struct PlanDiscard : PlanPiece {
+    std::int32_t after = 0;  // the number of the cut that it follows; 0: before all
+    bool operator==(const PlanDiscard&) const = default;
 };
 
 // The scan that the plan was made on.
@@ -51,10 +63,11 @@ struct Plan {
     PlanScan scan;
     Weights weights;  // that stood when it was written
     std::vector<PlanCut> cuts;
+    std::vector<PlanDiscard> discards;  // in their order
     bool operator==(const Plan&) const = default;
 };
 
-// The cuts that stand. Throws InputError (mesh) if a piece has no inside.
+// The cuts that stand, and what is discarded. Throws InputError (mesh) if a piece has no inside.
 Plan make_plan(const Project& project, const TriangleMesh& scan);
 
 std::string to_text(const Plan& plan);

@@ -43,6 +43,12 @@ std::string word(const PathSide& side) {
     return std::to_string(side.cut) + (side.above ? " above" : " below");
 }
 
+std::string in_words(const std::vector<PathSide>& path) {
+    std::string text;
+    for (const PathSide& side : path) text += (text.empty() ? "" : ", ") + quoted(word(side));
+    return "[" + text + "]";
+}
+
 // One table, read key by key; every fault names file, line and key.
 class Table {
  public:
@@ -131,6 +137,7 @@ PlanScan scan_from(const Table& t) {
     return scan;
 }
 
+// Names cuts before the cut `number`.
 std::vector<PathSide> path_from(const Table& t, std::int32_t number) {
     std::vector<PathSide> path;
     for (const toml::node& node : t.array("path")) {
@@ -148,12 +155,14 @@ std::vector<PathSide> path_from(const Table& t, std::int32_t number) {
     return path;
 }
 
+// As it was before the cut `number`.
+PlanPiece piece_from(const Table& t, std::int32_t number) {
+    return {t.text("piece"), path_from(t, number), t.vector("inside_mm"), t.positive("volume_mm3")};
+}
+
 PlanCut cut_from(const Table& t, std::int32_t expected, Vec3 centre) {
-    PlanCut cut;
     if (t.whole("number", 1) != expected) t.refuse("number", "must count 1, 2, ... in the order of the cuts");
-    cut.number = expected;
-    cut.piece = t.text("piece");
-    cut.path = path_from(t, cut.number);
+    PlanCut cut{piece_from(t, expected), expected, {}, 0, {}};
     const Vec3 normal = t.vector("normal");
     if (!(norm(normal) > 0)) t.refuse("normal", "must not be zero");
     const Plane direction = canonical({normal, 0});
@@ -167,14 +176,39 @@ PlanCut cut_from(const Table& t, std::int32_t expected, Vec3 centre) {
         }
         cut.from_centre = exact;
     }
-    cut.inside = t.vector("inside_mm");
-    cut.volume_mm3 = t.positive("volume_mm3");
     cut.makes_mm3 = t.numbers("makes_mm3");
     return cut;
 }
 
+std::vector<PlanCut> cuts_from(const Table& top, const std::string& file, Vec3 centre) {
+    std::vector<PlanCut> cuts;
+    if (!top.has("cut")) return cuts;
+    for (const toml::node& node : top.array("cut")) {
+        if (!node.is_table()) top.refuse("cut", "must be tables: [[cut]]");
+        const Table t(*node.as_table(), file,
+                      {"number", "piece", "path", "normal", "offset_mm", "offset_from_centre_mm", "inside_mm",
+                       "volume_mm3", "makes_mm3"});
+        cuts.push_back(cut_from(t, static_cast<std::int32_t>(cuts.size()) + 1, centre));
+    }
+    return cuts;
+}
+
+std::vector<PlanDiscard> discards_from(const Table& top, const std::string& file, std::size_t cuts) {
+    std::vector<PlanDiscard> discards;
+    if (!top.has("discard")) return discards;
+    for (const toml::node& node : top.array("discard")) {
+        if (!node.is_table()) top.refuse("discard", "must be tables: [[discard]]");
+        const Table t(*node.as_table(), file, {"after", "piece", "path", "inside_mm", "volume_mm3"});
+        const std::int64_t after = t.whole("after", discards.empty() ? 0 : discards.back().after);
+        if (after > static_cast<std::int64_t>(cuts)) t.refuse("after", "there is no such cut");
+        const auto number = static_cast<std::int32_t>(after);
+        discards.push_back({piece_from(t, number + 1), number});
+    }
+    return discards;
+}
+
 Plan plan_from(const toml::table& root, const std::string& file) {
-    const Table top(root, file, {"schema", "scan", "weights", "cut"});
+    const Table top(root, file, {"schema", "scan", "weights", "cut", "discard"});
     if (top.whole("schema", 1) != schema) top.refuse("schema", "this version reads schema 1");
     Plan plan;
     plan.scan = scan_from(
@@ -182,14 +216,8 @@ Plan plan_from(const toml::table& root, const std::string& file) {
               {"name", "sha256", "units", "scale", "centre_mm", "faces", "volume_mm3", "box_min_mm", "box_max_mm"}));
     const Table w(top.table("weights"), file, {"face_ratio", "fragility", "piece_count", "undercut"});
     plan.weights = {w.number("face_ratio"), w.number("fragility"), w.number("piece_count"), w.number("undercut")};
-    if (!top.has("cut")) return plan;
-    for (const toml::node& node : top.array("cut")) {
-        if (!node.is_table()) top.refuse("cut", "must be tables: [[cut]]");
-        const Table t(*node.as_table(), file,
-                      {"number", "piece", "path", "normal", "offset_mm", "offset_from_centre_mm", "inside_mm",
-                       "volume_mm3", "makes_mm3"});
-        plan.cuts.push_back(cut_from(t, static_cast<std::int32_t>(plan.cuts.size()) + 1, plan.scan.centre));
-    }
+    plan.cuts = cuts_from(top, file, plan.scan.centre);
+    plan.discards = discards_from(top, file, plan.cuts.size());
     return plan;
 }
 
@@ -211,15 +239,20 @@ std::string to_text(const Plan& plan) {
         << "\npiece_count = " << in_digits(plan.weights.piece_count)
         << "\nundercut = " << in_digits(plan.weights.undercut) << "\n";
     for (const PlanCut& cut : plan.cuts) {
-        out << "\n[[cut]]\nnumber = " << cut.number << "\npiece = " << quoted(cut.piece) << "\npath = [";
-        for (std::size_t i = 0; i < cut.path.size(); ++i) out << (i > 0 ? ", " : "") << quoted(word(cut.path[i]));
-        out << "]\nnormal = " << in_digits(cut.plane.normal) << "\noffset_mm = " << in_digits(cut.plane.offset)
+        out << "\n[[cut]]\nnumber = " << cut.number << "\npiece = " << quoted(cut.piece)
+            << "\npath = " << in_words(cut.path) << "\nnormal = " << in_digits(cut.plane.normal)
+            << "\noffset_mm = " << in_digits(cut.plane.offset)
             << "\noffset_from_centre_mm = " << in_digits(cut.from_centre) << "\ninside_mm = " << in_digits(cut.inside)
             << "\nvolume_mm3 = " << in_digits(cut.volume_mm3) << "\nmakes_mm3 = [";
         for (std::size_t i = 0; i < cut.makes_mm3.size(); ++i) {
             out << (i > 0 ? ", " : "") << in_digits(cut.makes_mm3[i]);
         }
         out << "]\n";
+    }
+    for (const PlanDiscard& discard : plan.discards) {
+        out << "\n[[discard]]\nafter = " << discard.after << "\npiece = " << quoted(discard.piece)
+            << "\npath = " << in_words(discard.path) << "\ninside_mm = " << in_digits(discard.inside)
+            << "\nvolume_mm3 = " << in_digits(discard.volume_mm3) << "\n";
     }
     return out.str();
 }

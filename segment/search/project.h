@@ -16,6 +16,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -70,12 +71,15 @@ struct Project {
     std::vector<Cut> cuts;  // those that stand
     std::vector<SolidRecord> pieces;
     std::vector<SolidRecord> crumb_list;
+    std::vector<Discard> discards;       // those that stand
+    std::vector<SolidRecord> discarded;  // what they took out, in their order
     std::vector<std::string> warnings;
+    std::optional<BeamState> beam;  // of a search that was interrupted and can go on
     bool operator==(const Project&) const = default;
 };
 
-// Copies what the segmentation says now into the project: cuts that the history does not have yet are decided, cuts
-// at its end that the segmentation has no more are given up (decisions.h, follow).
+// Copies what the segmentation says now into the project: cuts, then discarded pieces, that the history does not have
+// yet are decided, cuts at its end that the segmentation has no more are given up (decisions.h, follow).
 void record(Project& project, const Segmentation& segmentation);
 
 // Written aside and renamed: a crash leaves the decisions before or after, never half of them.
@@ -84,8 +88,15 @@ void save_project(const std::filesystem::path& folder, const Project& project);
 // Throws InputError: (missing) no project there, (config) a project file that this version cannot read.
 Project load_project(const std::filesystem::path& folder);
 
-// Applies the cuts that stand to the scan exactly as they were made. Throws InputError (config) if one misses.
+// Applies the cuts that stand to the scan exactly as they were made, and takes out what is discarded. Throws InputError
+// (config) if a cut misses or a piece is not there.
 Segmentation replay(const Project& project, const TriangleMesh& scan);
+// The same with the first `cuts` of them only, and what was discarded before the next.
+Segmentation replay(const Project& project, const TriangleMesh& scan, std::size_t cuts);
+
+// Where the search of a project goes on: at its beam if it has one. `standing` is what its cuts make.
+BeamProgress beam_progress(const Project& project, const Segmentation& standing,
+                           const std::function<const TriangleMesh&()>& scan);
 
 // Keeps a second writer out while it lives. Throws InputError (busy) if somebody else holds it.
 class ProjectLock {

@@ -1,5 +1,6 @@
 #include "segment/search/project_json.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "segment/error.h"
@@ -9,7 +10,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* schema = "qchopper-project-1";
+constexpr const char* schema = "qchopper-project-2";
+constexpr const char* schema_before = "qchopper-project-1";  // without what came with 2; still read
 
 // Names of the enumerations, as they stand in the file.
 template <typename Enum>
@@ -46,52 +48,6 @@ Json to_json(Vec3 v) {
 
 Vec3 vec3(const Json& json) {
     return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
-}
-
-Json to_json(const Terms& t) {
-    return {{"face_ratio", t.face_ratio},
-            {"fragility", t.fragility},
-            {"piece_count", t.piece_count},
-            {"undercut", t.undercut},
-            {"total", t.total}};
-}
-
-Terms terms_from(const Json& json) {
-    return {json.at("face_ratio").get<double>(), json.at("fragility").get<double>(),
-            json.at("piece_count").get<double>(), json.at("undercut").get<double>(), json.at("total").get<double>()};
-}
-
-Json to_json(const Ranked& r) {
-    return {{"normal", to_json(r.plane.normal)}, {"offset_mm", r.plane.offset}, {"wanted_offset_mm", r.wanted_offset},
-            {"normal_number", r.normal},         {"offset_number", r.offset},   {"terms", to_json(r.terms)}};
-}
-
-Ranked ranked_from(const Json& json) {
-    return {{vec3(json.at("normal")), json.at("offset_mm").get<double>()},
-            json.at("wanted_offset_mm").get<double>(),
-            json.at("normal_number").get<int>(),
-            json.at("offset_number").get<int>(),
-            terms_from(json.at("terms"))};
-}
-
-Json to_json(const Cut& cut) {
-    Json runners_up = Json::array();
-    for (const Ranked& r : cut.runners_up) runners_up.push_back(to_json(r));
-    return {{"number", cut.number},         {"piece", cut.piece},   {"chosen", to_json(cut.chosen)},
-            {"candidates", cut.candidates}, {"pieces", cut.pieces}, {"crumbs", cut.crumbs},
-            {"runners_up", runners_up}};
-}
-
-Cut cut_from(const Json& json) {
-    Cut cut;
-    cut.number = json.at("number").get<std::int32_t>();
-    cut.piece = json.at("piece").get<std::string>();
-    cut.chosen = ranked_from(json.at("chosen"));
-    cut.candidates = json.at("candidates").get<std::size_t>();
-    cut.pieces = json.at("pieces").get<std::vector<std::string>>();
-    cut.crumbs = json.at("crumbs").get<std::size_t>();
-    for (const Json& r : json.at("runners_up")) cut.runners_up.push_back(ranked_from(r));
-    return cut;
 }
 
 Json to_json(const Weights& w) {
@@ -210,17 +166,97 @@ ScanSource scan_from(const Json& json) {
     return scan;
 }
 
+Json to_json(const Terms& t) {
+    return {{"face_ratio", t.face_ratio},
+            {"fragility", t.fragility},
+            {"piece_count", t.piece_count},
+            {"undercut", t.undercut},
+            {"total", t.total}};
+}
+
+Terms terms_from(const Json& json) {
+    return {json.at("face_ratio").get<double>(), json.at("fragility").get<double>(),
+            json.at("piece_count").get<double>(), json.at("undercut").get<double>(), json.at("total").get<double>()};
+}
+
+Json to_json(const Ranked& r) {
+    return {{"normal", to_json(r.plane.normal)}, {"offset_mm", r.plane.offset}, {"wanted_offset_mm", r.wanted_offset},
+            {"normal_number", r.normal},         {"offset_number", r.offset},   {"terms", to_json(r.terms)}};
+}
+
+Ranked ranked_from(const Json& json) {
+    return {{vec3(json.at("normal")), json.at("offset_mm").get<double>()},
+            json.at("wanted_offset_mm").get<double>(),
+            json.at("normal_number").get<int>(),
+            json.at("offset_number").get<int>(),
+            terms_from(json.at("terms"))};
+}
+
+Json to_json(const Cut& cut) {
+    Json runners_up = Json::array();
+    for (const Ranked& r : cut.runners_up) runners_up.push_back(to_json(r));
+    return {{"number", cut.number},         {"piece", cut.piece},   {"chosen", to_json(cut.chosen)},
+            {"candidates", cut.candidates}, {"pieces", cut.pieces}, {"crumbs", cut.crumbs},
+            {"runners_up", runners_up}};
+}
+
+Cut cut_from(const Json& json) {
+    Cut cut;
+    cut.number = json.at("number").get<std::int32_t>();
+    cut.piece = json.at("piece").get<std::string>();
+    cut.chosen = ranked_from(json.at("chosen"));
+    cut.candidates = json.at("candidates").get<std::size_t>();
+    cut.pieces = json.at("pieces").get<std::vector<std::string>>();
+    cut.crumbs = json.at("crumbs").get<std::size_t>();
+    for (const Json& r : json.at("runners_up")) cut.runners_up.push_back(ranked_from(r));
+    return cut;
+}
+
 Json to_json(const Decision& decision) {
     if (const Cut* cut = std::get_if<Cut>(&decision)) return {{"cut", to_json(*cut)}};
     if (const auto* change = std::get_if<WeightsChange>(&decision)) return {{"weights", to_json(change->weights)}};
+    if (const auto* discard = std::get_if<Discard>(&decision)) {
+        return {{"discard", {{"piece", discard->piece}, {"after", discard->after}}}};
+    }
     return {{"reset", true}};
 }
 
 Decision decision_from(const Json& json) {
     if (json.contains("cut")) return cut_from(json.at("cut"));
     if (json.contains("weights")) return WeightsChange{weights_from(json.at("weights"))};
+    if (json.contains("discard")) {
+        const Json& discard = json.at("discard");
+        return Discard{discard.at("piece").get<std::string>(), discard.at("after").get<std::size_t>()};
+    }
     if (json.contains("reset")) return Reset{};
-    throw InputError(InputFault::config, "a decision is neither a cut nor weights nor a reset");
+    throw InputError(InputFault::config, "a decision is neither a cut nor a discarded piece nor weights nor a reset");
+}
+
+Json to_json(const BeamState::Branch& branch) {
+    return {{"last", branch.last}, {"passed_over", branch.passed_over}};
+}
+
+// The root, or one of the cuts before it.
+std::size_t place_from(const Json& json, std::size_t cuts) {
+    const auto place = json.get<std::size_t>();
+    if (place > cuts) throw InputError(InputFault::config, "a cut of its beam follows one that is not there");
+    return place;
+}
+
+BeamState::Branch branch_from(const Json& json, std::size_t cuts) {
+    return {place_from(json.at("last"), cuts), json.at("passed_over").get<std::vector<std::string>>()};
+}
+
+// The search may give up only cuts that it made itself: after the root nothing but cuts was decided.
+bool belongs_to(const BeamState& beam, const History& history) {
+    const std::vector<Cut> standing = standing_cuts(history);
+    if (beam.branches.empty() || beam.from > standing.size()) return false;
+    for (std::size_t i = 0; i < standing.size() - beam.from; ++i) {
+        if (!std::holds_alternative<Cut>(history.decisions[history.standing - 1 - i])) return false;
+    }
+    const std::vector<Cut> best = cuts_of(beam, beam.branches.front());
+    return std::equal(best.begin(), best.end(), standing.begin() + static_cast<std::ptrdiff_t>(beam.from),
+                      standing.end());
 }
 
 Json to_json(const History& history) {
@@ -242,8 +278,32 @@ History history_from(const Json& json) {
     return history;
 }
 
+Json to_json(const BeamState& beam) {
+    Json cuts = Json::array();
+    for (const BeamState::Node& node : beam.cuts) cuts.push_back({{"after", node.after}, {"cut", to_json(node.cut)}});
+    Json branches = Json::array();
+    for (const BeamState::Branch& branch : beam.branches) branches.push_back(to_json(branch));
+    Json json{{"from", beam.from}, {"cuts", cuts}, {"branches", branches}};
+    if (beam.stuck) json["stuck"] = to_json(*beam.stuck);
+    return json;
+}
+
+BeamState beam_from(const Json& json, const History& history) {
+    BeamState beam;
+    beam.from = json.at("from").get<std::size_t>();
+    for (const Json& node : json.at("cuts")) {
+        beam.cuts.push_back({place_from(node.at("after"), beam.cuts.size()), cut_from(node.at("cut"))});
+    }
+    for (const Json& branch : json.at("branches")) beam.branches.push_back(branch_from(branch, beam.cuts.size()));
+    if (json.contains("stuck")) beam.stuck = branch_from(json.at("stuck"), beam.cuts.size());
+    if (!belongs_to(beam, history)) throw InputError(InputFault::config, "its beam is not of the cuts that stand");
+    return beam;
+}
+
 Project from_json(const Json& json) {
-    if (json.at("schema") != schema) throw InputError(InputFault::config, "its schema is not " + std::string(schema));
+    if (json.at("schema") != schema && json.at("schema") != schema_before) {
+        throw InputError(InputFault::config, "its schema is not " + std::string(schema));
+    }
     Project project;
     project.scan = scan_from(json.at("scan"));
     project.preset = json.at("preset").get<std::string>();
@@ -253,6 +313,12 @@ Project from_json(const Json& json) {
     project.ended_because = json.at("ended_because").get<std::string>();
     project.history = history_from(json.at("history"));
     project.cuts = standing_cuts(project.history);
+    project.discards = standing_discards(project.history);
+    if (json.contains("discarded")) project.discarded = solids_from(json.at("discarded"));
+    if (project.discarded.size() != project.discards.size()) {
+        throw InputError(InputFault::config, "its list of discarded pieces is not that of its decisions");
+    }
+    if (json.contains("beam")) project.beam = beam_from(json.at("beam"), project.history);
     project.pieces = solids_from(json.at("pieces"));
     project.crumb_list = solids_from(json.at("crumbs"));
     project.warnings = json.at("warnings").get<std::vector<std::string>>();
@@ -266,17 +332,21 @@ std::string to_json(const Project& project) {
     for (const SolidRecord& piece : project.pieces) pieces.push_back(to_json(piece));
     Json crumbs = Json::array();
     for (const SolidRecord& crumb : project.crumb_list) crumbs.push_back(to_json(crumb));
-    const Json json{{"schema", schema},
-                    {"scan", to_json(project.scan)},
-                    {"preset", project.preset},
-                    {"settings", to_json(project.settings)},
-                    {"crumb_choice", word_of(crumb_words, project.crumbs)},
-                    {"stage", word_of(stage_words, project.stage)},
-                    {"ended_because", project.ended_because},
-                    {"history", to_json(project.history)},
-                    {"pieces", pieces},
-                    {"crumbs", crumbs},
-                    {"warnings", project.warnings}};
+    Json discarded = Json::array();
+    for (const SolidRecord& solid : project.discarded) discarded.push_back(to_json(solid));
+    Json json{{"schema", schema},
+              {"scan", to_json(project.scan)},
+              {"preset", project.preset},
+              {"settings", to_json(project.settings)},
+              {"crumb_choice", word_of(crumb_words, project.crumbs)},
+              {"stage", word_of(stage_words, project.stage)},
+              {"ended_because", project.ended_because},
+              {"history", to_json(project.history)},
+              {"pieces", pieces},
+              {"crumbs", crumbs},
+              {"discarded", discarded},
+              {"warnings", project.warnings}};
+    if (project.beam) json["beam"] = to_json(*project.beam);
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,4 +1,4 @@
-// The text of project.json, schema qchopper-project-1.
+// The text of project.json, schema qchopper-project-2.
 
 #pragma once
 

@@ -44,22 +44,40 @@ class Replay {
            const Context& context, const PlanFit& fit)
         : plan_(plan), source_(source), settings_(settings), book_(book), context_(context), fit_(fit) {}
 
-    PlanReplay run(Segmentation& segmentation, const std::function<void(const Segmentation&)>& on_cut) {
-        for (const PlanCut& planned : plan_.cuts) {
+    PlanReplay run(Segmentation& segmentation, const std::function<void(const Segmentation&)>& on_decision) {
+        result_.applies = discard_here(segmentation, on_decision);
+        for (auto planned = plan_.cuts.begin(); result_.applies && planned != plan_.cuts.end(); ++planned) {
             context_.check_cancelled();
-            context_.progress("cuts of the plan made", static_cast<std::size_t>(planned.number) - 1, plan_.cuts.size());
-            const std::string why = make(planned, segmentation);
+            context_.progress("cuts of the plan made", static_cast<std::size_t>(planned->number) - 1,
+                              plan_.cuts.size());
+            const std::string why = make(*planned, segmentation);
             if (!why.empty()) {
-                result_.why = "cut " + std::to_string(planned.number) + " on piece " + planned.piece + ": " + why;
+                result_.why = "cut " + std::to_string(planned->number) + " on piece " + planned->piece + ": " + why;
+                result_.applies = false;
                 return result_;
             }
-            on_cut(segmentation);
+            on_decision(segmentation);
+            result_.applies = discard_here(segmentation, on_decision);
         }
-        result_.applies = true;
         return result_;
     }
 
  private:
+    // Discards what the plan discards after so many cuts as there are; false if a piece is not found.
+    bool discard_here(Segmentation& segmentation, const std::function<void(const Segmentation&)>& on_decision) {
+        for (const PlanDiscard& planned : plan_.discards) {
+            if (static_cast<std::size_t>(planned.after) != segmentation.cuts.size()) continue;
+            std::string why;
+            const std::optional<std::size_t> found = find(planned, segmentation, why);
+            if (!found || !discard(segmentation, segmentation.pieces[*found].name)) {
+                result_.why = "discard of piece " + planned.piece + ": " + (found ? "it is the only piece" : why);
+                return false;
+            }
+            on_decision(segmentation);
+        }
+        return true;
+    }
+
     // Makes one cut; what hinders it, in words.
     std::string make(const PlanCut& planned, Segmentation& segmentation) {
         std::string why;
@@ -70,7 +88,11 @@ class Replay {
         if (!plane) return "its plane misses the piece";
         const Candidate candidate{*plane, wanted_offset(planned), -1, -1};
         const std::optional<Ranked> ranked = rank_plane(segmentation, *found, candidate, settings_, book_, context_);
-        if (!ranked) return "its plane misses the piece, or leaves only crumbs on one side";
+        if (!ranked) {
+            return book_.price_of(piece, candidate, context_)
+                       ? "its plane leaves only fragments of the piece on one side"
+                       : "its plane misses the piece";
+        }
         Segmentation after = segmentation;
         if (!apply(after, cut_by(segmentation, *found, {*ranked}, 0, 0), settings_.objectives.crumb_volume_mm3)) {
             return "its plane misses the piece";
@@ -97,7 +119,8 @@ class Replay {
     }
 
     // The leaf at the same place of the BSP that holds the plan's point and has its share of the volume.
-    std::optional<std::size_t> find(const PlanCut& planned, const Segmentation& segmentation, std::string& why) const {
+    std::optional<std::size_t> find(const PlanPiece& planned, const Segmentation& segmentation,
+                                    std::string& why) const {
         const Vec3 inside = planned.inside - source_.centre;
         for (std::size_t p = 0; p < segmentation.pieces.size(); ++p) {
             const Piece& piece = segmentation.pieces[p];
@@ -176,9 +199,9 @@ std::string misfit(const Plan& plan, const ScanSource& source, const TriangleMes
 
 PlanReplay replay_plan(const Plan& plan, const ScanSource& source, Segmentation& segmentation,
                        const SearchSettings& settings, PieceBook& book,
-                       const std::function<void(const Segmentation&)>& on_cut, const Context& context,
+                       const std::function<void(const Segmentation&)>& on_decision, const Context& context,
                        const PlanFit& fit) {
-    return Replay(plan, source, settings, book, context, fit).run(segmentation, on_cut);
+    return Replay(plan, source, settings, book, context, fit).run(segmentation, on_decision);
 }
 
 }  // namespace qchopper

@@ -27,16 +27,17 @@ std::string misfit(const Plan& plan, const ScanSource& source, const TriangleMes
 
 struct PlanReplay {
     bool applies = false;            // to the last cut
-    std::string why;                 // not: which cut and why, in words
+    std::string why;                 // not: which cut or discarded piece and why, in words
     std::vector<std::string> notes;  // offsets that had to be nudged
     double largest_volume_off = 0;   // relative, over all pieces that the cuts made
 };
 
 // Adds the plan's cuts to an uncut segmentation, until one does not apply; that one is not made. The operator's
-// settings price the planes. `on_cut` is told after every cut.
+// settings price the planes. What the plan discards is discarded at the same place among the cuts. `on_decision` is
+// told after every cut and every discarded piece.
 PlanReplay replay_plan(const Plan& plan, const ScanSource& source, Segmentation& segmentation,
                        const SearchSettings& settings, PieceBook& book,
-                       const std::function<void(const Segmentation&)>& on_cut, const Context& context,
+                       const std::function<void(const Segmentation&)>& on_decision, const Context& context,
                        const PlanFit& fit = {});
 
 }  // namespace qchopper

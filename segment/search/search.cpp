@@ -22,16 +22,23 @@ std::string in_words(double seconds) {
 // One search from its start to its end.
 class Search {
  public:
-    Search(const SearchSettings& settings, PieceBook& book, const FitsCell& fits_cell, const Context& context)
+    Search(const SearchSettings& settings, PieceBook& book, const FitsCell& fits_cell, const Context& context,
+           BeamProgress* progress)
         : settings_(settings),
           book_(book),
           judge_(settings.stop, fits_cell, [&book](const Piece& p) { return book.box(p).size(); }),
-          context_(context) {}
+          context_(context),
+          progress_(settings.beam > 1 ? progress : nullptr) {}
 
     SearchEnd run(Segmentation& segmentation, const std::function<void(const Segmentation&)>& on_round,
                   std::optional<double> time_limit_s) {
         const auto started = Clock::now();
-        beam_.push_back(bsp(segmentation, {}, settings_.objectives, book_));
+        if (progress_ != nullptr && !progress_->state.branches.empty()) {
+            go_on();
+        } else {
+            from_ = segmentation.cuts.size();
+            beam_.push_back(bsp(segmentation, {}, settings_.objectives, book_));
+        }
         while (true) {
             context_.check_cancelled();
             judge();
@@ -44,11 +51,33 @@ class Search {
             beam_ = next_round(std::move(beam_), settings_, book_);
             ++rounds_;
             forget_the_rest();
+            keep_progress();
             tell(segmentation, on_round);
         }
     }
 
  private:
+    // The beam of a search that was interrupted.
+    void go_on() {
+        const BeamState& state = progress_->state;
+        const std::vector<Segmentation> grown = grow(state, progress_->root, settings_.objectives.crumb_volume_mm3);
+        const auto made_again = [&](const BeamState::Branch& b) {
+            return bsp(b.last == 0 ? progress_->root : grown[b.last - 1], b.passed_over, settings_.objectives, book_);
+        };
+        from_ = state.from;
+        for (const BeamState::Branch& b : state.branches) beam_.push_back(made_again(b));
+        if (state.stuck) stuck_ = made_again(*state.stuck);
+    }
+
+    void keep_progress() {
+        if (progress_ == nullptr) return;
+        BeamState state;
+        state.from = from_;
+        for (const Bsp& b : beam_) state.branches.push_back(branch_for(state, b.segmentation.cuts, b.passed_over));
+        if (stuck_) state.stuck = branch_for(state, stuck_->segmentation.cuts, stuck_->passed_over);
+        progress_->state = std::move(state);
+    }
+
     void judge() {
         for (Bsp& b : beam_) b.next = judge_.next(b.segmentation, b.passed_over);
     }
@@ -139,6 +168,8 @@ class Search {
     std::vector<Bsp> beam_;  // cheapest first
     std::optional<Bsp> stuck_;
     std::size_t rounds_ = 0;
+    std::size_t from_ = 0;  // all of the beam have so many cuts in common
+    BeamProgress* progress_;
 };
 
 }  // namespace
@@ -174,8 +205,8 @@ Cut cut_by(const Segmentation& segmentation, std::size_t piece, const std::vecto
 
 SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, PieceBook& book, const FitsCell& fits_cell,
                  const std::function<void(const Segmentation&)>& on_round, const Context& context,
-                 std::optional<double> time_limit_s) {
-    return Search(settings, book, fits_cell, context).run(segmentation, on_round, time_limit_s);
+                 std::optional<double> time_limit_s, BeamProgress* progress) {
+    return Search(settings, book, fits_cell, context, progress).run(segmentation, on_round, time_limit_s);
 }
 
 }  // namespace qchopper

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "segment/context.h"
+#include "segment/search/beam_state.h"
 #include "segment/search/piece_book.h"
 #include "segment/search/rank.h"
 #include "segment/search/segmentation.h"
@@ -55,11 +56,22 @@ struct SearchEnd {
     double cost = 0;
 };
 
+// Where a search with b > 1 stands. It goes on from `state` if that has branches; `root` is then the segmentation that
+// they grow from. After every round `state` is the beam as it is now. At b = 1 the segmentation says it all.
+struct BeamProgress {
+    BeamState state;
+    Segmentation root;
+    // To be saved; nothing where no beam is kept.
+    std::optional<BeamState> saved() const { return state.branches.empty() ? std::nullopt : std::optional(state); }
+};
+
 // Goes on from where the segmentation stands, and leaves the best BSP there. `on_round` is told the best so far after
 // every round that changes it, so that it can be saved: at b = 1 that is every decision. After `time_limit_s` it stops
 // with the round that is being made. Throws Cancelled when asked to stop; the best of the last round stands then.
+// Interrupted anywhere and gone on with from `progress`, it ends as if it had not been interrupted
+// (tests/segment/search/open_project_test.cpp).
 SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, PieceBook& book, const FitsCell& fits_cell,
                  const std::function<void(const Segmentation&)>& on_round, const Context& context,
-                 std::optional<double> time_limit_s = std::nullopt);
+                 std::optional<double> time_limit_s = std::nullopt, BeamProgress* progress = nullptr);
 
 }  // namespace qchopper

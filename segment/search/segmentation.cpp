@@ -1,6 +1,7 @@
 #include "segment/search/segmentation.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "segment/cut/cut_piece.h"
 #include "segment/mesh/measure.h"
@@ -63,6 +64,18 @@ bool apply(Segmentation& segmentation, Cut cut, double crumb_volume_mm3) {
         segmentation.warnings.push_back("cut " + std::to_string(cut.number) + ": " + warning);
     }
     segmentation.cuts.push_back(std::move(cut));
+    return true;
+}
+
+bool discard(Segmentation& segmentation, const std::string& name) {
+    std::vector<Piece>& pieces = segmentation.pieces;
+    const auto piece = std::find_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return p.name == name; });
+    if (piece == pieces.end() || pieces.size() == 1) return false;
+    char volume[48];
+    std::snprintf(volume, sizeof volume, "%.4g ml", volume_mm3(*piece->mesh) / 1000);
+    segmentation.warnings.push_back("piece " + name + " (" + volume + ") is discarded and will not be carved");
+    segmentation.discarded.push_back({segmentation.cuts.size(), std::move(*piece)});
+    pieces.erase(piece);
     return true;
 }
 

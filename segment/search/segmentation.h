@@ -1,7 +1,7 @@
 // A segmentation: the cuts decided so far, in order, and the pieces that they leave.
 //
 // Cuts and pieces form a binary space partition (Nicholson 2016, section 3): every cut parts one piece into two or
-// more. Nothing is lost: pieces and crumbs together always have the volume of the scan
+// more. Nothing is lost: pieces, crumbs and what was discarded together always have the volume of the scan
 // (tests/segment/search/search_test.cpp).
 
 #pragma once
@@ -46,10 +46,17 @@ struct Crumb {
     std::shared_ptr<const TriangleMesh> mesh;
 };
 
+// A piece that is not to be carved, by the operator's word. Listed, never silently dropped.
+struct Discarded {
+    std::size_t after = 0;  // so many cuts were made before
+    Piece piece;
+};
+
 struct Segmentation {
     std::vector<Cut> cuts;
     std::vector<Piece> pieces;  // the leaves, in the order of their names
     std::vector<Crumb> crumbs;
+    std::vector<Discarded> discarded;  // in the order of the decisions
     std::size_t names_given = 0;
     std::vector<std::string> warnings;
 };
@@ -63,5 +70,9 @@ Segmentation uncut(const TriangleMesh& scan, double crumb_volume_mm3);
 // Parts a piece along cut.chosen.plane, exactly; fills in the pieces and crumbs that it makes.
 // Returns false, and changes nothing, if there is no such piece or the plane misses it.
 bool apply(Segmentation& segmentation, Cut cut, double crumb_volume_mm3);
+
+// Takes a piece out, with a warning that says how much it was. Returns false, and changes nothing, if there is no such
+// piece or it is the only one.
+bool discard(Segmentation& segmentation, const std::string& piece);
 
 }  // namespace qchopper

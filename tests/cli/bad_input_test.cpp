@@ -232,6 +232,19 @@ std::vector<Case> outputs() {
          exit_create,
          prepare("scan.ply", {"--quiet", "-o", std::string(250, 'n') + ".qch"}),
          {"cannot be made", "too long"}},
+        {"SampleOverAFile",
+         exit_create,
+         {"sample", "femur", "--faces", "2000", "-o", "f.ply"},
+         {"f.ply exists already", "choose another name"},
+         file("f.ply", "what was there")},
+        {"CommandsQuoteWhatAShellWouldPartInTwo",
+         exit_create,
+         prepare("scan.ply", {"-o", "my bone's.qch"}),
+         {"go on with it by: qchopper prepare 'my bone'\\''s.qch'"},
+         [](const fs::path& folder) {
+             fs::copy(program::prepared() / "scan.qch", folder / "my bone's.qch", fs::copy_options::recursive);
+             return Kept();
+         }},
         {"SampleInNoFolder", exit_create, {"sample", "femur", "--faces", "2000", "-o", "no/f.ply"}, {"no/f.ply"}},
     };
 }
@@ -251,7 +264,7 @@ std::vector<Case> projects() {
          go_on,
          {"p.qch/project.json", "schema"},
          project_text(
-             [](const std::string& text) { return replaced(text, "qchopper-project-1", "qchopper-project-9"); })},
+             [](const std::string& text) { return replaced(text, "qchopper-project-2", "qchopper-project-9"); })},
         {"BrokenProjectInADryRun",
          exit_config,
          {"dry-run", "p.qch"},

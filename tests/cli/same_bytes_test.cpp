@@ -63,6 +63,22 @@ TEST_F(SameBytes, FromAFinishedProjectOnceMore) {
     expect_as_prepared();
 }
 
+TEST_F(SameBytes, OfABeamThatIsKilledAfterTheFirstCut) {
+    Arguments beam = start();
+    beam.insert(beam.end(), {"--beam", "3"});
+    ASSERT_EQ(program::run(beam, {folder.path}).code, 0);
+    const Contents whole = program::contents(folder.path / "scan.qch");
+    fs::remove_all(folder.path / "scan.qch");
+    Process process(beam, {folder.path});
+    ASSERT_TRUE(process.waits_until_err("cut 1 on piece A")) << process.err();
+    process.signal(SIGKILL);
+    EXPECT_EQ(process.wait().killed_by, SIGKILL);
+    EXPECT_GE(cuts_kept(), 1U);
+    const Ended ended = program::run(go_on, {folder.path});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(program::difference(whole, program::contents(folder.path / "scan.qch")), "");
+}
+
 TEST_F(SameBytes, KilledAfterTheFirstCut) {
     Process process(start(), {folder.path});
     ASSERT_TRUE(process.waits_until_err("cut 1 on piece A")) << process.err();

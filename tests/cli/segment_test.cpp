@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "segment/intake/write_ply.h"
 #include "tests/cli/program.h"
@@ -114,6 +116,171 @@ TEST_F(Segment, WritesAPlanThatMakesTheSamePiecesAgain) {
     answer({"p.qch", "--plan", "cuts.plan"});
     const json replayed = answer({"scan.ply", "--units", "mm", "--replay", "cuts.plan", "-o", "again.qch"});
     EXPECT_EQ(replayed["pieces"], cut["pieces"]);
+}
+
+TEST_F(Segment, DiscardsAPieceAndSaysSoInEveryReport) {
+    const json cut = answer({"p.qch", "--accept", "1"});
+    const std::string name = cut["pieces"].back()["name"];
+    const double gone = cut["pieces"].back()["volume_mm3"];
+    const json discarded = answer({"p.qch", "--discard", name});
+    ASSERT_EQ(discarded["discarded"].size(), 1U) << discarded.dump(1);
+    EXPECT_EQ(discarded["discarded"][0]["name"], name);
+    EXPECT_EQ(discarded["discarded"][0]["after"], 1);
+    EXPECT_EQ(discarded["discarded"][0]["volume_mm3"], gone);
+    EXPECT_NEAR(volume(discarded) + gone, volume(begun), 1e-4 * volume(begun));
+    EXPECT_EQ(discarded["undo"], "Undo discard of piece " + name);
+    EXPECT_EQ(answer({"p.qch", "--undo"})["pieces"], cut["pieces"]);
+    EXPECT_EQ(answer({"p.qch", "--redo"})["pieces"], discarded["pieces"]);
+    const std::string line = "discarded after cut 1: piece " + name + ", ";
+    const auto says_so = [&](const program::Arguments& arguments) {
+        const program::Ended told = run(arguments);
+        EXPECT_EQ(told.code, 0) << told.err;
+        EXPECT_NE(told.out.find(line), std::string::npos) << arguments[0] << "\n" << told.out;
+        program::Arguments as_json = arguments;
+        as_json.emplace_back("--json");
+        if (arguments[0] == "export") as_json.insert(as_json.end(), {"-o", "again.3mf"});
+        const json told_again = json::parse(run(as_json).out, nullptr, false);
+        EXPECT_EQ(told_again["discarded"], discarded["discarded"]) << arguments[0];
+    };
+    says_so({"segment", "p.qch"});
+    says_so({"segment", "p.qch", "--plan", "p.plan"});
+    says_so({"explain", "p.qch"});
+    says_so({"segment", "p.qch", "--auto", "--min-cuts", "1"});
+    says_so({"export", "p.qch", "--format", "3mf"});
+    EXPECT_NE(program::bytes_in(folder.path / "p.plan").find("[[discard]]"), std::string::npos);
+    const json replayed = answer({"scan.ply", "--units", "mm", "--replay", "p.plan", "-o", "again.qch"});
+    EXPECT_EQ(replayed["pieces"], discarded["pieces"]);
+    EXPECT_EQ(replayed["discarded"], discarded["discarded"]);
+    const std::string before = program::bytes_in(folder.path / "again.qch" / "project.json");
+    const program::Ended none = run({"segment", "again.qch", "--discard", name});
+    EXPECT_EQ(none.code, 64) << none.err;
+    ASSERT_EQ(replayed["pieces"].size(), 1U);
+    const program::Ended last = run({"segment", "again.qch", "--discard", answer({"again.qch"})["pieces"][0]["name"]});
+    EXPECT_EQ(last.code, 1) << last.out;
+    EXPECT_NE(last.out.find("is the only one"), std::string::npos) << last.out;
+    EXPECT_EQ(before, program::bytes_in(folder.path / "again.qch" / "project.json"));
+    answer({"p.qch", "--cell", program::foam_cell()});
+    says_so({"prepare", "p.qch"});
+}
+
+TEST_F(Segment, TakesItsCellLaterButOnlyOnce) {
+    const program::Arguments with_cell{"segment", "p.qch", "--cell", program::foam_cell()};
+    EXPECT_EQ(run({"segment", "p.qch", "--auto", "--fits-cell"}).code, 64) << "it knows no cell yet";
+    program::put(folder.path / "wrong.toml", "nonsense");
+    EXPECT_EQ(run({"segment", "p.qch", "--cell", "wrong.toml"}).code, 78);
+    EXPECT_FALSE(fs::exists(folder.path / "p.qch" / "cell.toml"));
+    const program::Ended given = run(with_cell);
+    EXPECT_EQ(given.code, 0) << given.err;
+    EXPECT_EQ(program::bytes_in(folder.path / "p.qch" / "cell.toml"), program::bytes_in(program::foam_cell()));
+    EXPECT_EQ(answer({"p.qch", "--auto", "--fits-cell"})["ended_because"], "the stop rules hold");
+    const program::Ended again = run(with_cell);
+    EXPECT_EQ(again.code, 64);
+    EXPECT_NE(again.err.find("knows its cell already"), std::string::npos) << again.err;
+}
+
+TEST_F(Segment, WritesThePiecesAfterADecisionIfItIsTold) {
+    const auto written = [&] {
+        std::vector<std::string> all;
+        for (const auto& entry : fs::directory_iterator(folder.path / "p.qch" / "pieces")) {
+            all.push_back(entry.path().stem().string());
+        }
+        std::sort(all.begin(), all.end());
+        return all;
+    };
+    EXPECT_TRUE(written().empty());
+    const json cut = answer({"p.qch", "--accept", "1", "--write-pieces"});
+    EXPECT_EQ(written(), names(cut));
+    EXPECT_EQ(cut["pieces_written"], "p.qch/pieces");
+    EXPECT_EQ(written(), names(answer({"p.qch", "--discard", names(cut)[0], "--write-pieces"})));
+    EXPECT_EQ(written(), names(answer({"p.qch", "--undo", "--write-pieces"})));
+    answer({"p.qch", "--undo"});
+    EXPECT_TRUE(written().empty()) << "they would be of other decisions";
+}
+
+TEST_F(Segment, TakesTheVolumeBelowWhichASolidIsAFragment) {
+    const json all = answer({"p.qch", "--step", "--top", "200"})["proposal"]["planes"];
+    const json worst = answer({"p.qch", "--preview", std::to_string(all.size())})["preview"];
+    std::vector<double> volumes;
+    for (const json& made : worst["makes"]) volumes.push_back(made["volume_mm3"]);
+    std::sort(volumes.rbegin(), volumes.rend());
+    const std::string limit = std::to_string(volumes[1] * 1.01);  // only the largest would be a piece
+    const json limited = answer({"scan.ply", "--units", "mm", "-o", "q.qch", "--fragment-volume", limit});
+    EXPECT_EQ(limited["pieces"], begun["pieces"]);
+    const json left = answer({"q.qch", "--step", "--top", "200"})["proposal"]["planes"];
+    EXPECT_LT(left.size(), all.size());
+    for (const json& plane : left) EXPECT_NE(plane["offset_mm"], worst["plane"]["offset_mm"]);
+    EXPECT_EQ(run({"segment", "q.qch", "--fragment-volume", "1"}).code, 64);
+    EXPECT_EQ(run({"prepare", "q.qch", "--fragment-volume", "1", "--cell", program::foam_cell()}).code, 64);
+}
+
+TEST_F(Segment, NamesTheCandidateOfEveryPlane) {
+    for (const json& plane : answer({"p.qch", "--step", "--top", "200"})["proposal"]["planes"]) {
+        EXPECT_TRUE(plane["normal_number"] >= 0 && plane["normal_number"] < 3) << plane.dump();
+        EXPECT_TRUE(plane["offset_number"] >= 0 && plane["offset_number"] < 40) << plane.dump();
+    }
+    EXPECT_EQ(answer({"p.qch", "--plane", "0,0,1,0"})["cuts"][0]["normal_number"], -1);
+}
+
+TEST_F(Segment, TakesAPlaneOfAnyFiniteNumbers) {
+    const auto made_by = [&](const char* plane) { return answer({"p.qch", "--preview", plane})["preview"]["makes"]; };
+    const json one = made_by("0.6,0,0.8,1");
+    for (const char* same :
+         {"3,0,4,1", "3e300,0,4e300,1", "3e-300,0,4e-300,1", "-3e307,0,-4e307,-1", "+0.6,0,+0.8,+1"}) {
+        const json seen = made_by(same);
+        ASSERT_EQ(seen.size(), one.size()) << same;
+        for (std::size_t i = 0; i < one.size(); ++i) {
+            EXPECT_EQ(seen[i]["faces"], one[i]["faces"]) << same;
+            EXPECT_NEAR(seen[i]["volume_mm3"].get<double>(), one[i]["volume_mm3"].get<double>(), 1e-9 * volume(begun))
+                << same;
+        }
+    }
+    EXPECT_EQ(made_by("0,0,5e-324,0"), made_by("0,0,1,0"));
+    for (const char* wrong : {"0,0,0,1", "nan,0,1,0", "inf,0,1,0", "1,0,0,inf", "1,0,0,1e999", "1e-999,0,0,1"}) {
+        EXPECT_EQ(run({"segment", "p.qch", "--preview", wrong}).code, 64) << wrong;
+    }
+}
+
+TEST_F(Segment, TellsAMissFromFragmentsWithTheExtentOfThePiece) {
+    for (const char* far : {"0,0,1,1e9", "0,0,1,-1e300", "0,0,1e-200,1.7e308"}) {
+        const program::Ended missed = run({"segment", "p.qch", "--plane", far});
+        EXPECT_EQ(missed.code, 1) << missed.err;
+        EXPECT_NE(missed.out.find("misses piece A, which extends from -"), std::string::npos) << missed.out;
+        EXPECT_EQ(missed.out.find("fragments"), std::string::npos) << missed.out;
+    }
+    const std::string told = run({"segment", "p.qch", "--plane", "0,0,1,1e9"}).out;
+    const std::size_t at = told.find(" to ", told.find("extends from"));
+    const double top = std::stod(told.substr(at + 4));
+    const program::Ended sliver = run({"segment", "p.qch", "--plane", "0,0,1," + std::to_string(top - 0.002)});
+    EXPECT_EQ(sliver.code, 1) << sliver.err;
+    EXPECT_NE(sliver.out.find("makes only fragments of piece A"), std::string::npos) << sliver.out;
+    EXPECT_NE(sliver.out.find("extends from -"), std::string::npos) << sliver.out;
+    EXPECT_EQ(sliver.out.find("misses"), std::string::npos) << sliver.out;
+}
+
+// Each command with its own examples, and every format that is read.
+TEST(SegmentHelp, AndThatOfEveryOtherCommandShowsItsOwnExamples) {
+    const program::Folder folder;
+    for (const std::string command : {"sample", "inspect", "repair", "prepare", "segment", "explain", "export",
+                                      "dry-run", "cell-sim", "dispatch"}) {
+        const program::Ended help = program::run({command, "--help"}, {folder.path});
+        EXPECT_EQ(help.code, 0);
+        const std::size_t at = help.out.find("Examples:\n");
+        ASSERT_NE(at, std::string::npos) << command;
+        std::istringstream examples(help.out.substr(at + 10));
+        std::size_t count = 0;
+        for (std::string line; std::getline(examples, line);) {
+            if (line.find("qchopper ") == std::string::npos) continue;
+            EXPECT_EQ(line.find("  qchopper " + command + " "), 0U) << line;
+            ++count;
+        }
+        EXPECT_GE(count, 1U) << command;
+    }
+    for (const char* command : {"inspect", "repair", "prepare", "segment"}) {
+        const std::string help = program::run({command, "--help"}, {folder.path}).out;
+        for (const char* format : {"PLY", "STL", "OBJ", "OFF", "GLB", "glTF", "3MF", "gzip"}) {
+            EXPECT_NE(help.find(format), std::string::npos) << command << " " << format;
+        }
+    }
 }
 
 TEST_F(Segment, KeepsEveryDecisionWhenItIsKilled) {

@@ -42,6 +42,18 @@ TEST(Read3mf, GivesBackWhatWasWrittenBitForBit) {
     EXPECT_EQ(scan.mm_per_unit, 1.0);
 }
 
+TEST(Read3mf, ReadsTheNamespaceOf2013) {
+    const std::string now = model_3mf(object_3mf(box, 1), item(1, "1 0 0 0 1 0 0 0 1 5 6 7"), "unit=\"inch\"");
+    const std::string today = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
+    std::string before = now;
+    before.replace(before.find(today), today.size(), "http://schemas.microsoft.com/3dmanufacturing/2013/01");
+    EXPECT_EQ(read(before).mesh, read(now).mesh);
+    EXPECT_EQ(read(before).mm_per_unit, 25.4);
+    std::string other = now;
+    other.replace(other.find(today), today.size(), "http://schemas.microsoft.com/3dmanufacturing/2012/01");
+    EXPECT_NE(refused(other).find("it is no 3MF model"), std::string::npos) << refused(other);
+}
+
 TEST(Read3mf, TakesTheUnitThatTheModelDeclares) {
     const std::pair<const char*, double> units[] = {{"", 1},
                                                     {"unit=\"micron\"", 0.001},

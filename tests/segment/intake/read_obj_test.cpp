@@ -67,6 +67,18 @@ TEST(ReadObj, CurvedSurfacesAreLeftOutWithAWarning) {
     EXPECT_NE(scan.warnings[0].find("line 8"), std::string::npos) << scan.warnings[0];
 }
 
+TEST(ReadObj, LinesOfUnknownKindAreSkippedWithAWarningThatCountsThem) {
+    const RawMesh plain = read(square + "f 1 2 3\n");
+    const RawMesh scan = read(square + "w 0 0 0\nf 1 2 3\nattr a \\\n b\n$colour 1\nw\n");
+    EXPECT_EQ(scan.mesh, plain.mesh);
+    ASSERT_EQ(scan.warnings.size(), 1U);
+    EXPECT_NE(scan.warnings[0].find("4 lines of unknown kind were skipped"), std::string::npos) << scan.warnings[0];
+    EXPECT_NE(scan.warnings[0].find("line 5, which begins with \"w\""), std::string::npos) << scan.warnings[0];
+    const RawMesh one = read(square + "f 1 2 3\nx y\n");
+    ASSERT_EQ(one.warnings.size(), 1U);
+    EXPECT_NE(one.warnings[0].find("1 line of unknown kind was skipped"), std::string::npos) << one.warnings[0];
+}
+
 TEST(ReadObj, NumbersComeOutAsTheyStand) {
     const RawMesh scan = read("v 5000000.1234567891 -0.1 1e-300 0.5 0.5 0.5\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     EXPECT_EQ(scan.mesh.points[0], (Vec3{5000000.1234567891, -0.1, 1e-300}));
@@ -87,7 +99,9 @@ TEST(ReadObj, SaysWhatIsWrongAndWhere) {
     expect_words("v 1 2\n", "three coordinates");
     expect_words("v 1,5 2 3\n", "a coordinate cannot be \"1,5\"");
     expect_words("v 1 nan 3\n", "not a finite number");
-    expect_words(square + "w 0 0 0\nf 1 2 3\n", "line 5 of the OBJ: begins with \"w\"");
+    expect_words(square + "7 0 0\nf 1 2 3\n", "line 5 of the OBJ: begins with \"7\"");
+    expect_words(square + "-.5 0 0\nf 1 2 3\n", "line 5 of the OBJ: begins with \"-.5\"");
+    expect_words(square + "f 1 2 3\nw\x01 0 0\n", "line 6 of the OBJ: begins with");
     expect_words(square, "holds no faces");
 }
 

@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "segment/error.h"
 #include "segment/files/file.h"
 #include "segment/mesh/measure.h"
 #include "segment/search/project_json.h"
@@ -155,6 +156,8 @@ TEST_F(OpenedProject, AMissChangesNothing) {
     OpenProject project = open();
     const auto before = files_but_cache();
     EXPECT_FALSE(project.own_plane(0, {{0, 0, 1}, 1e6}, {}));
+    EXPECT_TRUE(project.misses(0, {{0, 0, 1}, 1e6}));
+    EXPECT_TRUE(project.misses(0, {{0, 0, 1}, -1e300}));
     Cut cut;
     cut.number = 1;
     cut.piece = "A";
@@ -233,6 +236,61 @@ TEST_F(OpenedProject, ASearchThatIsStoppedKeepsWhatWasDecided) {
     }
 }
 
+// What stands in the folder after each decision of a search, and at its end.
+struct Course {
+    std::vector<std::string> saved;  // project.json after every decision
+    std::map<std::string, std::string> end;
+};
+
+// A program that is killed leaves one of the saved files. Whoever goes on from it, and is killed again after each
+// decision or not, ends with the bytes of the program that was never interrupted.
+TEST_F(OpenedProject, ASearchThatIsInterruptedEndsWithTheSameBytesForEveryWidth) {
+    const auto search_on = [&](const std::function<void()>& on_round, const Context& context) {
+        OpenProject project = open();
+        project.search(
+            {}, [&](const Segmentation&) { on_round(); }, context, std::nullopt);
+    };
+    for (const std::size_t beam : {1U, 2U, 3U, 5U, 9U}) {
+        for (const bool has_cut_of_its_own : {false, true}) {
+            fs::remove_all(folder);
+            SetUp();
+            {
+                OpenProject project = open();
+                if (has_cut_of_its_own) accept(project, 5);
+                StopRules rules;
+                rules.min_cuts = 5;
+                rules.max_faces = mesh.triangles.size() / 3;  // some segmentations hold it sooner than others
+                project.set_search(rules, beam);
+            }
+            Course whole;
+            whole.saved.push_back(bytes("project.json"));
+            search_on([&] { whole.saved.push_back(bytes("project.json")); }, {});
+            whole.end = files_but_cache();
+            ASSERT_GE(whole.saved.size(), 4U);
+            for (std::size_t killed_after = 0; killed_after < whole.saved.size(); ++killed_after) {
+                for (const auto& [name, text] : whole.end) fs::remove(folder / name);
+                write_file(folder / "project.json", whole.saved[killed_after]);
+                search_on([] {}, {});
+                EXPECT_EQ(files_but_cache(), whole.end) << "beam " << beam << ", killed after " << killed_after;
+            }
+            for (const auto& [name, text] : whole.end) fs::remove(folder / name);
+            write_file(folder / "project.json", whole.saved.front());
+            for (bool is_stopped = true; is_stopped;) {
+                is_stopped = false;
+                std::atomic<bool> stop{false};
+                Context context;
+                context.cancelled = &stop;
+                try {
+                    search_on([&] { stop = true; }, context);
+                } catch (const Cancelled&) {
+                    is_stopped = true;
+                }
+            }
+            EXPECT_EQ(files_but_cache(), whole.end) << "beam " << beam << ", stopped after every decision";
+        }
+    }
+}
+
 TEST_F(OpenedProject, OutOfTimeItStaysBeingCut) {
     OpenProject project = open();
     const SearchEnd end = project.search(
@@ -246,6 +304,52 @@ TEST_F(OpenedProject, OutOfTimeItStaysBeingCut) {
                     .search(
                         {}, [](const Segmentation&) {}, {}, std::nullopt)
                     .is_finished);
+}
+
+// What the file says of a beam is held against the decisions that stand.
+TEST_F(OpenedProject, ABeamThatIsNotOfItsDecisionsIsRefused) {
+    OpenProject project = open();
+    StopRules rules;
+    rules.min_cuts = 40;
+    project.set_search(rules, 3);
+    project.search(
+        {}, [](const Segmentation&) {}, {}, 1e-9);
+    const Project saved = load_project(folder);
+    ASSERT_TRUE(saved.beam);
+    ASSERT_EQ(saved.beam->branches.size(), 3U);
+    const auto refused = [&](const std::function<void(Project&)>& spoil) {
+        Project spoilt = saved;
+        spoil(spoilt);
+        EXPECT_THROW(project_from_json(to_json(spoilt), "p"), InputError);
+    };
+    refused([](Project& p) { p.beam->branches.clear(); });
+    refused([](Project& p) { std::swap(p.beam->branches[0], p.beam->branches[1]); });
+    refused([](Project& p) { p.beam->branches[1].last = 99; });
+    refused([](Project& p) { p.beam->cuts[0].after = 1; });
+    refused([](Project& p) { p.beam->from = 1; });
+    refused([](Project& p) { decide(p.history, Reset{}); });
+    Project astray = saved;
+    astray.beam->cuts.back().cut.piece = "QQ";
+    save_project(folder, astray);
+    EXPECT_THROW(open().search(
+                     {}, [](const Segmentation&) {}, {}, std::nullopt),
+                 InputError);
+    save_project(folder, saved);
+    const std::vector<std::function<void(OpenProject&)>> decisions{
+        [&](OpenProject& p) { accept(p, 0); },
+        [](OpenProject& p) {
+            p.decide_weights({1, 2, 3, 4});
+        },
+        [](OpenProject& p) { p.undo(); },
+        [](OpenProject& p) { p.decide_reset(); },
+        [](OpenProject& p) { p.decide_discard(p.segmentation().pieces.front().name); },
+        [&](OpenProject& p) { p.set_search(rules, 2); }};
+    for (const auto& decide_something : decisions) {
+        save_project(folder, saved);
+        OpenProject other = open();
+        decide_something(other);
+        EXPECT_FALSE(load_project(folder).beam) << "the beam is of other decisions";
+    }
 }
 
 TEST_F(OpenedProject, TheScanIsTakenInOnlyWhenSomethingAsks) {

@@ -1,0 +1,45 @@
+#include "segment/search/beam_state.h"
+
+#include <algorithm>
+
+#include "segment/error.h"
+
+namespace qchopper {
+
+BeamState::Branch branch_for(BeamState& state, const std::vector<Cut>& cuts,
+                             const std::vector<std::string>& passed_over) {
+    BeamState::Branch branch{0, passed_over};
+    for (std::size_t i = state.from; i < cuts.size(); ++i) {
+        const auto known = std::find_if(state.cuts.begin(), state.cuts.end(), [&](const BeamState::Node& node) {
+            return node.after == branch.last && node.cut == cuts[i];
+        });
+        const auto place = static_cast<std::size_t>(known - state.cuts.begin());
+        if (known == state.cuts.end()) state.cuts.push_back({branch.last, cuts[i]});
+        branch.last = place + 1;
+    }
+    return branch;
+}
+
+std::vector<Cut> cuts_of(const BeamState& state, const BeamState::Branch& branch) {
+    std::vector<Cut> cuts;
+    for (std::size_t at = branch.last; at > 0; at = state.cuts[at - 1].after) cuts.push_back(state.cuts[at - 1].cut);
+    std::reverse(cuts.begin(), cuts.end());
+    return cuts;
+}
+
+std::vector<Segmentation> grow(const BeamState& state, const Segmentation& root, double crumb_volume_mm3) {
+    std::vector<Segmentation> grown;
+    for (const BeamState::Node& node : state.cuts) {
+        Segmentation segmentation = node.after == 0 ? root : grown[node.after - 1];
+        if (!apply(segmentation, node.cut, crumb_volume_mm3)) {
+            throw InputError(InputFault::config,
+                             "cut " + std::to_string(node.cut.number) +
+                                 " of the beam in project.json does not part piece " + node.cut.piece,
+                             "restore the file, or prepare the scan again");
+        }
+        grown.push_back(std::move(segmentation));
+    }
+    return grown;
+}
+
+}  // namespace qchopper
