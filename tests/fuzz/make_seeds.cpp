@@ -1,9 +1,10 @@
-// Writes the first inputs of every fuzzer: FOLDER/ply/little-endian, FOLDER/stl/ascii and so on.
+// Writes the first inputs of every fuzzer: FOLDER/ply/little-endian, FOLDER/job/packed and so on.
 
 #include <cstdio>
 #include <filesystem>
 
 #include "segment/files/file.h"
+#include "tests/fuzz/seeds.h"
 #include "tests/segment/intake/encodings.h"
 
 int main(int argc, char** argv) {
@@ -11,7 +12,11 @@ int main(int argc, char** argv) {
         std::fputs("make_seeds FOLDER\n", stderr);
         return 64;
     }
-    for (const qchopper::Encoded& seed : qchopper::encodings()) {
+    std::vector<qchopper::Encoded> seeds = qchopper::encodings();
+    for (const auto& more : {qchopper::job_seeds(), qchopper::project_seeds(), qchopper::link_seeds()}) {
+        seeds.insert(seeds.end(), more.begin(), more.end());
+    }
+    for (const qchopper::Encoded& seed : seeds) {
         const std::filesystem::path folder = std::filesystem::path(argv[1]) / seed.reader;
         std::filesystem::create_directories(folder);
         qchopper::write_file(folder / seed.name, seed.bytes);

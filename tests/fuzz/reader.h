@@ -1,40 +1,27 @@
-// What every fuzzer of this folder does with a reader: any bytes end in a sound mesh or in an InputError.
+// What every fuzzer of meshes does with its reader: any bytes end in a sound mesh or in an InputError.
 
 #pragma once
 
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
 
-#include "segment/error.h"
-#include "segment/files/file.h"
 #include "segment/intake/read_mesh.h"
+#include "tests/fuzz/demand.h"
 
 namespace qchopper {
 
-// Stops the program, which is what a fuzzer notices, where a mesh could hurt whoever takes it.
+// Stops where a mesh could hurt whoever takes it.
 inline void demand_sound(const RawMesh& scan) {
     const TriangleMesh& mesh = scan.mesh;
-    for (const Vec3& p : mesh.points) {
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) std::abort();
-    }
+    for (const Vec3& p : mesh.points) demand(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
     for (const Triangle& t : mesh.triangles) {
-        for (const std::uint32_t corner : t) {
-            if (corner >= mesh.points.size()) std::abort();
-        }
+        for (const std::uint32_t corner : t) demand(corner < mesh.points.size());
     }
-    if (!mesh.cap_of.empty() && mesh.cap_of.size() != mesh.triangles.size()) std::abort();
+    demand(mesh.cap_of.empty() || mesh.cap_of.size() == mesh.triangles.size());
 }
 
-// Only InputError (mesh) may come out of `parse`; anything else ends the fuzzer.
 template <class Parse>
 void try_to_read(const Parse& parse) {
-    try {
-        demand_sound(parse());
-    } catch (const InputError& error) {
-        if (error.fault != InputFault::mesh) std::abort();
-    }
+    or_refused(InputFault::mesh, [&] { demand_sound(parse()); });
 }
 
 }  // namespace qchopper

@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <random>
-#include <sstream>
 
 #include "segment/cut/cut_piece.h"
 #include "segment/error.h"
@@ -15,6 +13,7 @@
 #include "segment/sample/sample.h"
 #include "segment/score/candidates.h"
 #include "segment/score/pricing.h"
+#include "tests/real_scans.h"
 #include "tests/segment/score/same_price.h"
 
 namespace qchopper {
@@ -119,32 +118,11 @@ TEST(SweepLong, EqualsCuttingOnTheSamplesAndTheirPieces) {
     }
 }
 
-struct Scan {
-    std::string file;
-    std::size_t faces;
-};
-
-// Closed, free of self-intersections, under 400,000 faces, in a format that intake reads.
-std::vector<Scan> valid_scans() {
-    std::vector<Scan> scans;
-    std::ifstream manifest(QCHOPPER_MESHES "/MANIFEST.tsv");
-    for (std::string line; std::getline(manifest, line);) {
-        std::vector<std::string> cell;
-        std::istringstream in(line);
-        for (std::string c; std::getline(in, c, '\t');) cell.push_back(c);
-        if (cell.size() < 10 || cell[8] != "1" || cell[9].find("selfint=0") == std::string::npos) continue;
-        if (cell[3].rfind("PLY", 0) != 0 && cell[3].rfind("STL", 0) != 0) continue;
-        const std::size_t faces = std::stoul(cell[5]);
-        if (faces < 400'000) scans.push_back({cell[0], faces});
-    }
-    return scans;
-}
-
 TEST(SweepLong, EqualsCuttingOnEveryValidScan) {
-    const std::vector<Scan> scans = valid_scans();
-    if (scans.empty()) GTEST_SKIP() << "skipped: the real meshes are not here";
+    const std::vector<RealScan> scans = valid_scans(QCHOPPER_MESHES, 400'000);
+    if (!std::filesystem::exists(QCHOPPER_MESHES)) GTEST_SKIP() << "skipped: the real meshes are not here";
     std::size_t taken = 0;
-    for (const Scan& scan : scans) {
+    for (const RealScan& scan : scans) {
         Intake intake;
         try {
             IntakeOptions options;

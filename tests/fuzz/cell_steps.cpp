@@ -1,0 +1,230 @@
+#include "tests/fuzz/cell_steps.h"
+
+#include <algorithm>
+
+#include "sim/modbus_pdu.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::uint32_t owners[] = {0x11111111, 0x22222222, 0};
+constexpr Uuid jobs[] = {Uuid{0xA, 1}, Uuid{0xB, 1}, Uuid{}};
+
+Uuid any_job() {
+    Uuid ones{};
+    ones.fill(0xFF);
+    return ones;
+}
+
+Sha256 right_digest() {
+    Sha256 digest{};
+    digest.fill(0x5A);
+    return digest;
+}
+
+// A ticket that this cell takes.
+TicketWords good_ticket(const Uuid& id) {
+    TicketWords ticket;
+    ticket.job_id = id;
+    ticket.file_sha256 = right_digest();
+    ticket.file_size = 1000;
+    ticket.file_name = "piece-1.qjob";
+    ticket.box_min = {-1000, -1000, 0};
+    ticket.box_max = {1000, 1000, 2000};
+    ticket.stock = {3000, 3000, 3000};
+    ticket.tool_no = 3;
+    ticket.tool_diameter_um = 12000;
+    ticket.estimated_time_s = 100;
+    ticket.piece_no = 1;
+    ticket.piece_count = 1;
+    ticket.cell_id = any_cell_id;
+    ticket.made_for = 1;
+    return ticket;
+}
+
+void add_word(Bytes& bytes, std::size_t word) {
+    bytes.push_back(static_cast<std::uint8_t>(word >> 8U & 0xFFU));
+    bytes.push_back(static_cast<std::uint8_t>(word & 0xFFU));
+}
+
+}  // namespace
+
+CellSteps::CellSteps() {
+    hooks_.save = [this](const CellMemory& memory) {
+        if (can_save_) disk_ = memory;
+        return can_save_;
+    };
+    cell_ = boot({}, {}, 42, now_, hooks_);
+    cell_.store_free_kib = 1000000;
+}
+
+void CellSteps::run(Input& input) {
+    for (std::size_t n = 0; n < most_steps && !input.is_empty(); ++n) {
+        const bool was_active = cell_.job.is_active();
+        step(input);
+        demand_one_start(was_active);
+        if (n % 16 == 0) demand_status();
+    }
+    demand_status();
+}
+
+void CellSteps::step(Input& input) {
+    switch (static_cast<Step>(input.u8() % static_cast<unsigned>(Step::count))) {
+        case Step::raw:
+            answer(input.bytes(input.u8()));
+            return;
+        case Step::command:
+            return write(command_block.base, encode(chosen_command(input)));
+        case Step::ticket:
+            return write_ticket(input);
+        case Step::beat: {
+            const std::uint32_t owner = owners[input.u8() % 3];
+            return write(heartbeat_block.base, encode(Heartbeat{cell_.memory.epoch_held, owner, input.u8()}));
+        }
+        case Step::chunk:
+            return write_chunk(input);
+        case Step::time: {
+            const unsigned ms = 10U * input.u16();
+            now_.steady_ms += ms;
+            now_.unix_ms += ms;
+            return pass_time(cell_, now_, hooks_);
+        }
+        case Step::file:
+            return check_file(input);
+        case Step::consent: {
+            const bool yes = (input.u8() & 1U) != 0;
+            if (cell_.pending) consent_given(cell_, cell_.pending->number, yes, now_, hooks_);
+            return;
+        }
+        case Step::zeros: {
+            const auto blocks = all_blocks();
+            const Block& block = *blocks[input.u8() % blocks.size()];
+            if (block.side == Side::holding) write_zeros(block);
+            return;
+        }
+        case Step::power_cut:
+            cell_ = boot({}, disk_, 42 + input.u8(), now_, hooks_);
+            cell_.store_free_kib = 1000000;
+            return;
+        case Step::disk:
+            can_save_ = (input.u8() & 1U) != 0;
+            return;
+        case Step::count:
+            return;
+    }
+}
+
+Bytes CellSteps::answer(const Bytes& pdu) {
+    const Bytes bytes = answer_pdu(1, pdu, cell_, now_, hooks_);
+    demand(bytes.size() >= 2 && bytes.size() <= 253);
+    const std::uint8_t function = pdu.empty() ? 0 : pdu[0];
+    const bool is_exception = bytes[0] == (function | 0x80U) && bytes.size() == 2;
+    demand(is_exception || bytes[0] == function);
+    return bytes;
+}
+
+void CellSteps::write(std::uint16_t address, const Words& words) {
+    Bytes pdu{16};
+    add_word(pdu, address);
+    add_word(pdu, words.size());
+    pdu.push_back(static_cast<std::uint8_t>(2 * words.size()));
+    for (const std::uint16_t word : words) add_word(pdu, word);
+    answer(pdu);
+}
+
+// Everything that a dispatcher would know lies within reach of a byte: epoch, sequence number, job, token.
+Command CellSteps::chosen_command(Input& input) {
+    Command command;
+    command.command = all_commands[input.u8() % all_commands.size()];
+    const unsigned choice = input.u8();
+    const std::uint32_t held = cell_.memory.epoch_held;
+    const bool is_claim = command.command == CellCommand::claim;
+    command.epoch = is_claim == ((choice & 1U) == 0) ? held + 1 : held;
+    seq_ += (choice & 2U) == 0 ? 1 : 0;  // or the same again
+    command.seq = seq_;
+    const unsigned job = choice >> 2U & 3U;
+    command.job_id = job < 3 ? jobs[job] : any_job();
+    command.owner = owners[(choice >> 4U & 3U) % 3];
+    command.token = (choice & 64U) == 0 ? cell_.job.token : input.u16();
+    if ((choice & 128U) == 0) {
+        command.file_sha256 = right_digest();
+        command.arg1 = command.owner;  // the secret of a claim
+    } else {
+        command.arg0 = input.u8() == 0 ? cell_.job.receipt : input.u8();
+        command.arg1 = input.u8();
+    }
+    return command;
+}
+
+void CellSteps::write_ticket(Input& input) {
+    const unsigned choice = input.u8();
+    TicketWords ticket = good_ticket(jobs[choice & 1U]);
+    if ((choice & 2U) != 0) ticket.transfer = Transfer::chunks;
+    if ((choice & 4U) != 0) ticket.on_link_loss = LinkLoss::hold;
+    Words words = encode(ticket);
+    const unsigned changes = choice >> 4U;
+    words.resize(words.size() - 2);  // the checksum
+    for (unsigned n = 0; n < changes; ++n) {
+        const std::size_t at = input.u8() % words.size();
+        words[at] = input.u16();
+    }
+    const std::uint32_t crc = crc32_of_words(words);
+    words.push_back(static_cast<std::uint16_t>(crc >> 16U));
+    words.push_back(static_cast<std::uint16_t>(crc & 0xFFFFU));
+    write(ticket_block.base, words);
+}
+
+void CellSteps::write_chunk(Input& input) {
+    Chunk chunk;
+    chunk.offset = input.u16();
+    const unsigned length = input.u8();
+    chunk.data.assign(1 + length % max_chunk_bytes, static_cast<std::uint8_t>(length));
+    chunk.crc = (input.u8() & 1U) != 0 ? 0
+                                       : chunk_crc(cell_.memory.epoch_held, cell_.lease ? cell_.lease->owner : 0,
+                                                   cell_.job.ticket.job_id, chunk.offset, chunk.data);
+    write(chunk_block.base, encode(chunk));
+}
+
+// A block of zeros is what a fresh or cleared client holds: it must do nothing.
+void CellSteps::write_zeros(const Block& block) {
+    pass_time(cell_, now_, hooks_);
+    const CellState before = cell_;
+    write(block.base, Words(block.count, 0));
+    demand(cell_.state == before.state && cell_.mode == before.mode);
+    demand(cell_.memory == before.memory);
+    demand(cell_.job.state == before.job.state && cell_.job.token == before.job.token);
+    demand(cell_.ack.seq == before.ack.seq && cell_.bad_frames == before.bad_frames);
+    demand(cell_.lease.has_value() == before.lease.has_value());
+    if (&block == &ticket_block) demand(cell_.ticket_draft.empty());
+}
+
+void CellSteps::check_file(Input& input) {
+    const unsigned how = input.u8() % 8;
+    if (!cell_.pending) return;
+    FileCheck check{FileCheck::End::ok, cell_.job.ticket.file_size, cell_.job.ticket.file_sha256};
+    if (how == 5) check.end = FileCheck::End::missing;
+    if (how == 6) check.end = FileCheck::End::io_error;
+    if (how == 7) check.size += 1;
+    if (how == 4) check.sha256[0] ^= 1U;
+    file_checked(cell_, cell_.pending->number, check, now_, hooks_);
+}
+
+void CellSteps::demand_status() {
+    const Bytes bytes = answer({4, 0, 0, 0, static_cast<std::uint8_t>(status_block.count)});
+    demand(bytes.size() == 2U + 2U * status_block.count);
+    Words words;
+    for (std::size_t i = 2; i < bytes.size(); i += 2) {
+        words.push_back(static_cast<std::uint16_t>(bytes[i] << 8U | bytes[i + 1]));
+    }
+    demand(decode_status(words).is_ok());
+}
+
+void CellSteps::demand_one_start(bool was_active) {
+    for (const auto& [id, record] : cell_.memory.jobs) demand(record.starts <= 1);
+    if (!cell_.job.is_active()) return;
+    const Uuid& id = cell_.job.ticket.job_id;
+    if (!was_active) demand(++started_[id] == 1);
+    demand(disk_.jobs.contains(id) && disk_.jobs.at(id).starts == 1);
+}
+
+}  // namespace qchopper

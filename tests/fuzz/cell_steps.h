@@ -1,0 +1,62 @@
+// A simulated cell that is led by bytes: requests as they are, requests made right so far that they get past the
+// checksums, time, answers of the operator, power cuts. Used by fuzz_pdu.cpp, written by make_seeds.cpp.
+//
+// After every step: every answer is well formed, a status can be decoded, no job id was ever started twice, power cuts
+// included, and what is running stands in the memory that was saved.
+
+#pragma once
+
+#include <map>
+
+#include "sim/machine.h"
+#include "tests/fuzz/demand.h"
+
+namespace qchopper {
+
+enum class Step : std::uint8_t {
+    raw,      // length, PDU
+    command,  // the choices of chosen_command
+    ticket,   // number of changes, each index and two bytes of a word; its checksum is right
+    beat,     // owner, counter
+    chunk,    // offset (2), length, right or not
+    time,     // hundredths of a second (2)
+    file,     // how the file was found
+    consent,  // yes or no
+    zeros,    // which block
+    power_cut,
+    disk,  // can it be written from now on
+    count
+};
+
+class CellSteps {
+ public:
+    CellSteps();
+    CellSteps(const CellSteps&) = delete;
+    CellSteps& operator=(const CellSteps&) = delete;
+    void run(Input& input);
+    std::uint32_t starts() const { return cell_.memory.starts_total; }
+
+    static constexpr std::size_t most_steps = 300;
+
+ private:
+    void step(Input& input);
+    Bytes answer(const Bytes& pdu);
+    void write(std::uint16_t address, const Words& words);
+    Command chosen_command(Input& input);
+    void write_ticket(Input& input);
+    void write_chunk(Input& input);
+    void write_zeros(const Block& block);
+    void check_file(Input& input);
+    void demand_status();
+    void demand_one_start(bool was_active);
+
+    CellTime now_{1000000, 1700000000000};
+    CellHooks hooks_;
+    CellMemory disk_;
+    bool can_save_ = true;
+    CellState cell_;
+    std::map<Uuid, int> started_;
+    std::uint32_t seq_ = 0;
+};
+
+}  // namespace qchopper

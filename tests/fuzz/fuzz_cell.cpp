@@ -1,0 +1,32 @@
+#include <cmath>
+
+#include "cam/cell/cell.h"
+#include "tests/fuzz/demand.h"
+
+namespace qchopper {
+namespace {
+
+void demand_possible(const Cell& cell) {
+    demand(!cell.name.empty() && cell.id >= 1 && !cell.stock.empty());
+    for (int axis = 0; axis < 3; ++axis) demand(cell.reach.min[axis] < cell.reach.max[axis]);
+    demand(cell.table.size_x > 0 && cell.table.size_y > 0);
+    demand(cell.table.height >= cell.reach.min.z && cell.table.height < cell.reach.max.z);
+    for (const Stock& block : cell.stock) {
+        for (int axis = 0; axis < 3; ++axis) demand(block.size[axis] > 0 && std::isfinite(block.size[axis]));
+        demand(!block.name.empty());
+    }
+    demand(cell.stock_margin >= 0 && cell.clearance >= 0);
+    demand(cell.tool.diameter > 0 && cell.tool.removal_mm3_per_s > 0);
+    demand(cell.tool.spindle_max_rpm > 0 && cell.tool.feed_max_mm_per_min > 0);
+    demand(!cell.link.to || cell.link.to->find(':') != std::string::npos);
+}
+
+}  // namespace
+}  // namespace qchopper
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string text = qchopper::text_of(data, size);
+    qchopper::or_refused(qchopper::InputFault::config,
+                         [&] { qchopper::demand_possible(qchopper::parse_cell(text, "fuzz.toml")); });
+    return 0;
+}

@@ -1,0 +1,78 @@
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cam/job/job.h"
+#include "cam/job/zip.h"
+#include "segment/files/sha256.h"
+#include "tests/fuzz/demand.h"
+
+namespace qchopper {
+namespace {
+
+Bytes to_bytes(const std::string& text) {
+    return {text.begin(), text.end()};
+}
+
+// The manifest with the sizes and hashes that these files have, so that what comes behind them is reached. What is no
+// JSON object stays as it is.
+std::string agreeing(const std::string& manifest, const std::map<std::string, Bytes>& files) {
+    using Json = nlohmann::ordered_json;
+    Json json = Json::parse(manifest, nullptr, false);
+    if (!json.is_object()) return manifest;
+    Json list = Json::array();
+    for (const auto& [name, bytes] : files) {
+        list.push_back({{"name", name}, {"size", bytes.size()}, {"sha256", to_hex(sha256(bytes))}});
+    }
+    json["files"] = list;
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+void try_job(const Bytes& bytes) {
+    or_refused(InputFault::mesh, [&] {
+        const ReadJob job = parse_job(bytes, "fuzz.qjob");
+        demand(job.file_size == bytes.size() && job.file_sha256 == sha256(bytes));
+        demand(job.files.size() == job.entries.size() + 1);
+        std::set<std::string> names;
+        for (const JobEntry& entry : job.entries) {
+            demand(names.insert(entry.name).second);
+            demand(job.files.at(entry.name).size() == entry.size);
+            demand(sha256(job.files.at(entry.name)) == entry.sha256);
+        }
+        demand(job.ticket.piece == job.piece && job.ticket.stock == job.setup.block);
+        demand(!job.envelope.margins.empty());
+        try {  // it was read from a text, so the text of what was read must be readable
+            demand(ticket_template_from_json(to_json(job.ticket), "fuzz") == job.ticket);
+        } catch (const InputError&) {
+            std::abort();
+        }
+    });
+}
+
+}  // namespace
+}  // namespace qchopper
+
+// What begins with "PK" is a job file as it stands. No mutation would keep its checksums, so everything else is the
+// text of the ticket and, behind a zero, of the manifest; both are packed here, once as they are and once with the
+// sizes and hashes in the manifest put right.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace qchopper;
+    const std::string text = text_of(data, size);
+    if (text.starts_with("PK")) {
+        try_job({data, data + size});
+        return 0;
+    }
+    const std::size_t end = text.find('\0');
+    const std::string manifest = end == std::string::npos ? "" : text.substr(end + 1);
+    std::map<std::string, Bytes> files{{"piece.stl", to_bytes("solid")},
+                                       {"preview.glb", to_bytes("glTF")},
+                                       {"setup.txt", to_bytes("setup")},
+                                       {"ticket.json", to_bytes(text.substr(0, end))}};
+    const std::string right = agreeing(manifest, files);
+    for (const std::string& one : {manifest, right}) {
+        std::map<std::string, Bytes> all = files;
+        all["manifest.json"] = to_bytes(one);
+        try_job(zip(all));
+    }
+    return 0;
+}

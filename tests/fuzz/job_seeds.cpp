@@ -1,0 +1,60 @@
+#include <memory>
+
+#include "cam/job/job.h"
+#include "cam/job/zip.h"
+#include "segment/files/file.h"
+#include "tests/fuzz/seeds.h"
+#include "tests/shapes.h"
+
+namespace qchopper {
+namespace {
+
+// Small, and with something in every list. It was not searched for: nothing here is priced or turned.
+JobInput some_job() {
+    JobInput input;
+    const TriangleMesh box = shapes::box({-10, -5, 0}, {10, 5, 8}, 1);
+    input.piece = {"AB", std::make_shared<TriangleMesh>(box), {{4, {{0, 0, 1}, 0}, true}}};
+    input.piece_no = 2;
+    input.piece_count = 5;
+    input.program_version = "0.1.0";
+    input.project_id.fill(0x11);
+    input.scan_sha256.fill(0x22);
+    input.cell.name = "test";
+    input.cell.id = 1;
+    input.cell.stock = {{"small", {100, 60, 50}, Material::eps}};
+    input.cell.tool = {1, "ball", 20, 18000, 9000, 24000};
+    input.setup.base = 4;
+    input.setup.base_words = "the cap of cut 4";
+    input.setup.box = {{-10, -5, 0}, {10, 5, 8}};
+    input.setup.block = {100, 60, 50};
+    input.setup.warnings = {"a warning"};
+    input.envelope.margins = {{"piece in block, height", "too high", 42}};
+    input.warnings = {"scaled by 0.5 on request"};
+    return input;
+}
+
+}  // namespace
+
+std::vector<Encoded> job_seeds() {
+    JobInput input = some_job();
+    const Bytes whole = job_file(input);
+    parse_job(whole, "seed");  // a seed is worth something only if it is taken
+    std::map<std::string, Bytes> files = unzip(whole, "seed");
+    Bytes texts = files["ticket.json"];
+    texts.push_back(0);
+    texts.insert(texts.end(), files["manifest.json"].begin(), files["manifest.json"].end());
+    const Bytes cell = read_file(QCHOPPER_SOURCE_DIR "/cells/foam-1.toml");
+    std::string small =
+        "name = \"test\"\nid = 7\nstock_margin = 10\n[reach]\nmin = [-1200, -1200, 0]\nmax = [1200, 1200, 1400]\n"
+        "[table]\ncentre = [0, 50]\nsize = [2200, 1600]\nheight = 150\n"
+        "[[stock]]\nname = \"small\"\nsize = [300, 200, 100]\nmaterial = \"eps\"\n"
+        "[tool]\nnumber = 3\nname = \"ball 20\"\ndiameter = 20\nspindle_max_rpm = 18000\nfeed_max_mm_per_min = 9000\n"
+        "removal_mm3_per_s = 24000\n[link]\nto = \"[::1]:15020\"\ndrop = \"drop\"\n";
+    parse_cell(small, "small");
+    return {{"job", "packed", whole},
+            {"job", "texts", texts},
+            {"cell", "foam-1", cell},
+            {"cell", "small", {small.begin(), small.end()}}};
+}
+
+}  // namespace qchopper

@@ -1,0 +1,88 @@
+#include <filesystem>
+#include <memory>
+
+#include "segment/search/plan.h"
+#include "segment/search/price_cache.h"
+#include "segment/search/project_json.h"
+#include "tests/fuzz/seeds.h"
+#include "tests/fuzz/temporary_folder.h"
+
+namespace qchopper {
+namespace {
+
+Ranked some_rank(int number) {
+    return {{{0, 0.6, 0.8}, 1.25 * number}, 1.5, 3, number, {0.1, 0.2, 0.3, 0.4, 1.0}};
+}
+
+Project some_project() {
+    Project project;
+    project.scan = {"/scans/a bone.ply", std::string(64, 'a'), Unit::cm, 0.5, {1, 2.5, 1.0 / 3}, 12, 1000, {"scaled"}};
+    project.preset = "bunny";
+    project.settings.stop.min_cuts = 3;
+    project.settings.stop.max_faces = 200;
+    project.settings.stop.max_obb = Vec3{1, 2, 3};
+    project.history.weights_at_start = project.settings.objectives.weights;
+    Cut cut;
+    cut.number = 1;
+    cut.piece = "A";
+    cut.chosen = some_rank(4);
+    cut.candidates = 120;
+    cut.pieces = {"B", "C"};
+    cut.crumbs = 1;
+    cut.runners_up = {some_rank(5)};
+    project.history.decisions = {WeightsChange{{1, 2, 3, 0.1}}, cut, Reset{}};
+    project.history.standing = 2;
+    project.cuts = standing_cuts(project.history);
+    project.pieces = {{"B", 1, 8, 600, {0, 0, 1}}, {"C", 1, 8, 399, {0, 0, -1}}};
+    project.crumb_list = {{"", 1, 4, 1, {0, 0, 0}}};
+    project.warnings = {"scaled"};
+    return project;
+}
+
+Plan some_plan() {
+    Plan plan;
+    plan.scan = {"bone.ply", std::string(64, 'a'), Unit::mm, 1, {1, 2, 3}, 12, 1000, {{0, 0, 0}, {2, 4, 6}}};
+    PlanCut first{1, "A", {}, {{0, 0, 1}, 5.5}, 2.5, {1, 2, 3}, 1000, {600, 400}};
+    PlanCut second = first;
+    second.number = 2;
+    second.piece = "B";
+    second.path = {{1, true}};
+    plan.cuts = {first, second};
+    return plan;
+}
+
+// The file without the SHA-256 of itself at its end, which the fuzzer puts right.
+Bytes some_prices() {
+    const TemporaryFolder folder;
+    PiecePrices prices;
+    prices.candidates = {{{{0, 0, 1}, 2}, 2.5, 0, 1}, {{{0, 1, 0}, 3}, 3, 1, 0}};
+    Price price;
+    price.solids = {{}, {}};
+    price.solids[0].bases = {{}};
+    prices.prices = {price, std::nullopt};
+    const Piece piece{"A", std::make_shared<const TriangleMesh>(), {}};
+    price_cache(folder.path, {}, {}).keep(piece, prices);
+    Bytes bytes = read_file(std::filesystem::directory_iterator(folder.path)->path());
+    bytes.resize(bytes.size() - sizeof(Sha256));
+    return bytes;
+}
+
+Bytes to_bytes(const std::string& text) {
+    return {text.begin(), text.end()};
+}
+
+}  // namespace
+
+std::vector<Encoded> project_seeds() {
+    const std::string project = to_json(some_project());
+    const std::string plan = to_text(some_plan());
+    // A seed is worth something only if it is taken.
+    project_from_json(project, "seed");
+    plan_from_text(plan, "seed");
+    return {{"project", "decided", to_bytes(project)},
+            {"project", "new", to_bytes(to_json(Project{}))},
+            {"plan", "two-cuts", to_bytes(plan)},
+            {"prices", "two-candidates", some_prices()}};
+}
+
+}  // namespace qchopper

@@ -1,0 +1,31 @@
+// A folder of its own for readers that take no bytes but a file; removed at the end.
+
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace qchopper {
+
+struct TemporaryFolder {
+    TemporaryFolder() {
+        // In memory where that is possible: what is written is synced, and a disk does that thirty times a second.
+        const std::filesystem::path memory = "/dev/shm";
+        std::error_code error;
+        const bool has_memory = std::filesystem::is_directory(memory, error);
+        const auto parent = has_memory ? memory : std::filesystem::temp_directory_path();
+        std::string pattern = (parent / "qchopper-fuzz-XXXXXX").string();
+        if (mkdtemp(pattern.data()) == nullptr) std::abort();
+        path = pattern;
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    std::filesystem::path path;
+};
+
+}  // namespace qchopper
