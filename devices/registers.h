@@ -80,6 +80,7 @@ enum class AckResult : std::uint16_t {
     lease_busy = 0x108,
     wrong_offset = 0x109,
     chunk_crc = 0x10A,
+    epoch_jump = 0x10B,
     wrong_state = 0x201,
     wrong_mode = 0x202,
     local_control = 0x203,

@@ -27,6 +27,7 @@ constexpr ResultRow result_rows[] = {
     {lease_busy, "LEASE_BUSY", "another dispatcher owns the cell"},
     {wrong_offset, "WRONG_OFFSET", "the chunk does not follow the one before"},
     {chunk_crc, "CHUNK_CRC", "the chunk was damaged or belongs to another job"},
+    {epoch_jump, "EPOCH_JUMP", "the claim's epoch is too far above the one that the cell holds"},
     {wrong_state, "WRONG_STATE", "not in this state of the machine"},
     {wrong_mode, "WRONG_MODE", "the cell is not in production mode"},
     {local_control, "LOCAL_CONTROL", "the cell is under control of its panel"},

@@ -78,6 +78,7 @@ TEST(Registers, TheNumbersOfTheStatesAreThoseOfPackTags) {
     for (std::uint16_t n = 0; n <= last_pack_state; ++n) EXPECT_STREQ(name(static_cast<PackState>(n)), names[n]);
     EXPECT_STREQ(name(static_cast<PackState>(18)), "unknown");
     EXPECT_STREQ(name(static_cast<AckResult>(0x306)), "HASH_MISMATCH");
+    EXPECT_STREQ(name(static_cast<AckResult>(0x10B)), "EPOCH_JUMP");
     EXPECT_STREQ(name(static_cast<AckResult>(0x9999)), "unknown result");
 }
 
