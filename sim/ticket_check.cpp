@@ -1,6 +1,7 @@
 #include "sim/ticket_check.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace qchopper {
 namespace {
@@ -13,6 +14,35 @@ std::uint16_t axis_address(std::uint16_t base, int axis) {
     return static_cast<std::uint16_t>(base + 2 * axis);
 }
 
+std::uint16_t address_of(const char* field_name) {
+    return field_named(ticket_block, field_name)->address;
+}
+
+// Text ends at the first NUL; what comes behind it would be shown to nobody.
+bool has_hidden_text(const std::string& text, const Field& field, std::span<const std::uint16_t> block) {
+    std::size_t characters = 0;
+    for (const std::uint16_t word : block.subspan(field.address - ticket_block.base, field.count)) {
+        characters += (word >> 8U) != 0 ? 1U : 0U;
+        characters += (word & 0xFFU) != 0 ? 1U : 0U;
+    }
+    return characters != text.size();
+}
+
+// At most what the largest tool of the rack has.
+std::optional<TicketFault> wrong_tool_value(const TicketWords& t, const std::vector<CellTool>& tools) {
+    CellTool largest{0, 0, 0, 0};
+    for (const CellTool& tool : tools) {
+        largest.diameter = std::max(largest.diameter, tool.diameter);
+        largest.spindle_max_rpm = std::max(largest.spindle_max_rpm, tool.spindle_max_rpm);
+        largest.feed_max_mm_per_min = std::max(largest.feed_max_mm_per_min, tool.feed_max_mm_per_min);
+    }
+    const auto field = [](const char* name) { return TicketFault{AckResult::ticket_field, address_of(name)}; };
+    if (t.tool_diameter_um > std::round(1000 * largest.diameter)) return field("TOOL_DIAMETER");
+    if (t.spindle_max_rpm > largest.spindle_max_rpm) return field("SPINDLE_MAX");
+    if (t.feed_max_mm_per_min > largest.feed_max_mm_per_min) return field("FEED_MAX");
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<TicketFault> wrong_field(const TicketWords& t, std::span<const std::uint16_t> block,
@@ -22,7 +52,9 @@ std::optional<TicketFault> wrong_field(const TicketWords& t, std::span<const std
     if (t.job_id == Uuid{}) return field(101);
     if (t.file_size == 0) return field(125);
     if (t.transfer != Transfer::drop_folder && t.transfer != Transfer::chunks) return field(127);
-    if (!is_file_name(t.file_name)) return field(128);
+    if (!is_file_name(t.file_name) || has_hidden_text(t.file_name, *field_named(ticket_block, "FILE_NAME"), block)) {
+        return field(128);
+    }
     if (t.unit != 1) return field(144);
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
@@ -58,9 +90,11 @@ std::optional<TicketFault> does_not_fit(const TicketWords& t, const CellLimits& 
         }
     }
     const bool has_tool =
-        limits.tools.empty() || std::find(limits.tools.begin(), limits.tools.end(), t.tool_no) != limits.tools.end();
+        limits.tools.empty() || std::any_of(limits.tools.begin(), limits.tools.end(),
+                                            [&](const CellTool& tool) { return tool.number == t.tool_no; });
     if (!has_tool) return TicketFault{AckResult::tool, 164};
-    return std::nullopt;
+    if (t.box_min[2] < 0) return TicketFault{AckResult::ticket_field, axis_address(box_min_at, 2)};  // below the table
+    return limits.tools.empty() ? std::nullopt : wrong_tool_value(t, limits.tools);
 }
 
 }  // namespace qchopper
