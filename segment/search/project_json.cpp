@@ -9,7 +9,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* schema = "qchopper-project-1";
+constexpr const char* schema = "qchopper-project-2";
+constexpr const char* schema_without_jobs = "qchopper-project-1";  // kept no record of its job files
 
 // Names of the enumerations, as they stand in the file.
 template <typename Enum>
@@ -210,6 +211,19 @@ ScanSource scan_from(const Json& json) {
     return scan;
 }
 
+Json to_json(const WrittenJob& job) {
+    return {{"piece", job.piece}, {"sha256", job.sha256}, {"project_id", job.project_id}};
+}
+
+std::vector<WrittenJob> jobs_from(const Json& json) {
+    std::vector<WrittenJob> jobs;
+    for (const Json& j : json) {
+        jobs.push_back({j.at("piece").get<std::string>(), j.at("sha256").get<std::string>(),
+                        j.at("project_id").get<std::string>()});
+    }
+    return jobs;
+}
+
 Json to_json(const Decision& decision) {
     if (const Cut* cut = std::get_if<Cut>(&decision)) return {{"cut", to_json(*cut)}};
     if (const auto* change = std::get_if<WeightsChange>(&decision)) return {{"weights", to_json(change->weights)}};
@@ -243,7 +257,10 @@ History history_from(const Json& json) {
 }
 
 Project from_json(const Json& json) {
-    if (json.at("schema") != schema) throw InputError(InputFault::config, "its schema is not " + std::string(schema));
+    const bool has_jobs = json.at("schema") != schema_without_jobs;
+    if (has_jobs && json.at("schema") != schema) {
+        throw InputError(InputFault::config, "its schema is not " + std::string(schema));
+    }
     Project project;
     project.scan = scan_from(json.at("scan"));
     project.preset = json.at("preset").get<std::string>();
@@ -256,6 +273,7 @@ Project from_json(const Json& json) {
     project.pieces = solids_from(json.at("pieces"));
     project.crumb_list = solids_from(json.at("crumbs"));
     project.warnings = json.at("warnings").get<std::vector<std::string>>();
+    if (has_jobs) project.jobs = jobs_from(json.at("jobs"));
     return project;
 }
 
@@ -266,6 +284,8 @@ std::string to_json(const Project& project) {
     for (const SolidRecord& piece : project.pieces) pieces.push_back(to_json(piece));
     Json crumbs = Json::array();
     for (const SolidRecord& crumb : project.crumb_list) crumbs.push_back(to_json(crumb));
+    Json jobs = Json::array();
+    for (const WrittenJob& job : project.jobs) jobs.push_back(to_json(job));
     const Json json{{"schema", schema},
                     {"scan", to_json(project.scan)},
                     {"preset", project.preset},
@@ -276,15 +296,20 @@ std::string to_json(const Project& project) {
                     {"history", to_json(project.history)},
                     {"pieces", pieces},
                     {"crumbs", crumbs},
-                    {"warnings", project.warnings}};
+                    {"warnings", project.warnings},
+                    {"jobs", jobs}};
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Project project_from_json(std::string_view text, const std::string& name) {
     try {
         return from_json(Json::parse(text));
-    } catch (const Json::exception& e) {
-        throw InputError(InputFault::config, name + " is not a project of this version: " + e.what(),
+    } catch (const Json::parse_error& e) {
+        throw InputError(InputFault::config, name + " is not JSON from byte " + std::to_string(e.byte) + " on",
+                         "restore the file, or prepare the scan again");
+    } catch (const Json::exception&) {  // its own words speak of the library
+        throw InputError(InputFault::config,
+                         name + " is not a project of this version: a value is missing, or is not of the right kind",
                          "restore the file, or prepare the scan again");
     } catch (const InputError& e) {
         throw InputError(InputFault::config, name + " is not a project of this version: " + e.what(),
