@@ -27,8 +27,11 @@ Json parsed(std::string_view text) {
     } catch (const Json::exception&) {  // its own words speak of the library
         throw std::runtime_error("holds a number that is out of range");
     }
-    if (written(json) != text) throw std::runtime_error("is not in the one form in which qchopper writes it");
     return json;
+}
+
+void check_form(const Json& json, std::string_view text) {
+    if (written(json) != text) throw std::runtime_error("is not in the one form in which qchopper writes it");
 }
 
 const Json& items(const Json& object, const std::string& key) {

@@ -22,8 +22,10 @@ inline std::runtime_error wrong(const std::string& key, const std::string& why) 
     return std::runtime_error(key + " " + why);
 }
 
-// The value of a text that is written exactly as written() writes it: one form, so that the same job is the same bytes.
 Json parsed(std::string_view text);
+// Throws unless the text is what written() makes of its value: one form, so that the same job is the same bytes. To be
+// asked last, because it cannot say what is wrong.
+void check_form(const Json& json, std::string_view text);
 
 const Json& items(const Json& object, const std::string& key);
 const Json& member(const Json& object, const std::string& key);

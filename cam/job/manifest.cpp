@@ -195,7 +195,10 @@ std::string to_manifest(const JobInput& input, const std::vector<JobEntry>& entr
 
 ReadJob from_manifest(std::string_view text, const std::string& source) {
     try {
-        return to_job(parsed(text));
+        const Json json = parsed(text);
+        ReadJob job = to_job(json);
+        check_form(json, text);
+        return job;
     } catch (const std::runtime_error& error) {
         throw InputError(InputFault::mesh, source + ": manifest.json: " + error.what(),
                          "write the job again with qchopper prepare");

@@ -67,6 +67,7 @@ TicketTemplate ticket_template_from_json(std::string_view text, const std::strin
         about.estimated_time_s = whole<std::uint32_t>(json, "estimated_time_s");
         about.base_plane = whole<std::uint16_t>(json, "base_plane");
         check_lengths(about);
+        check_form(json, text);
         return about;
     } catch (const std::runtime_error& error) {
         throw InputError(InputFault::mesh, source + ": ticket template: " + error.what(), "write the job again");
