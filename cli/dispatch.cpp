@@ -31,8 +31,7 @@ bool is_confirmed(const std::string& question) {
 
 int run(const DispatchArguments& arguments, Terminal& terminal) {
     terminal.unchanged = "The project is unchanged, and no job was started.";
-    const std::vector<PieceJob> jobs = jobs_of(arguments.project, arguments.piece);
-    const Cell cell = read_cell(arguments.project / "cell.toml");
+    const auto [cell, jobs] = jobs_of(arguments.project, arguments.piece);
     const std::optional<std::string> to = arguments.to ? arguments.to : cell.link.to;
     const std::optional<std::filesystem::path> drop = arguments.drop ? arguments.drop : cell.link.drop;
     if (!to) throw InputError(InputFault::use, "no cell address is known", "say --to HOST:PORT");

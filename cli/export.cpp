@@ -15,7 +15,7 @@
 #include "cli/segment_setups.h"
 #include "cli/shell_word.h"
 #include "cli/version.h"
-#include "segment/files/temporary_folder.h"
+#include "segment/files/staged_folder.h"
 #include "segment/intake/read_mesh.h"
 #include "segment/picture/picture.h"
 #include "segment/simplify/simplify.h"
@@ -145,7 +145,7 @@ void simplify_all(std::vector<Row>& rows, const ExportArguments& a, Terminal& te
 void write_folder(std::vector<Row>& rows, ExportFormat format, const std::string& ending, const fs::path& out,
                   const Context& context) {
     try {
-        TemporaryFolder aside(out);
+        StagedFolder aside(out);
         for (std::size_t i = 0; i < rows.size(); ++i) {
             context.check_cancelled();
             context.progress("pieces written", i, rows.size());

@@ -7,6 +7,7 @@
 #include "cam/job/job.h"
 #include "cli/columns.h"
 #include "cli/exit_code.h"
+#include "cli/ordered_job.h"
 #include "cli/shell_word.h"
 #include "segment/search/project.h"
 
@@ -28,40 +29,59 @@ std::string ending(const JobOutcome& outcome) {
     return outcome.is_complete() ? "Ended, complete" : outcome.why;
 }
 
+// Nothing if prepare wrote no job for the piece, because it does not fit.
+std::optional<PieceJob> job_of(const JobOrder& order) {
+    std::error_code error;
+    const bool is_there = std::filesystem::exists(std::filesystem::symlink_status(order.file, error));
+    if (written_job_of(order.project, order.piece) == nullptr) {
+        if (is_there) refuse_unrecorded(order.folder, order.file);
+        return std::nullopt;
+    }
+    if (!is_there) {
+        throw InputError(InputFault::missing, order.file.string() + " is gone",
+                         "write the jobs again: qchopper prepare " + shell_word(order.folder));
+    }
+    Bytes bytes = read_job(order.file);
+    const ReadJob job = parse_job(bytes, order.file.string());
+    check_ordered(job, order);
+    const JobTicket ticket = job_ticket(job, order.file.filename().string());
+    return PieceJob{order.piece, std::move(bytes), ticket};
+}
+
 }  // namespace
 
-std::vector<PieceJob> jobs_of(const std::filesystem::path& folder, const std::optional<std::string>& piece) {
+ProjectJobs jobs_of(const std::filesystem::path& folder, const std::optional<std::string>& piece) {
     const Project project = load_project(folder);
     if (project.stage != Stage::done) {
         throw InputError(InputFault::use, folder.string() + " is not finished",
                          "finish it first: qchopper prepare " + shell_word(folder));
     }
-    std::vector<PieceJob> jobs;
+    ProjectJobs found{read_cell(folder / "cell.toml"), {}};
     for (const SolidRecord& record : project.pieces) {
         if (piece && record.name != *piece) continue;
-        const std::filesystem::path file = folder / "jobs" / job_file_name(record.name);
-        if (!std::filesystem::exists(file)) {
-            if (!piece) continue;  // a piece that does not fit has no job; prepare said so
+        const JobOrder order{project, record.name, found.cell, folder, folder / "jobs" / job_file_name(record.name)};
+        if (std::optional<PieceJob> job = job_of(order)) {
+            found.jobs.push_back(std::move(*job));
+        } else if (piece) {  // prepare said which pieces do not fit, and only one of them was asked for
             throw InputError(InputFault::missing, "piece " + *piece + " has no job",
                              "prepare told why: it does not fit");
         }
-        jobs.push_back({record.name, file, job_ticket(file)});
     }
-    if (jobs.empty()) {
+    if (found.jobs.empty()) {
         throw InputError(piece ? InputFault::use : InputFault::missing,
                          piece ? "there is no piece " + *piece + " in " + folder.string()
                                : folder.string() + " holds no job that fits",
                          "look at the table that prepare printed");
     }
-    return jobs;
+    return found;
 }
 
 std::vector<HandedOver> hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options,
                                   Terminal& terminal) {
     std::vector<HandedOver> handed;
     for (const PieceJob& job : jobs) {
-        terminal.say("piece " + job.piece + ": " + job.file.filename().string() + ", " +
-                     with_commas(job.ticket.file_size) + " bytes");
+        terminal.say("piece " + job.piece + ": " + job.ticket.file_name + ", " + with_commas(job.ticket.file_size) +
+                     " bytes");
         handed.push_back({job.piece, dispatch_job(bus, job.ticket, job.file, options, terminal.context())});
         if (!handed.back().outcome.is_complete()) break;
         // What an error in the next job has to say of those before it.

@@ -8,20 +8,28 @@
 #include <string>
 #include <vector>
 
+#include "cam/cell/cell.h"
 #include "cam/job/ticket.h"
 #include "cli/terminal.h"
 #include "devices/dispatch.h"
+#include "segment/files/file.h"
 
 namespace qchopper {
 
-// The job files of a project, in the order of its pieces; only one piece if it is named.
-// Throws InputError: an unfinished project, no such piece, a job file that is missing or broken.
+// Read once: what was checked is what is sent.
 struct PieceJob {
     std::string piece;
-    std::filesystem::path file;
+    Bytes file;
     JobTicket ticket;
 };
-std::vector<PieceJob> jobs_of(const std::filesystem::path& project, const std::optional<std::string>& piece);
+struct ProjectJobs {
+    Cell cell;
+    std::vector<PieceJob> jobs;
+};
+// The jobs that the project ordered for its cell, in the order of its pieces; only one piece if it is named.
+// Throws InputError: an unfinished project, no such piece, a job file that is missing, broken or another
+// (ordered_job.h).
+ProjectJobs jobs_of(const std::filesystem::path& project, const std::optional<std::string>& piece);
 
 struct HandedOver {
     std::string piece;

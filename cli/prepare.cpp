@@ -8,6 +8,7 @@
 #include "cam/job/text.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/ordered_job.h"
 #include "cli/prepare_report.h"
 #include "cli/segment_project.h"
 #include "cli/segment_setups.h"
@@ -41,28 +42,6 @@ void check_options(const PrepareArguments& a, bool is_project) {
     check_unit(a.input, a);
     if (!a.cell) fail("no cell is named", "say --cell FILE, for example cells/foam-1.toml");
     if (!a.out) fail("no project folder is named", "say -o NAME.qch");
-}
-
-// First 16 bytes of a SHA-256 over the scan and the decisions: the same cuts of the same scan and the same pieces
-// discarded, the same id.
-Uuid project_id(const Project& project) {
-    std::string text = project.scan.sha256;
-    char line[128];
-    for (const Cut& cut : project.cuts) {
-        const Plane& p = cut.chosen.plane;
-        std::snprintf(line, sizeof line, "\n%s %a %a %a %a", cut.piece.c_str(), p.normal.x, p.normal.y, p.normal.z,
-                      p.offset);
-        text += line;
-    }
-    for (const Discard& discard : project.discards) {
-        text += "\ndiscard " + discard.piece + " " + std::to_string(discard.after);
-    }
-    std::snprintf(line, sizeof line, "\n%a %s", project.scan.scale, name_of(project.scan.unit).c_str());
-    text += line;
-    const Sha256 digest = sha256({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-    Uuid id{};
-    std::copy_n(digest.begin(), id.size(), id.begin());
-    return id;
 }
 
 // The rest of the way once the scan is in. Every decision is saved before the next is thought about.
@@ -135,6 +114,7 @@ class Preparation {
     }
 
     void write_jobs() {
+        project_.jobs.clear();
         JobInput input;
         input.piece_no = 0;
         input.piece_count = static_cast<std::uint16_t>(segmentation_.pieces.size());
@@ -159,7 +139,9 @@ class Preparation {
                 input.piece = piece;
                 input.setup = carving.setup;
                 input.envelope = carving.envelope;
-                write_file(file, job_file(input));
+                const Bytes bytes = job_file(input);
+                write_file(file, bytes);
+                project_.jobs.push_back(written_job(piece.name, bytes, input.project_id));
                 row.job = file;
             } else {
                 fs::remove(file);  // a job that cannot be carved must not lie around
@@ -199,7 +181,7 @@ int start(const PrepareArguments& a, Terminal& terminal) {
     const fs::path out = without_slash(*a.out);
     check_output(out);
     const Cell cell = read_cell(*a.cell);
-    const Bytes cell_file = read_file(*a.cell);
+    const Bytes cell_file = read_file(*a.cell, settings_limit);
     Intake intake = take_in_scan(a.input, a, terminal);
     Project project = new_project(a.input, intake, a);
     if (!project.settings.stop.is_any_set()) project.settings.stop.fits_cell = true;

@@ -159,11 +159,11 @@ int start(const SegmentArguments& a, Terminal& terminal) {
     std::optional<Bytes> cell_file;
     if (a.cell) {
         read_cell(*a.cell);  // an impossible one is refused before anything is made
-        cell_file = read_file(*a.cell);
+        cell_file = read_file(*a.cell, settings_limit);
     }
     std::optional<Plan> plan;
     if (a.replayed) {
-        const Bytes text = read_file(*a.replayed);
+        const Bytes text = read_file(*a.replayed, record_limit);
         plan = plan_from_text({reinterpret_cast<const char*>(text.data()), text.size()}, a.replayed->string());
     }
     Intake intake = take_in_scan(a.input, a, terminal);

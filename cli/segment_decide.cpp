@@ -180,7 +180,7 @@ class Deciding {
     void write_plan() {
         std::error_code error;
         if (fs::exists(*a_.plan, error)) {
-            const Bytes old = fs::is_regular_file(*a_.plan, error) ? read_file(*a_.plan) : Bytes{};
+            const Bytes old = fs::is_regular_file(*a_.plan, error) ? read_file(*a_.plan, record_limit) : Bytes{};
             if (!looks_like_a_plan({reinterpret_cast<const char*>(old.data()), old.size()})) {
                 throw InputError(InputFault::create, a_.plan->string() + " exists already and is no plan",
                                  "choose another name");

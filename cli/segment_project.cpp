@@ -9,7 +9,7 @@
 #include "cli/segment_values.h"
 #include "cli/shell_word.h"
 #include "segment/error.h"
-#include "segment/files/temporary_folder.h"
+#include "segment/files/staged_folder.h"
 #include "segment/intake/inspect.h"
 #include "segment/mesh/measure.h"
 #include "segment/repair/crumbs.h"
@@ -152,7 +152,7 @@ Project new_project(const fs::path& scan, const Intake& intake, const ProjectArg
 
 void create_project(const fs::path& folder, const Project& project, const std::optional<Bytes>& cell_file) {
     try {
-        TemporaryFolder aside(folder);
+        StagedFolder aside(folder);
         fs::create_directories(aside.path() / "pieces");
         fs::create_directory(aside.path() / "jobs");
         fs::create_directory(aside.path() / "pictures");
@@ -167,7 +167,7 @@ void create_project(const fs::path& folder, const Project& project, const std::o
 
 void take_cell(const fs::path& folder, const fs::path& cell_file, Terminal& terminal) {
     read_cell(cell_file);  // an impossible one is refused before it is taken
-    write_file(folder / "cell.toml", read_file(cell_file));
+    write_file(folder / "cell.toml", read_file(cell_file, settings_limit));
     terminal.say(folder.string() + ": its cell is now that of " + cell_file.string());
     terminal.unchanged = "The project knows its cell now; its decisions are unchanged.";
 }

@@ -21,7 +21,7 @@ inline CellLimits simulated_limits(const Cell& cell) {
             if (size > limits.max_stock[axis]) limits.max_stock[axis] = size;
         }
     }
-    limits.tools = {cell.tool.number};
+    limits.tools = {{cell.tool.number, cell.tool.diameter, cell.tool.spindle_max_rpm, cell.tool.feed_max_mm_per_min}};
     return limits;
 }
 

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "devices/device_error.h"
+#include "devices/drop_folder.h"
 #include "devices/first_contact.h"
 #include "devices/hand_off.h"
 #include "segment/error.h"
@@ -65,7 +66,8 @@ class StagedFile {
 
     void stage(const std::filesystem::path& folder, const std::string& file_name, const Uuid& job_id,
                const Bytes& bytes) {
-        staged_ = folder / ("." + file_name + "." + to_text(job_id));
+        use_.emplace(folder);
+        staged_ = folder / name_on_its_way(file_name, job_id);
         target_ = folder / file_name;
         write_file(staged_, bytes);
     }
@@ -85,14 +87,15 @@ class StagedFile {
     }
 
  private:
+    std::optional<DropFolderUse> use_;
     std::filesystem::path staged_;
     std::filesystem::path target_;
 };
 
 class Dispatcher {
  public:
-    Dispatcher(RegisterBus& bus, const JobTicket& ticket, Bytes file, HandOffPlan plan, const Context& context)
-        : bus_(bus), file_(std::move(file)), plan_(std::move(plan)), context_(context), file_name_(ticket.file_name) {
+    Dispatcher(RegisterBus& bus, const JobTicket& ticket, const Bytes& file, HandOffPlan plan, const Context& context)
+        : bus_(bus), file_(file), plan_(std::move(plan)), context_(context), file_name_(ticket.file_name) {
         const HandOffTimings& timings = plan_.options.timings;
         bus_.leave_when(context_.cancelled, plan_.options.stop_when_cancelled ? timings.answer_s : timings.leave_s);
     }
@@ -233,7 +236,7 @@ class Dispatcher {
     }
 
     RegisterBus& bus_;
-    Bytes file_;
+    const Bytes& file_;  // the caller's
     HandOffPlan plan_;
     const Context& context_;
     std::string file_name_;
@@ -242,16 +245,11 @@ class Dispatcher {
     Clock::time_point began_ = Clock::now();
 };
 
-Bytes read_job_file(const JobTicket& ticket, const std::filesystem::path& job_file) {
-    Bytes bytes = read_file(job_file);
-    if (bytes.empty() || bytes.size() != ticket.file_size || sha256(bytes) != ticket.file_sha256) {
-        throw InputError(InputFault::use,
-                         job_file.string() +
-                             " is not the file that its ticket names (size or SHA-256); "
-                             "nothing was sent",
-                         "Prepare the project again.");
-    }
-    return bytes;
+void check_file(const JobTicket& ticket, const Bytes& file) {
+    if (!file.empty() && file.size() == ticket.file_size && sha256(file) == ticket.file_sha256) return;
+    throw InputError(InputFault::use,
+                     ticket.file_name + " is not the file that its ticket names (size or SHA-256); nothing was sent",
+                     "Prepare the project again.");
 }
 
 }  // namespace
@@ -268,8 +266,8 @@ const char* words(StartVerdict verdict) {
     return "";
 }
 
-JobOutcome dispatch_job(RegisterBus& bus, const JobTicket& ticket, const std::filesystem::path& job_file,
-                        const DispatchOptions& options, const Context& context) {
+JobOutcome dispatch_job(RegisterBus& bus, const JobTicket& ticket, const Bytes& file, const DispatchOptions& options,
+                        const Context& context) {
     TicketOrder order;
     order.job_id = options.job_id ? *options.job_id : random_id();
     order.created_ms = unix_ms();
@@ -278,8 +276,9 @@ JobOutcome dispatch_job(RegisterBus& bus, const JobTicket& ticket, const std::fi
     order.rehearse = options.rehearse;
     order.transfer = options.drop_folder.empty() ? Transfer::chunks : Transfer::drop_folder;
     order.on_link_loss = options.on_link_loss;
+    check_file(ticket, file);
     HandOffPlan plan{ticket_words(ticket, order), random_number(), random_number(), options};
-    return Dispatcher(bus, ticket, read_job_file(ticket, job_file), std::move(plan), context).run();
+    return Dispatcher(bus, ticket, file, std::move(plan), context).run();
 }
 
 }  // namespace qchopper

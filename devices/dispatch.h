@@ -17,6 +17,7 @@
 #include "devices/bus.h"
 #include "devices/registers.h"
 #include "segment/context.h"
+#include "segment/files/file.h"
 
 namespace qchopper {
 
@@ -72,10 +73,11 @@ struct JobOutcome {
 };
 
 // Throws DeviceError while nothing was started: unreachable, not a cell of ours, another cell, busy; InputError if
-// `job_file` cannot be read, does not match the ticket, or cannot be put into the drop folder. Refusals of the job and
-// everything after START are a JobOutcome. With context.cancelled this returns within leave_s: before START the job is
-// cancelled and the cell given back, confirmed if the cell answers in time; afterwards it is left to run by itself.
-JobOutcome dispatch_job(RegisterBus& bus, const JobTicket& ticket, const std::filesystem::path& job_file,
-                        const DispatchOptions& options, const Context& context);
+// `file`, the bytes of the job file, does not match the ticket or cannot be put into the drop folder. Refusals of the
+// job and everything after START are a JobOutcome. With context.cancelled this returns within leave_s: before START the
+// job is cancelled and the cell given back, confirmed if the cell answers in time; afterwards it is left to run by
+// itself.
+JobOutcome dispatch_job(RegisterBus& bus, const JobTicket& ticket, const Bytes& file, const DispatchOptions& options,
+                        const Context& context);
 
 }  // namespace qchopper

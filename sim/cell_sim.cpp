@@ -1,14 +1,7 @@
 #include "sim/cell_sim.h"
 
-#include <errno.h>
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <condition_variable>
-#include <cstdlib>
-#include <cstring>
 #include <mutex>
 #include <random>
 #include <thread>
@@ -18,6 +11,7 @@
 #include "sim/memory.h"
 #include "sim/modbus_pdu.h"
 #include "sim/modbus_server.h"
+#include "sim/store.h"
 
 namespace qchopper {
 namespace {
@@ -36,59 +30,6 @@ struct Mailbox {
     std::function<void(std::uint64_t, bool)> deliver;
 };
 
-// The cell's folder: its memory, its lock, the files that it runs.
-class Store {
- public:
-    // Throws InputError.
-    explicit Store(std::filesystem::path folder) : folder_(std::move(folder)) {
-        if (folder_.empty()) {
-            std::string pattern = (std::filesystem::temp_directory_path() / "qchopper-cell-XXXXXX").string();
-            if (mkdtemp(pattern.data()) == nullptr) {
-                throw InputError(InputFault::create,
-                                 std::string("cannot make a folder for the cell: ") + std::strerror(errno),
-                                 "Is there room for temporary files?");
-            }
-            folder_ = pattern;
-            is_ours_ = true;
-        }
-        std::error_code error;
-        std::filesystem::create_directories(folder_ / "jobs", error);
-        if (error)
-            throw InputError(InputFault::create, "cannot use " + folder_.string() + " as store: " + error.message(),
-                             "");
-        lock_ = open((folder_ / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-        if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
-        const bool is_held = lock_ >= 0 && errno == EWOULDBLOCK;
-        if (lock_ >= 0) close(lock_);
-        throw InputError(
-            is_held ? InputFault::busy : InputFault::create,
-            "the store " + folder_.string() + (is_held ? " belongs to another cell that runs" : " cannot be locked"),
-            "Give another store folder.");
-    }
-    ~Store() {
-        close(lock_);
-        std::error_code ignored;
-        if (is_ours_) std::filesystem::remove_all(folder_, ignored);
-    }
-    Store(const Store&) = delete;
-    Store& operator=(const Store&) = delete;
-
-    std::filesystem::path memory() const { return folder_ / "memory.json"; }
-    std::filesystem::path job(const TicketWords& ticket) const {
-        return folder_ / "jobs" / (to_text(ticket.job_id) + ".qjob");
-    }
-    std::uint32_t free_kib() const {
-        std::error_code error;
-        const auto space = std::filesystem::space(folder_, error);
-        return error ? 0 : static_cast<std::uint32_t>(std::min<std::uintmax_t>(space.available / 1024, 0xFFFFFFFFU));
-    }
-
- private:
-    std::filesystem::path folder_;
-    bool is_ours_ = false;
-    int lock_ = -1;
-};
-
 }  // namespace
 
 struct CellSim::Parts {
@@ -104,7 +45,11 @@ struct CellSim::Parts {
                         return false;
                     }
                 },
-                [this](const std::string& line) { say(line); }};
+                [this](const std::string& line) { say(line); },
+                [this](const CellMemory& memory, std::uint64_t bytes) {
+                    store->make_room(memory, bytes);
+                    return store->free_kib();
+                }};
     }
 
     void say(const std::string& line) const {
@@ -169,7 +114,9 @@ struct CellSim::Parts {
             check.reset();
             lock.unlock();
             const FileCheck found = take_in(task);
+            const std::uint32_t free_kib = store->free_kib();
             lock.lock();
+            cell.store_free_kib = free_kib;
             file_checked(cell, task.number, found, now(), cell_hooks);
         }
     }
@@ -190,7 +137,7 @@ struct CellSim::Parts {
                 found.size = size;
                 found.end = FileCheck::End::ok;
                 if (size != task.ticket.file_size) return found;  // never read more than was announced
-                bytes = read_file(file);
+                bytes = read_file(file, {task.ticket.file_size, InputFault::io});
             }
         } catch (const InputError& fault) {
             say(fault.what());
@@ -198,7 +145,7 @@ struct CellSim::Parts {
             return found;
         }
         try {
-            write_file(store->job(task.ticket), bytes);
+            write_file(store->job(task.ticket.job_id), bytes);
         } catch (const InputError& fault) {
             say(fault.what());
             found.end = FileCheck::End::io_error;
@@ -242,7 +189,7 @@ void CellSim::start() {
         throw InputError(InputFault::use, "the speed of a cell must be greater than 0",
                          "1 is as slow as the real one.");
     }
-    p.store = std::make_unique<Store>(p.options.store_folder);
+    p.store = std::make_unique<Store>(p.options.store_folder, p.options.most_store_bytes);
     p.cell_hooks = p.hooks();
     std::random_device device;
     const std::uint64_t seed = (std::uint64_t{device()} << 32U) | device();

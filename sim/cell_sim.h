@@ -23,7 +23,8 @@ struct CellSimOptions {
     std::vector<std::string> allow;         // numeric addresses of peers
     std::filesystem::path drop_folder;      // where job files arrive; empty: only chunks
     std::filesystem::path store_folder;  // memory that outlives the program; empty: none (a folder of its own, removed)
-    CellLimits limits;                   // cell id, consent, speed, reach, stock, tools: see machine.h
+    std::uint64_t most_store_bytes = std::uint64_t{8} << 30;  // of all copies of job files together
+    CellLimits limits;  // cell id, consent, speed, reach, stock, tools: see machine.h
     // Asks a person (Consent::ask): true is consent. Runs in a thread of its own and may take for ever.
     std::function<bool(const std::string& question)> ask;
     std::function<void(const std::string& line)> on_message;  // what happens, for a log; called from the cell's threads

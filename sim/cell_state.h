@@ -19,6 +19,13 @@ namespace qchopper {
 
 enum class Consent { automatic, ask, never };
 
+struct CellTool {
+    std::uint16_t number = 0;
+    double diameter = 1000;
+    std::uint16_t spindle_max_rpm = 0xFFFF;
+    std::uint32_t feed_max_mm_per_min = 0xFFFFFFFF;
+};
+
 // What this cell is and can. Its reach and largest stock are far above any bone; cli takes them from the cell file.
 struct CellLimits {
     std::uint16_t cell_id = any_cell_id;
@@ -26,7 +33,7 @@ struct CellLimits {
     double speed = 1;  // simulated seconds of a job per second
     Box reach{{-5000, -5000, -5000}, {5000, 5000, 5000}};
     Vec3 max_stock{5000, 5000, 5000};
-    std::vector<std::uint16_t> tools;          // tool numbers in the rack; empty: any
+    std::vector<CellTool> tools;               // in the rack; empty: any
     std::uint32_t takeover_code = 0;           // opens a living lease to another dispatcher; 0: nothing does
     std::uint32_t max_chunk_file = 64U << 20;  // bytes that may come in chunks
     std::int64_t acting_ms = 200;              // an acting state other than Execute, a rehearsal five times that

@@ -64,6 +64,10 @@ Answer wait_for(CellState& cell, const Command& command, Pending::Waits waits, C
 
 Answer claim(CellState& cell, const Command& command, CellTime now, const CellHooks& hooks) {
     if (command.epoch <= cell.memory.epoch_held) return {AckResult::stale_epoch, cell.memory.epoch_held};
+    // A number far ahead would leave hardly any for those who come after.
+    if (command.epoch - cell.memory.epoch_held > most_epoch_jump) {
+        return {AckResult::epoch_jump, cell.memory.epoch_held};
+    }
     if (cell.lease) {
         const bool is_same = cell.lease->owner == command.owner && cell.lease->secret == command.arg1;
         const bool has_code = cell.limits.takeover_code != 0 && command.arg0 == cell.limits.takeover_code;
@@ -177,6 +181,7 @@ Answer store(CellState& cell, const Command& command, const CellHooks& hooks) {
     const bool is_chunks = ticket.value.transfer == Transfer::chunks;
     if (is_chunks && ticket.value.file_size > cell.limits.max_chunk_file)
         return {AckResult::store_full, address_of(ticket_block, "FILE_SIZE")};
+    if (hooks.make_room) cell.store_free_kib = hooks.make_room(cell.memory, ticket.value.file_size + 1024ULL);
     if (ticket.value.file_size / 1024 >= cell.store_free_kib)
         return {AckResult::store_full, address_of(ticket_block, "FILE_SIZE")};
     cell.job = CellJob{};

@@ -10,6 +10,7 @@ constexpr std::int64_t lease_ms = 5000;
 constexpr std::int64_t watchdog_ms = 2500;
 constexpr std::int64_t token_ms = 120000;
 constexpr std::size_t most_senders = 256;
+constexpr std::uint32_t most_epoch_jump = 1U << 20;
 
 void log(CellState& cell, const CellHooks& hooks, const std::string& line);
 bool save(const CellMemory& memory, const CellHooks& hooks);

@@ -1,15 +1,18 @@
 #include "sim/memory.h"
 
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "segment/error.h"
+#include "segment/files/sha256.h"
 
 namespace qchopper {
 namespace {
 
 using Json = nlohmann::json;
 
-constexpr int schema = 1;
+constexpr int schema = 2;
 
 template <std::size_t N>
 std::string hex(const std::array<std::uint8_t, N>& bytes) {
@@ -35,6 +38,16 @@ std::array<std::uint8_t, N> unhex(const std::string& text) {
     return bytes;
 }
 
+// A number of another kind, or one that the type does not hold, would be taken for some other number.
+template <class Whole>
+Whole whole(const Json& object, const char* key) {
+    const Json& value = object.at(key);
+    if (!value.is_number_unsigned() || value.get<std::uint64_t>() > std::numeric_limits<Whole>::max()) {
+        throw std::invalid_argument(std::string(key) + " is no whole number in bounds");
+    }
+    return value.get<Whole>();
+}
+
 Json to_json(const JobRecord& record) {
     return {{"state", static_cast<unsigned>(record.state)},
             {"result", static_cast<unsigned>(record.result)},
@@ -49,16 +62,32 @@ Json to_json(const JobRecord& record) {
 
 JobRecord record_from(const Json& json) {
     JobRecord record;
-    record.state = static_cast<JobState>(json.at("state").get<std::uint16_t>());
-    record.result = static_cast<JobResult>(json.at("result").get<std::uint16_t>());
-    json.at("starts").get_to(record.starts);
-    json.at("start_epoch").get_to(record.start_epoch);
-    json.at("start_seq").get_to(record.start_seq);
-    json.at("start_time_ms").get_to(record.start_time_ms);
-    json.at("end_time_ms").get_to(record.end_time_ms);
+    record.state = static_cast<JobState>(whole<std::uint16_t>(json, "state"));
+    record.result = static_cast<JobResult>(whole<std::uint16_t>(json, "result"));
+    record.starts = whole<std::uint32_t>(json, "starts");
+    record.start_epoch = whole<std::uint32_t>(json, "start_epoch");
+    record.start_seq = whole<std::uint32_t>(json, "start_seq");
+    record.start_time_ms = whole<std::uint64_t>(json, "start_time_ms");
+    record.end_time_ms = whole<std::uint64_t>(json, "end_time_ms");
     record.file_sha256 = unhex<32>(json.at("file_sha256").get<std::string>());
-    json.at("last_block").get_to(record.last_block);
+    record.last_block = whole<std::uint32_t>(json, "last_block");
+    if (record.state > JobState::cancelled || record.result > JobResult::rehearsal_failed) {
+        throw std::invalid_argument("a job has a state or a result that there is not");
+    }
     return record;
+}
+
+CellMemory from_text(std::string_view text) {
+    const Json json = Json::parse(text);
+    if (whole<std::uint16_t>(json, "schema") != schema) throw std::invalid_argument("another schema");
+    CellMemory memory;
+    memory.boot_count = whole<std::uint32_t>(json, "boot_count");
+    memory.epoch_held = whole<std::uint32_t>(json, "epoch_held");
+    memory.starts_total = whole<std::uint32_t>(json, "starts_total");
+    for (const auto& [id, record] : json.at("jobs").items()) memory.jobs[unhex<16>(id)] = record_from(record);
+    // The checksum is part of it.
+    if (to_json(memory) != text) throw std::invalid_argument("it is not, to the last byte, what a cell wrote");
+    return memory;
 }
 
 }  // namespace
@@ -66,32 +95,38 @@ JobRecord record_from(const Json& json) {
 std::string to_json(const CellMemory& memory) {
     Json jobs = Json::object();
     for (const auto& [id, record] : memory.jobs) jobs[hex(id)] = to_json(record);
-    const Json all = {{"schema", schema},
-                      {"boot_count", memory.boot_count},
-                      {"epoch_held", memory.epoch_held},
-                      {"starts_total", memory.starts_total},
-                      {"jobs", jobs}};
+    Json all = {{"schema", schema},
+                {"boot_count", memory.boot_count},
+                {"epoch_held", memory.epoch_held},
+                {"starts_total", memory.starts_total},
+                {"jobs", std::move(jobs)}};
+    const std::string text = all.dump(1);
+    all["sha256"] = to_hex(sha256({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
     return all.dump(1) + "\n";
+}
+
+CellMemory memory_from_json(std::string_view text, const std::string& name) {
+    const auto refuse = [&](const std::string& why) {
+        throw InputError(InputFault::config,
+                         "the memory of the simulated cell, " + name + ", cannot be relied on: " + why,
+                         "Give another store folder, or delete the file if no dispatcher may rely on it any more.");
+    };
+    try {
+        return from_text(text);
+    } catch (const Json::exception&) {  // its own words speak of the library
+        refuse("it is no JSON, or a value is missing");
+    } catch (const std::invalid_argument& fault) {
+        refuse(fault.what());
+    }
+    return {};
 }
 
 CellMemory load_memory(const std::filesystem::path& file) {
     std::error_code error;
-    if (!std::filesystem::exists(file, error) && !error) return {};
-    const Bytes bytes = read_file(file);
-    try {
-        const Json json = Json::parse(bytes.begin(), bytes.end());
-        if (json.at("schema").get<int>() != schema) throw std::invalid_argument("another schema");
-        CellMemory memory;
-        json.at("boot_count").get_to(memory.boot_count);
-        json.at("epoch_held").get_to(memory.epoch_held);
-        json.at("starts_total").get_to(memory.starts_total);
-        for (const auto& [id, record] : json.at("jobs").items()) memory.jobs[unhex<16>(id)] = record_from(record);
-        return memory;
-    } catch (const std::exception& fault) {
-        throw InputError(InputFault::config,
-                         "the memory of the simulated cell, " + file.string() + ", cannot be read: " + fault.what(),
-                         "Give another store folder, or delete the file if no dispatcher may rely on it any more.");
-    }
+    const bool is_new = std::filesystem::symlink_status(file, error).type() == std::filesystem::file_type::not_found;
+    if (is_new) return {};
+    const Bytes bytes = read_file(file, record_limit);
+    return memory_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
 }
 
 void save_memory(const std::filesystem::path& file, const CellMemory& memory) {

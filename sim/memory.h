@@ -7,15 +7,20 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "sim/machine.h"
 
 namespace qchopper {
 
+// Ends in a SHA-256 of itself: one damaged byte may be the id of a job that ran.
 std::string to_json(const CellMemory& memory);
 
-// An empty memory if the file is not there. Throws InputError (config) if it is not one of ours: a memory that cannot
-// be read must not be taken for an empty one, or a job could start twice.
+// Throws InputError (config) naming `name` if it is not what to_json makes, to the last byte.
+CellMemory memory_from_json(std::string_view text, const std::string& name);
+
+// An empty memory if the file is not there. Throws InputError (config) if it is damaged: a memory that cannot be read
+// must not be taken for an empty one, or a job could start twice.
 CellMemory load_memory(const std::filesystem::path& file);
 
 // Throws InputError (create, io).

@@ -25,6 +25,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t most_connections = 8;
+constexpr double quiet_s = 1;                  // those turned away are told of when no more came for so long,
+constexpr double count_s = 10;                 // but not later than this after the first
 constexpr std::size_t input_bytes = 520;       // two frames of the largest kind
 constexpr std::size_t output_bytes = 4 * 260;  // four answers; then this client is not read any more
 constexpr std::size_t head_bytes = 7;
@@ -131,10 +133,12 @@ struct ModbusServer::Loop {
             }
             const int ready = poll(waiting.data(), waiting.size(), static_cast<int>(1000 * options.tick_s));
             if (ready < 0 && errno != EINTR) say(std::string("poll: ") + std::strerror(errno));
-            if (ready > 0 && waiting[0].revents != 0) return;
+            if (ready > 0 && waiting[0].revents != 0) return tell_turned_away();
             serve(waiting);
             if (ready > 0 && waiting[1].revents != 0) take_connections();
             close_overdue();
+            const auto now = Clock::now();
+            if (since(last_away, now) > quiet_s || since(first_away, now) > count_s) tell_turned_away();
             on_tick();
         }
     }
@@ -252,6 +256,21 @@ struct ModbusServer::Loop {
         return connections.size() + (!options.allow.empty() && !is_listed ? 1 : 0) < most_connections;
     }
 
+    // Whoever knocks without end must not fill the log: they are counted.
+    void turn_away(const std::string& peer) {
+        last_away = Clock::now();
+        if (turned_away == 0) first_away = last_away;
+        ++turned_away;
+        peer_away = peer;
+    }
+
+    void tell_turned_away() {
+        if (turned_away == 0) return;
+        say(std::to_string(turned_away) + (turned_away == 1 ? " connection" : " connections") +
+            " turned away, the last from " + peer_away + ": not on the list, or too many at once");
+        turned_away = 0;
+    }
+
     void take_connections() {
         for (;;) {
             sockaddr_storage address{};
@@ -269,7 +288,7 @@ struct ModbusServer::Loop {
             if (fd < 0) return;
             const std::string peer = numeric(address);
             if (!may_stay(peer)) {
-                say(peer + " turned away: not on the list, or too many connections");
+                turn_away(peer);
                 close(fd);
                 continue;
             }
@@ -288,6 +307,10 @@ struct ModbusServer::Loop {
     int wake = -1;
     int spare = -1;
     std::list<Connection> connections;
+    std::size_t turned_away = 0;  // since it was last told
+    std::string peer_away;
+    Clock::time_point first_away;
+    Clock::time_point last_away;
     std::thread thread;
 };
 

@@ -1,6 +1,7 @@
 #include "sim/ticket_check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace qchopper {
@@ -24,6 +25,31 @@ std::optional<std::uint16_t> used_reserve(std::span<const std::uint16_t> block, 
     return std::nullopt;
 }
 
+// Text ends at the first NUL; what comes behind it would be shown to nobody.
+bool has_hidden_text(const std::string& text, const Field& field, std::span<const std::uint16_t> block) {
+    std::size_t characters = 0;
+    for (const std::uint16_t word : block.subspan(field.address - ticket_block.base, field.count)) {
+        characters += (word >> 8U) != 0 ? 1U : 0U;
+        characters += (word & 0xFFU) != 0 ? 1U : 0U;
+    }
+    return characters != text.size();
+}
+
+// At most what the largest tool of the rack has.
+std::optional<TicketFault> wrong_tool_value(const TicketWords& t, const std::vector<CellTool>& tools) {
+    CellTool largest{0, 0, 0, 0};
+    for (const CellTool& tool : tools) {
+        largest.diameter = std::max(largest.diameter, tool.diameter);
+        largest.spindle_max_rpm = std::max(largest.spindle_max_rpm, tool.spindle_max_rpm);
+        largest.feed_max_mm_per_min = std::max(largest.feed_max_mm_per_min, tool.feed_max_mm_per_min);
+    }
+    const auto field = [](const char* name) { return TicketFault{AckResult::ticket_field, address_of(ticket_block, name)}; };
+    if (t.tool_diameter_um > std::round(1000 * largest.diameter)) return field("TOOL_DIAMETER");
+    if (t.spindle_max_rpm > largest.spindle_max_rpm) return field("SPINDLE_MAX");
+    if (t.feed_max_mm_per_min > largest.feed_max_mm_per_min) return field("FEED_MAX");
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<TicketFault> wrong_field(const TicketWords& t, std::span<const std::uint16_t> block,
@@ -34,7 +60,9 @@ std::optional<TicketFault> wrong_field(const TicketWords& t, std::span<const std
     if (t.job_id == Uuid{}) return field("JOB_ID");
     if (t.file_size == 0) return field("FILE_SIZE");
     if (t.transfer != Transfer::drop_folder && t.transfer != Transfer::chunks) return field("TRANSFER");
-    if (!is_file_name(t.file_name)) return field("FILE_NAME");
+    if (!is_file_name(t.file_name) || has_hidden_text(t.file_name, *field_named(ticket_block, "FILE_NAME"), block)) {
+        return field("FILE_NAME");
+    }
     if (t.unit != 1) return field("UNIT");
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
@@ -68,9 +96,11 @@ std::optional<TicketFault> does_not_fit(const TicketWords& t, const CellLimits& 
         }
     }
     const bool has_tool =
-        limits.tools.empty() || std::find(limits.tools.begin(), limits.tools.end(), t.tool_no) != limits.tools.end();
+        limits.tools.empty() || std::any_of(limits.tools.begin(), limits.tools.end(),
+                                            [&](const CellTool& tool) { return tool.number == t.tool_no; });
     if (!has_tool) return TicketFault{AckResult::tool, address_of(ticket_block, "TOOL_NO")};
-    return std::nullopt;
+    if (t.box_min[2] < 0) return TicketFault{AckResult::ticket_field, axis_address("BOX_MIN", 2)};  // below the table
+    return limits.tools.empty() ? std::nullopt : wrong_tool_value(t, limits.tools);
 }
 
 }  // namespace qchopper

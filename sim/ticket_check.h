@@ -20,7 +20,7 @@ struct TicketFault {
 std::optional<TicketFault> wrong_field(const TicketWords& ticket, std::span<const std::uint16_t> block,
                                        const CellLimits& limits);
 
-// Reach, stock and tool, before the operator is asked for consent.
+// Reach, stock, tool and its speeds, before the operator is asked for consent.
 std::optional<TicketFault> does_not_fit(const TicketWords& ticket, const CellLimits& limits);
 
 }  // namespace qchopper

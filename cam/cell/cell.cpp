@@ -130,11 +130,7 @@ Cell parse_cell(std::string_view text, const std::filesystem::path& path) {
 }
 
 Cell read_cell(const std::filesystem::path& path) {
-    const Bytes bytes = read_file(path);
-    if (bytes.size() > (std::size_t{1} << 20)) {
-        throw InputError(InputFault::config, path.string() + " is larger than 1 MB: this is no cell file",
-                         "name a .toml file such as cells/foam-1.toml");
-    }
+    const Bytes bytes = read_file(path, settings_limit);
     return parse_cell({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
 }
 

@@ -1,8 +1,6 @@
 #include "cam/job/job.h"
 
 #include <cmath>
-#include <limits>
-#include <system_error>
 
 #include "cam/job/manifest.h"
 #include "cam/job/preview.h"
@@ -13,7 +11,6 @@
 namespace qchopper {
 namespace {
 
-constexpr std::uint64_t largest_file = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint64_t largest_text = 16u << 20;  // manifest, ticket: kilobytes in fact
 constexpr const char* manifest_name = "manifest.json";
 constexpr const char* ticket_name = "ticket.json";
@@ -111,7 +108,7 @@ Bytes job_file(const JobInput& input) {
         entries.push_back({name, bytes.size(), sha256(bytes)});
         total += bytes.size();
     }
-    if (total > largest_file - largest_text) {
+    if (total > job_limit.bytes - largest_text) {
         throw InputError(InputFault::use, "piece " + input.piece.name + ": its job file would exceed 4 GB",
                          "cut the piece further");
     }
@@ -120,7 +117,7 @@ Bytes job_file(const JobInput& input) {
 }
 
 ReadJob parse_job(const Bytes& bytes, const std::string& source) {
-    if (bytes.size() > largest_file) refuse(source, "it is larger than 4 GB");
+    if (bytes.size() > job_limit.bytes) refuse(source, "it is larger than 4 GB");
     std::map<std::string, Bytes> files = unzip(bytes, source);
     for (const char* name : {manifest_name, ticket_name}) {
         if (!files.contains(name)) refuse(source, std::string(name) + " is missing");
@@ -136,21 +133,16 @@ ReadJob parse_job(const Bytes& bytes, const std::string& source) {
     return job;
 }
 
-ReadJob read_job(const std::filesystem::path& path) {
-    std::error_code unknown;  // a file that is not there is read_file's to report
-    const std::uintmax_t size = std::filesystem::file_size(path, unknown);
-    if (!unknown && size > largest_file) refuse(path.string(), "it is larger than 4 GB");
-    return parse_job(read_file(path), path.string());
+Bytes read_job(const std::filesystem::path& path) {
+    return read_file(path, job_limit);
 }
 
-JobTicket job_ticket(const std::filesystem::path& path) {
-    const std::string name = path.filename().string();
-    if (!is_job_file_name(name)) {
-        throw InputError(InputFault::use, path.string() + ": the cell takes no file of this name",
+JobTicket job_ticket(const ReadJob& job, const std::string& file_name) {
+    if (!is_job_file_name(file_name)) {
+        throw InputError(InputFault::use, "the cell takes no file of the name " + file_name,
                          "use 1 to 32 of A-Z a-z 0-9 . _ -, not beginning with a dot");
     }
-    const ReadJob job = read_job(path);
-    return {job.ticket, name, job.file_size, job.file_sha256};
+    return {job.ticket, file_name, job.file_size, job.file_sha256};
 }
 
 }  // namespace qchopper

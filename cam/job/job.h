@@ -62,6 +62,7 @@ struct ReadJob {
     std::string program_version;
     Uuid project_id{};
     Sha256 scan_sha256{};
+    std::uint16_t cell_id = 0;
     Setup setup;                // as it was written
     std::string block_name;     // of the stock list
     std::vector<Bound> bounds;  // in piece coordinates
@@ -75,11 +76,14 @@ struct ReadJob {
     Sha256 file_sha256{};
 };
 
-// Throws InputError: missing if it cannot be read, mesh if it is not a whole job file of this schema.
-ReadJob read_job(const std::filesystem::path& path);
+// The bytes of a job file (job_limit). Throws InputError: missing if it cannot be read, mesh if it is too large.
+Bytes read_job(const std::filesystem::path& path);
+
+// Throws InputError (mesh) naming `source` if the bytes are not exactly what job_file writes for a job of this schema.
 ReadJob parse_job(const Bytes& bytes, const std::string& source);
 
-// The template of a job file bound to that file. Reads and checks the whole file.
-JobTicket job_ticket(const std::filesystem::path& path);
+// The template of a job bound to its file, which will have this name at the cell. Throws InputError (use) if the wire
+// cannot carry the name.
+JobTicket job_ticket(const ReadJob& job, const std::string& file_name);
 
 }  // namespace qchopper

@@ -11,7 +11,34 @@ double number(const Json& value, const std::string& key) {
     return value.get<double>();
 }
 
+constexpr int most_depth = 16;  // writing a value again takes stack for each level
+
 }  // namespace
+
+Json parsed(std::string_view text) {
+    Json json;
+    try {
+        json = Json::parse(text, [](int depth, Json::parse_event_t, Json&) {
+            if (depth > most_depth) throw std::runtime_error("holds lists in lists without end");
+            return true;
+        });
+    } catch (const Json::parse_error& error) {
+        throw std::runtime_error("is not JSON from byte " + std::to_string(error.byte) + " on");
+    } catch (const Json::exception&) {  // its own words speak of the library
+        throw std::runtime_error("holds a number that is out of range");
+    }
+    return json;
+}
+
+void check_form(const Json& json, std::string_view text) {
+    if (written(json) != text) throw std::runtime_error("is not in the one form in which qchopper writes it");
+}
+
+const Json& items(const Json& object, const std::string& key) {
+    const Json& value = member(object, key);
+    if (!value.is_array()) throw wrong(key, "is not a list");
+    return value;
+}
 
 const Json& member(const Json& object, const std::string& key) {
     if (!object.is_object() || !object.contains(key)) throw wrong(key, "is missing");
@@ -32,6 +59,12 @@ bool truth(const Json& object, const std::string& key) {
 
 double real(const Json& object, const std::string& key) {
     return number(member(object, key), key);
+}
+
+double real_within(const Json& object, const std::string& key, double least, double most) {
+    const double value = real(object, key);
+    if (!(least <= value && value <= most)) throw wrong(key, "is out of range");
+    return value;
 }
 
 std::uint64_t whole_up_to(const Json& object, const std::string& key, std::uint64_t most) {

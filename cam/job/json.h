@@ -22,10 +22,17 @@ inline std::runtime_error wrong(const std::string& key, const std::string& why) 
     return std::runtime_error(key + " " + why);
 }
 
+Json parsed(std::string_view text);
+// Throws unless the text is what written() makes of its value: one form, so that the same job is the same bytes. To be
+// asked last, because it cannot say what is wrong.
+void check_form(const Json& json, std::string_view text);
+
+const Json& items(const Json& object, const std::string& key);
 const Json& member(const Json& object, const std::string& key);
 std::string text(const Json& object, const std::string& key);
 bool truth(const Json& object, const std::string& key);
 double real(const Json& object, const std::string& key);  // finite
+double real_within(const Json& object, const std::string& key, double least, double most);
 std::uint64_t whole_up_to(const Json& object, const std::string& key, std::uint64_t most);
 Vec3 to_vector(const Json& value, const std::string& key);
 Vec3 vector(const Json& object, const std::string& key);

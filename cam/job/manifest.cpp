@@ -62,7 +62,7 @@ Json from_stock(const JobInput& input) {
 
 std::vector<std::string> texts(const Json& object, const std::string& key) {
     std::vector<std::string> list;
-    for (const Json& value : member(object, key)) {
+    for (const Json& value : items(object, key)) {
         if (!value.is_string()) throw wrong(key, "is not a list of texts");
         list.push_back(value.get<std::string>());
     }
@@ -109,7 +109,7 @@ Setup to_setup(const Json& json, const Json& stock) {
 
 EnvelopeReport to_envelope(const Json& json) {
     EnvelopeReport envelope;
-    for (const Json& margin : member(json, "margins")) {
+    for (const Json& margin : items(json, "margins")) {
         envelope.margins.push_back({text(margin, "name"), text(margin, "problem"), real(margin, "mm")});
     }
     if (envelope.margins.empty()) throw wrong("margins", "is empty");
@@ -119,7 +119,7 @@ EnvelopeReport to_envelope(const Json& json) {
 
 std::vector<Bound> to_bounds(const Json& json) {
     std::vector<Bound> bounds;
-    for (const Json& bound : json) {
+    for (const Json& bound : items(json, "bounds")) {
         bounds.push_back(
             {cut_number(bound, "cut"), {vector(bound, "normal"), real(bound, "offset")}, truth(bound, "above")});
     }
@@ -128,7 +128,7 @@ std::vector<Bound> to_bounds(const Json& json) {
 
 std::vector<JobEntry> to_entries(const Json& json) {
     std::vector<JobEntry> entries;
-    for (const Json& entry : json) {
+    for (const Json& entry : items(json, "files")) {
         entries.push_back({text(entry, "name"), whole<std::uint64_t>(entry, "size"), from_hex<32>(entry, "sha256")});
     }
     return entries;
@@ -146,16 +146,19 @@ ReadJob to_job(const Json& json) {
     job.piece = text(piece, "name");
     job.piece_no = whole<std::uint16_t>(piece, "number");
     job.piece_count = whole<std::uint16_t>(piece, "count");
+    if (job.piece_no < 1 || job.piece_no > job.piece_count) throw wrong("number", "is not one of 1 to count");
     job.faces = whole<std::uint64_t>(piece, "faces");
     job.volume_mm3 = real(piece, "volume_mm3");
     job.program_version = text(member(json, "program"), "version");
     job.project_id = from_hex<16>(json, "project_id");
     job.scan_sha256 = from_hex<32>(json, "scan_sha256");
-    job.bounds = to_bounds(member(json, "bounds"));
+    job.cell_id = whole<std::uint16_t>(member(json, "cell"), "id");
+    if (job.cell_id == 0) throw wrong("id", "is the number of no cell");
+    job.bounds = to_bounds(json);
     job.setup = to_setup(member(json, "setup"), member(json, "stock"));
     job.block_name = text(member(json, "stock"), "name");
     job.envelope = to_envelope(member(json, "envelope"));
-    job.entries = to_entries(member(json, "files"));
+    job.entries = to_entries(json);
     return job;
 }
 
@@ -192,8 +195,11 @@ std::string to_manifest(const JobInput& input, const std::vector<JobEntry>& entr
 
 ReadJob from_manifest(std::string_view text, const std::string& source) {
     try {
-        return to_job(Json::parse(text));
-    } catch (const std::exception& error) {
+        const Json json = parsed(text);
+        ReadJob job = to_job(json);
+        check_form(json, text);
+        return job;
+    } catch (const std::runtime_error& error) {
         throw InputError(InputFault::mesh, source + ": manifest.json: " + error.what(),
                          "write the job again with qchopper prepare");
     }

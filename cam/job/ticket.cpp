@@ -12,6 +12,22 @@ namespace qchopper {
 
 using namespace json_values;
 
+namespace {
+
+// What the registers of a ticket hold: 0.01 mm in 32 bits with a sign, 0.001 mm in 32 bits without.
+constexpr double farthest_mm = 21'474'836;
+constexpr double widest_tool_mm = 4'294'967;
+
+void check_lengths(const TicketTemplate& about) {
+    const auto is_told = [](Vec3 v) {
+        return std::abs(v.x) <= farthest_mm && std::abs(v.y) <= farthest_mm && std::abs(v.z) <= farthest_mm;
+    };
+    if (!is_told(about.box.min) || !is_told(about.box.max)) throw wrong("box", "is out of range");
+    if (!is_told(about.stock)) throw wrong("stock", "is out of range");
+}
+
+}  // namespace
+
 std::string to_json(const TicketTemplate& about) {
     const Json json = {{"ticket_version", 1},
                        {"piece", about.piece},
@@ -32,7 +48,7 @@ std::string to_json(const TicketTemplate& about) {
 
 TicketTemplate ticket_template_from_json(std::string_view text, const std::string& source) {
     try {
-        const Json json = Json::parse(text);
+        const Json json = parsed(text);
         if (whole<std::uint16_t>(json, "ticket_version") != 1) throw wrong("ticket_version", "is not 1");
         TicketTemplate about;
         about.piece = json_values::text(json, "piece");
@@ -45,13 +61,15 @@ TicketTemplate ticket_template_from_json(std::string_view text, const std::strin
         if (!material) throw wrong("material", "is none that we know");
         about.material = *material;
         about.tool_no = whole<std::uint16_t>(json, "tool_no");
-        about.tool_diameter = real(json, "tool_diameter");
+        about.tool_diameter = real_within(json, "tool_diameter", 0, widest_tool_mm);
         about.spindle_max_rpm = whole<std::uint16_t>(json, "spindle_max_rpm");
         about.feed_max_mm_per_min = whole<std::uint32_t>(json, "feed_max_mm_per_min");
         about.estimated_time_s = whole<std::uint32_t>(json, "estimated_time_s");
         about.base_plane = whole<std::uint16_t>(json, "base_plane");
+        check_lengths(about);
+        check_form(json, text);
         return about;
-    } catch (const std::exception& error) {
+    } catch (const std::runtime_error& error) {
         throw InputError(InputFault::mesh, source + ": ticket template: " + error.what(), "write the job again");
     }
 }

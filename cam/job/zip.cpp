@@ -76,10 +76,9 @@ std::map<std::string, Bytes> unzip(const Bytes& bytes, const std::string& source
     zip_error_t error;
     zip_error_init(&error);
     Source whole = view_of(bytes);
-    const Archive archive(zip_open_from_source(whole.get(), ZIP_RDONLY | ZIP_CHECKCONS, &error));
-    const std::string why = archive ? "" : zip_error_strerror(&error);
+    Archive archive(zip_open_from_source(whole.get(), ZIP_RDONLY | ZIP_CHECKCONS, &error));
     zip_error_fini(&error);
-    if (!archive) refuse(source, why);
+    if (!archive) refuse(source, "it is no ZIP, or a damaged one");
     whole.release();
 
     const zip_int64_t count = zip_get_num_entries(archive.get(), 0);
@@ -100,6 +99,10 @@ std::map<std::string, Bytes> unzip(const Bytes& bytes, const std::string& source
         total += stat.size;
         if (stat.size > bytes.size() || total > bytes.size()) refuse(source, "its entries are larger than the file");
         entries[name] = read_entry(archive.get(), index, stat.size, name, source);
+    }
+    archive.reset();
+    if (zip(entries) != bytes) {
+        refuse(source, "it holds more than its entries, or is packed in another way than qchopper packs");
     }
     return entries;
 }

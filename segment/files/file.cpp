@@ -58,33 +58,67 @@ void write_bytes(const std::filesystem::path& path, const std::uint8_t* data, st
     if (directory.fd >= 0) ::fsync(directory.fd);
 }
 
-}  // namespace
+const char* kind_of(mode_t mode) {
+    if (S_ISDIR(mode)) return "a folder";
+    if (S_ISFIFO(mode)) return "a pipe";
+    if (S_ISSOCK(mode)) return "a socket";
+    return "a device";
+}
 
-Bytes read_file(const std::filesystem::path& path) {
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-    if (file.fd < 0) {
-        throw InputError(InputFault::missing, path.string() + " cannot be opened: " + reason(),
-                         "check the name and the rights");
-    }
-    struct stat info {};
-    if (::fstat(file.fd, &info) == 0 && S_ISDIR(info.st_mode)) {
-        throw InputError(InputFault::missing, path.string() + " is a folder, not a file", "name the file itself");
-    }
-    const std::size_t room = static_cast<std::size_t>(info.st_size > 0 ? info.st_size : 0) + 1;  // to see the end
+std::string in_words(std::uint64_t bytes) {
+    const bool is_large = bytes + 1 >= std::uint64_t{1} << 30;
+    return std::to_string((bytes + 1) >> (is_large ? 30U : 20U)) + (is_large ? " GB" : " MB");
+}
+
+[[noreturn]] void refuse_size(const std::string& name, SizeLimit limit) {
+    throw InputError(limit.fault, name + " is larger than " + in_words(limit.bytes) + ", the most that such a file has",
+                     "check that it is the right file");
+}
+
+// `size`: what is expected; there may be more or less.
+Bytes read_to_end(int fd, std::uint64_t size, const std::string& name, SizeLimit limit) {
     Bytes bytes;
+    const std::size_t room = static_cast<std::size_t>(size) + 1;  // to see the end
     reserve_huge(bytes, room);
     bytes.resize(room);
     std::size_t filled = 0;
     while (true) {
-        if (filled == bytes.size()) bytes.resize(filled + 65536);  // a pipe has no size
-        const ssize_t got = ::read(file.fd, bytes.data() + filled, bytes.size() - filled);
+        if (filled > limit.bytes) refuse_size(name, limit);
+        if (filled == bytes.size()) bytes.resize(filled + 65536);
+        const ssize_t got = ::read(fd, bytes.data() + filled, bytes.size() - filled);
         if (got < 0 && errno == EINTR) continue;
-        if (got < 0) throw InputError(InputFault::missing, path.string() + " cannot be read: " + reason());
+        if (got < 0) throw InputError(InputFault::missing, name + " cannot be read: " + reason());
         if (got == 0) break;
         filled += static_cast<std::size_t>(got);
     }
     bytes.resize(filled);
     return bytes;
+}
+
+}  // namespace
+
+Bytes read_file(const std::filesystem::path& path, SizeLimit limit) {
+    // Without O_NONBLOCK the opening of a named pipe waits for a writer; regular files do not know the difference.
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+    if (file.fd < 0) {
+        throw InputError(InputFault::missing, path.string() + " cannot be opened: " + reason(),
+                         "check the name and the rights");
+    }
+    struct stat info {};
+    if (::fstat(file.fd, &info) != 0) {
+        throw InputError(InputFault::missing, path.string() + " cannot be read: " + reason());
+    }
+    if (!S_ISREG(info.st_mode)) {
+        throw InputError(InputFault::missing, path.string() + " is " + kind_of(info.st_mode) + ", not a file",
+                         "name the file itself");
+    }
+    const auto size = static_cast<std::uint64_t>(info.st_size);
+    if (size > limit.bytes) refuse_size(path.string(), limit);
+    return read_to_end(file.fd, size, path.string(), limit);
+}
+
+Bytes read_standard_input(SizeLimit limit) {
+    return read_to_end(STDIN_FILENO, 0, "standard input", limit);
 }
 
 void write_file(const std::filesystem::path& path, const Bytes& bytes) {

@@ -1,89 +1,83 @@
 #include "segment/files/temporary_folder.h"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
-#include <string>
+#include <cstdlib>
+#include <system_error>
 #include <vector>
 
-#include "segment/files/sha256.h"
+#include "segment/error.h"
 
 namespace qchopper {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* infix = ".tmp.";
-
-// "NAME.tmp.4711-1a2b3c4d"
-std::string temporary_name(const std::string& name, long process) {
-    const std::string base = name + infix + std::to_string(process);
-    const std::string checked = "qchopper temporary folder " + base;
-    const Sha256 digest = sha256({reinterpret_cast<const std::uint8_t*>(checked.data()), checked.size()});
-    return base + "-" + to_hex(digest).substr(0, 8);
+// The folder itself, never what a link leads to, and only if it is ours: others may write where temporary files lie.
+int open_folder(const fs::path& folder) {
+    const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    struct stat info {};
+    if (fd >= 0 && (::fstat(fd, &info) != 0 || info.st_uid != ::geteuid())) {
+        ::close(fd);
+        return -1;
+    }
+    return fd;
 }
 
-// The process in a name that temporary_name() gave; 0: it is no such name.
-long process_in(const std::string& name) {
-    const std::size_t at = name.rfind(infix);
-    if (at == std::string::npos) return 0;
-    const char* const digits = name.c_str() + at + std::string(infix).size();
-    long process = 0;
-    std::from_chars(digits, name.c_str() + name.size(), process);
-    return process > 0 && temporary_name(name.substr(0, at), process) == name ? process : 0;
-}
-
-int locked(const fs::path& folder) {
-    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    if (descriptor < 0 || ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
-    ::close(descriptor);
-    return -1;
-}
-
-bool has_ended(long process) {
-    return ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
-}
-
-// What killed runs left in a folder. What cannot be removed stays: it hinders nobody.
-void remove_leftovers(const fs::path& folder) {
+void remove_leftovers(const fs::path& room, const std::string& prefix) {
     std::error_code error;
-    std::vector<fs::path> left;
-    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-        const long process = process_in(it->path().filename().string());
-        if (process != 0 && has_ended(process)) left.push_back(it->path());
+    std::vector<fs::path> old;
+    for (fs::directory_iterator entry(room, error), end; !error && entry != end; entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        if (name.starts_with(prefix) && name.size() == prefix.size() + 6) old.push_back(entry->path());
     }
-    for (const fs::path& path : left) {
-        const int lock = locked(path);
-        if (lock < 0) continue;  // a run on another machine or in another container holds it
-        fs::remove_all(path, error);
-        ::close(lock);
+    for (const fs::path& folder : old) {
+        const int fd = open_folder(folder);
+        if (fd < 0) continue;
+        if (::flock(fd, LOCK_EX | LOCK_NB) == 0) fs::remove_all(folder, error);
+        ::close(fd);
     }
+}
+
+// Whether the name still leads to the folder that is open.
+bool is_there(const fs::path& folder, int fd) {
+    struct stat named {};
+    struct stat opened {};
+    return ::lstat(folder.c_str(), &named) == 0 && ::fstat(fd, &opened) == 0 && named.st_ino == opened.st_ino &&
+           named.st_dev == opened.st_dev;
 }
 
 }  // namespace
 
-TemporaryFolder::TemporaryFolder(const fs::path& place)
-    : place_(place),
-      path_(place.parent_path() / temporary_name(place.filename().string(), static_cast<long>(::getpid()))) {
-    remove_leftovers(place.has_parent_path() ? place.parent_path() : fs::path("."));
-    fs::remove_all(path_);  // of an earlier process with this number
-    fs::create_directory(path_);
-    descriptor_ = locked(path_);
+TemporaryFolder::TemporaryFolder(const std::string& prefix) {
+    std::error_code error;
+    const fs::path room = fs::temp_directory_path(error);
+    remove_leftovers(room, prefix);
+    // Another run may take the new folder for a leftover before the lock is on it: then there is another try.
+    for (int attempt = 0; attempt < 100; ++attempt) {
+        std::string name = (room / (prefix + "XXXXXX")).string();
+        if (::mkdtemp(name.data()) == nullptr) break;
+        lock_ = open_folder(name);
+        if (lock_ >= 0 && ::flock(lock_, LOCK_EX) == 0 && is_there(name, lock_)) {
+            path_ = name;
+            return;
+        }
+        if (lock_ >= 0) ::close(lock_);
+    }
+    throw InputError(
+        InputFault::create,
+        "no temporary folder can be made in " + room.string() + ": " + std::generic_category().message(errno),
+        "free some space there, or name another place by TMPDIR");
 }
 
 TemporaryFolder::~TemporaryFolder() {
-    std::error_code error;
-    if (!is_there_) fs::remove_all(path_, error);
-    if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-void TemporaryFolder::move_to_its_place() {
-    fs::rename(path_, place_);
-    is_there_ = true;
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+    ::close(lock_);
 }
 
 }  // namespace qchopper

@@ -1,33 +1,28 @@
-// A folder that is made aside and appears whole at its place, or not at all.
+// A folder for one run of the program, gone when the run is over, however it ended.
 //
-// A run that is killed leaves it behind; the next that makes one in the same place removes it. Removed is only what
-// this program made and no run holds any more: the name carries the process and a checksum of itself, the process has
-// ended, and the lock on the folder is free (tests/segment/files/temporary_folder_test.cpp).
+// A run that is killed cannot remove its folder; the next one with the same prefix does. Whoever uses a folder holds a
+// lock on it, which dies with the program (tests/segment/files/temporary_folder_test.cpp).
 
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace qchopper {
 
 class TemporaryFolder {
  public:
-    // Beside `place`. Throws std::filesystem::filesystem_error.
-    explicit TemporaryFolder(const std::filesystem::path& place);
-    // Removes it unless it has become what it was made for.
+    // <temporary folder>/<prefix>XXXXXX. Throws InputError (create).
+    explicit TemporaryFolder(const std::string& prefix);
     ~TemporaryFolder();
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
-    // Throws std::filesystem::filesystem_error.
-    void move_to_its_place();
 
  private:
-    std::filesystem::path place_;
     std::filesystem::path path_;
-    int descriptor_ = -1;
-    bool is_there_ = false;  // at its place
+    int lock_ = -1;
 };
 
 }  // namespace qchopper

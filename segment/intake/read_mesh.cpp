@@ -87,7 +87,7 @@ RawMesh parse_mesh(const Bytes& bytes, const std::string& name, const std::files
 }
 
 Bytes read_scan(const std::filesystem::path& path) {
-    return read_file(path == "-" ? "/dev/stdin" : path);
+    return path == "-" || path == "/dev/stdin" ? read_standard_input() : read_file(path);
 }
 
 RawMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {

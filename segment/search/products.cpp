@@ -52,7 +52,8 @@ void write_pieces(const fs::path& folder, const Segmentation& segmentation, Crum
 }
 
 void take_away_products(const fs::path& folder, Project& project) {
-    if (project.stage != Stage::cutting) {
+    if (project.stage != Stage::cutting || !project.jobs.empty()) {
+        project.jobs.clear();
         project.stage = Stage::cutting;
         project.ended_because.clear();
         save_project(folder, project);

@@ -66,7 +66,7 @@ Project load_project(const std::filesystem::path& folder) {
         throw InputError(InputFault::missing, folder.string() + " holds no project (no project.json)",
                          "name a folder that prepare has made");
     }
-    const Bytes bytes = read_file(file);
+    const Bytes bytes = read_file(file, record_limit);
     return project_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
 }
 

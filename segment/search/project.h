@@ -53,6 +53,14 @@ struct SolidRecord {
     bool operator==(const SolidRecord&) const = default;
 };
 
+// A job file as it was written: what dispatch holds the file in the folder against.
+struct WrittenJob {
+    std::string piece;
+    std::string sha256;      // of the whole file
+    std::string project_id;  // 32 hexadecimal digits, as in the job itself
+    bool operator==(const WrittenJob&) const = default;
+};
+
 enum class Stage {
     cutting,  // the search goes on
     cut,      // all cuts are made, jobs are not yet all written
@@ -75,6 +83,7 @@ struct Project {
     std::vector<SolidRecord> discarded;  // what they took out, in their order
     std::vector<std::string> warnings;
     std::optional<BeamState> beam;  // of a search that was interrupted and can go on
+    std::vector<WrittenJob> jobs;  // in the order of the pieces; a piece that does not fit has none
     bool operator==(const Project&) const = default;
 };
 

@@ -11,7 +11,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* schema = "qchopper-project-2";
-constexpr const char* schema_before = "qchopper-project-1";  // without what came with 2; still read
+constexpr const char* schema_before = "qchopper-project-1";  // no record of job files, no beam; still read
 
 // Names of the enumerations, as they stand in the file.
 template <typename Enum>
@@ -166,6 +166,19 @@ ScanSource scan_from(const Json& json) {
     return scan;
 }
 
+Json to_json(const WrittenJob& job) {
+    return {{"piece", job.piece}, {"sha256", job.sha256}, {"project_id", job.project_id}};
+}
+
+std::vector<WrittenJob> jobs_from(const Json& json) {
+    std::vector<WrittenJob> jobs;
+    for (const Json& j : json) {
+        jobs.push_back({j.at("piece").get<std::string>(), j.at("sha256").get<std::string>(),
+                        j.at("project_id").get<std::string>()});
+    }
+    return jobs;
+}
+
 Json to_json(const Terms& t) {
     return {{"face_ratio", t.face_ratio},
             {"fragility", t.fragility},
@@ -301,7 +314,8 @@ BeamState beam_from(const Json& json, const History& history) {
 }
 
 Project from_json(const Json& json) {
-    if (json.at("schema") != schema && json.at("schema") != schema_before) {
+    const bool is_older = json.at("schema") == schema_before;
+    if (!is_older && json.at("schema") != schema) {
         throw InputError(InputFault::config, "its schema is not " + std::string(schema));
     }
     Project project;
@@ -322,6 +336,7 @@ Project from_json(const Json& json) {
     project.pieces = solids_from(json.at("pieces"));
     project.crumb_list = solids_from(json.at("crumbs"));
     project.warnings = json.at("warnings").get<std::vector<std::string>>();
+    if (!is_older) project.jobs = jobs_from(json.at("jobs"));
     return project;
 }
 
@@ -332,6 +347,8 @@ std::string to_json(const Project& project) {
     for (const SolidRecord& piece : project.pieces) pieces.push_back(to_json(piece));
     Json crumbs = Json::array();
     for (const SolidRecord& crumb : project.crumb_list) crumbs.push_back(to_json(crumb));
+    Json jobs = Json::array();
+    for (const WrittenJob& job : project.jobs) jobs.push_back(to_json(job));
     Json discarded = Json::array();
     for (const SolidRecord& solid : project.discarded) discarded.push_back(to_json(solid));
     Json json{{"schema", schema},
@@ -345,7 +362,8 @@ std::string to_json(const Project& project) {
               {"pieces", pieces},
               {"crumbs", crumbs},
               {"discarded", discarded},
-              {"warnings", project.warnings}};
+              {"warnings", project.warnings},
+              {"jobs", jobs}};
     if (project.beam) json["beam"] = to_json(*project.beam);
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -353,8 +371,12 @@ std::string to_json(const Project& project) {
 Project project_from_json(std::string_view text, const std::string& name) {
     try {
         return from_json(Json::parse(text));
-    } catch (const Json::exception& e) {
-        throw InputError(InputFault::config, name + " is not a project of this version: " + e.what(),
+    } catch (const Json::parse_error& e) {
+        throw InputError(InputFault::config, name + " is not JSON from byte " + std::to_string(e.byte) + " on",
+                         "restore the file, or prepare the scan again");
+    } catch (const Json::exception&) {  // its own words speak of the library
+        throw InputError(InputFault::config,
+                         name + " is not a project of this version: a value is missing, or is not of the right kind",
                          "restore the file, or prepare the scan again");
     } catch (const InputError& e) {
         throw InputError(InputFault::config, name + " is not a project of this version: " + e.what(),

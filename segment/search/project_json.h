@@ -1,4 +1,4 @@
-// The text of project.json, schema qchopper-project-2.
+// The text of project.json, schema qchopper-project-2; qchopper-project-1 is read too.
 
 #pragma once
 

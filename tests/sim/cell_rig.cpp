@@ -28,14 +28,12 @@ Folder::~Folder() {
     std::filesystem::remove_all(path, ignored);
 }
 
-Job make_job(const std::filesystem::path& folder, std::size_t bytes, std::uint32_t seconds) {
+Job make_job(std::size_t bytes, std::uint32_t seconds) {
     Job job;
-    job.file = folder / "piece-1.job";
-    Bytes content;
+    Bytes& content = job.file;
     std::uint32_t x = 12345;
     for (std::size_t i = 0; i < bytes; ++i)
         content.push_back(static_cast<std::uint8_t>((x = x * 1664525 + 1013904223) >> 24));
-    write_file(job.file, content);
     TicketTemplate& about = job.ticket.about;
     about.piece = "piece 1";
     about.piece_no = 1;

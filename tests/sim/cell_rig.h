@@ -25,11 +25,11 @@ class Folder {
 };
 
 struct Job {
-    std::filesystem::path file;
+    Bytes file;
     JobTicket ticket;
 };
-// A file of `bytes` pseudo-random bytes in `folder` and a sound ticket for it that takes `seconds`.
-Job make_job(const std::filesystem::path& folder, std::size_t bytes = 5000, std::uint32_t seconds = 20);
+// `bytes` pseudo-random bytes and a sound ticket for them that takes `seconds`.
+Job make_job(std::size_t bytes = 5000, std::uint32_t seconds = 20);
 
 // A cell that runs jobs 100 times as fast, and a dispatcher that polls quickly.
 CellSimOptions quick_cell(const std::filesystem::path& drop);

@@ -57,7 +57,7 @@ void expect_complete(const JobOutcome& outcome) {
 
 TEST(HandOffOverTcp, AJobRunsToItsEndAndStartsOnce) {
     const Rig rig;
-    const Job job = make_job(rig.folder.path);
+    const Job job = make_job();
     std::vector<std::size_t> progress;
     Context context;
     context.on_progress = [&](const Progress& now) { progress.push_back(now.done); };
@@ -79,7 +79,7 @@ TEST(HandOffOverTcp, AJobRunsToItsEndAndStartsOnce) {
 
 TEST(HandOffOverTcp, JobsFollowOneAnotherEachWithAStartOfItsOwn) {
     const Rig rig;
-    const Job job = make_job(rig.folder.path, 100, 2);
+    const Job job = make_job(100, 2);
     for (std::uint32_t n = 1; n <= 3; ++n) {
         expect_complete(rig.dispatch(job, quick_dispatch(rig.drop)));
         EXPECT_EQ(rig.cell->status().starts_total, n);
@@ -88,14 +88,14 @@ TEST(HandOffOverTcp, JobsFollowOneAnotherEachWithAStartOfItsOwn) {
 
 TEST(HandOffOverTcp, WithoutADropFolderTheFileGoesInChunks) {
     const Rig rig;
-    const Job job = make_job(rig.folder.path, 100001, 2);
+    const Job job = make_job(100001, 2);
     expect_complete(rig.dispatch(job, quick_dispatch({})));
     EXPECT_TRUE(std::filesystem::is_empty(rig.drop));
 }
 
 TEST(HandOffOverTcp, ARehearsalComesBeforeTheStart) {
     const Rig rig;
-    const Job job = make_job(rig.folder.path, 100, 2);
+    const Job job = make_job(100, 2);
     DispatchOptions options = quick_dispatch(rig.drop);
     options.rehearse = true;
     expect_complete(rig.dispatch(job, options));
@@ -105,7 +105,7 @@ TEST(HandOffOverTcp, WithoutConsentNothingStartsAndTheReportSaysSo) {
     CellSimOptions options;
     options.limits.consent = Consent::never;
     const Rig rig(options);
-    const Job job = make_job(rig.folder.path);
+    const Job job = make_job();
     const JobOutcome outcome = rig.dispatch(job, quick_dispatch(rig.drop));
     EXPECT_EQ(outcome.verdict, StartVerdict::not_started) << whole(outcome);
     EXPECT_EQ(outcome.refusal, AckResult::no_consent);
@@ -126,7 +126,7 @@ TEST(HandOffOverTcp, TheOperatorIsAskedAndMayTakeTime) {
         return true;
     };
     const Rig rig(options);
-    const Job job = make_job(rig.folder.path, 100, 2);
+    const Job job = make_job(100, 2);
     expect_complete(rig.dispatch(job, quick_dispatch(rig.drop)));
     EXPECT_NE(asked.find("piece-1.qjob"), std::string::npos) << asked;
 }
@@ -139,7 +139,7 @@ TEST(HandOffOverTcp, NobodyAnswersTheQuestionInTime) {
         return true;  // too late: nothing may come of it
     };
     const Rig rig(options);
-    const Job job = make_job(rig.folder.path, 100, 2);
+    const Job job = make_job(100, 2);
     DispatchOptions quick = quick_dispatch(rig.drop);
     quick.timings.consent_s = 0.3;
     const JobOutcome outcome = rig.dispatch(job, quick);
@@ -151,7 +151,7 @@ TEST(HandOffOverTcp, NobodyAnswersTheQuestionInTime) {
 
 TEST(HandOffOverTcp, AFileThatTheCellDoesNotFindIsNamed) {
     const Rig rig;
-    const Job job = make_job(rig.folder.path);
+    const Job job = make_job();
     std::filesystem::create_directories(rig.folder.path / "elsewhere");
     const JobOutcome outcome = rig.dispatch(job, quick_dispatch(rig.folder.path / "elsewhere"));
     EXPECT_EQ(outcome.verdict, StartVerdict::not_started) << whole(outcome);
@@ -162,7 +162,7 @@ TEST(HandOffOverTcp, AFileThatTheCellDoesNotFindIsNamed) {
 TEST(HandOffOverTcp, AFileChangedOnTheWayIsRefused) {
     // Somebody overwrites the file in the drop folder as soon as it is there.
     const Rig rig;
-    const Job job = make_job(rig.folder.path);
+    const Job job = make_job();
     DispatchOptions options = quick_dispatch(rig.drop);
     options.journal = [&](const std::string& row) {
         if (row.starts_with("COMMAND verify")) {
@@ -178,11 +178,11 @@ TEST(HandOffOverTcp, AFileChangedOnTheWayIsRefused) {
 
 TEST(HandOffOverTcp, AFileOtherThanItsTicketIsNotEvenSent) {
     const Rig rig;
-    Job job = make_job(rig.folder.path);
+    Job job = make_job();
     job.ticket.file_sha256[0] ^= 1;
     EXPECT_THROW(rig.dispatch(job, quick_dispatch(rig.drop)), InputError);
-    job = make_job(rig.folder.path);
-    std::filesystem::remove(job.file);
+    job = make_job();
+    job.file.clear();
     EXPECT_THROW(rig.dispatch(job, quick_dispatch(rig.drop)), InputError);
     EXPECT_EQ(rig.cell->status().ack_seq, 0U);
 }
@@ -191,7 +191,7 @@ TEST(HandOffOverTcp, AJobBeyondTheReachIsRefusedWithWords) {
     CellSimOptions options;
     options.limits.reach = {{-10, -10, 0}, {10, 10, 10}};
     const Rig rig(options);
-    const Job job = make_job(rig.folder.path);
+    const Job job = make_job();
     const JobOutcome outcome = rig.dispatch(job, quick_dispatch(rig.drop));
     EXPECT_EQ(outcome.verdict, StartVerdict::not_started);
     EXPECT_EQ(outcome.refusal, AckResult::envelope) << whole(outcome);
@@ -206,7 +206,7 @@ TEST(HandOffOverTcp, NothingListensIsAnErrorWithinTwoAndAHalfSeconds) {
         cell.start();
         port = cell.port();
     }
-    const Job job = make_job(folder.path);
+    const Job job = make_job();
     const auto began = std::chrono::steady_clock::now();
     ModbusTcpBus bus({"127.0.0.1", port});
     try {
@@ -220,7 +220,7 @@ TEST(HandOffOverTcp, NothingListensIsAnErrorWithinTwoAndAHalfSeconds) {
 }
 
 DeviceFault fault_of(const Rig& rig, const DispatchOptions& options) {
-    const Job job = make_job(rig.folder.path, 100, 2);
+    const Job job = make_job(100, 2);
     try {
         const JobOutcome outcome = rig.dispatch(job, options);
         ADD_FAILURE() << whole(outcome);
@@ -244,15 +244,14 @@ TEST(HandOffOverTcp, AnotherCellThanTheOneWantedIsRefusedBeforeAnythingIsSent) {
 
 TEST(HandOffOverTcp, ASecondDispatcherIsToldThatTheCellIsTaken) {
     const Rig rig;
-    const Job job = make_job(rig.folder.path, 100, 100);
+    const Job job = make_job(100, 100);
     std::atomic<bool> second_was_refused = false;
     bool asked = false;
     Context context;
     context.on_progress = [&](const Progress&) {
         if (asked) return;
         asked = true;
-        const Folder other;
-        const Job other_job = make_job(other.path);
+        const Job other_job = make_job();
         try {
             rig.dispatch(other_job, quick_dispatch(rig.drop));
         } catch (const DeviceError& error) {
@@ -333,13 +332,13 @@ TEST(HandOffOverTcp, AskedToStopBeforeTheFirstStatusThereIsNone) {
 
 TEST(HandOffOverTcp, AJobIdThatHasRunIsTakenUpAndNotStartedAgain) {
     const Rig rig;
-    const Job job = make_job(rig.folder.path, 100, 2);
+    const Job job = make_job(100, 2);
     DispatchOptions options = quick_dispatch(rig.drop);
     options.job_id = Uuid{1, 2, 3};
     expect_complete(rig.dispatch(job, options));
     expect_complete(rig.dispatch(job, options));
     EXPECT_EQ(rig.cell->status().starts_total, 1U);
-    const Job other = make_job(rig.folder.path, 200, 2);
+    const Job other = make_job(200, 2);
     const JobOutcome outcome = rig.dispatch(other, options);
     EXPECT_EQ(outcome.verdict, StartVerdict::not_started) << whole(outcome);
     EXPECT_EQ(outcome.refusal, AckResult::job_id_reused);
@@ -354,7 +353,7 @@ TEST(HandOffOverTcp, CancelledBeforeTheStartTheCellConfirmsThatItDroppedTheJob) 
         return true;
     };
     const Rig rig(cell_options);
-    const Job job = make_job(rig.folder.path);
+    const Job job = make_job();
     std::atomic<bool> cancelled = false;
     Context context;
     context.cancelled = &cancelled;
@@ -371,7 +370,7 @@ TEST(HandOffOverTcp, CancelledBeforeTheStartTheCellConfirmsThatItDroppedTheJob) 
 
 TEST(HandOffOverTcp, CancelledWhileItRunsTheJobRunsOnByItself) {
     const Rig rig;
-    const Job job = make_job(rig.folder.path, 100, 100);
+    const Job job = make_job(100, 100);
     std::atomic<bool> cancelled = false;
     Context context;
     context.cancelled = &cancelled;
@@ -387,7 +386,7 @@ TEST(HandOffOverTcp, CancelledWhileItRunsTheJobRunsOnByItself) {
 
 TEST(HandOffOverTcp, CancelledWithStopTheMachineStops) {
     const Rig rig;
-    const Job job = make_job(rig.folder.path, 100, 1000);
+    const Job job = make_job(100, 1000);
     std::atomic<bool> cancelled = false;
     Context context;
     context.cancelled = &cancelled;
@@ -411,7 +410,7 @@ TEST(HandOffOverTcp, ACellRestartedWhileTheJobRunsReportsThePowerCut) {
     auto cell = std::make_unique<CellSim>(options);
     cell->start();
     options.port = cell->port();
-    const Job job = make_job(folder.path, 100, 100000);
+    const Job job = make_job(100, 100000);
     bool restarted = false;
     Context context;
     context.on_progress = [&](const Progress&) {
@@ -431,7 +430,7 @@ TEST(HandOffOverTcp, ACellRestartedWhileTheJobRunsReportsThePowerCut) {
     EXPECT_EQ(cell->status().boot_count, 2U);
     EXPECT_EQ(cell->status().state, PackState::aborted);
     // The next job needs the machine cleared, which the cell's operator agrees to here.
-    const Job next = make_job(folder.path, 100, 2);
+    const Job next = make_job(100, 2);
     expect_complete(dispatch_job(bus, next.ticket, next.file, quick_dispatch(drop), {}));
     EXPECT_EQ(cell->status().starts_total, 2U);
 }
@@ -447,7 +446,7 @@ TEST(HandOffOverTcp, ALinkLostAtAnyStepEndsWithTheTruthAndAtMostOneStart) {
         auto cell = std::make_unique<CellSim>(cell_options);
         cell->start();
         cell_options.port = cell->port();
-        const Job job = make_job(folder.path, 100, 2);
+        const Job job = make_job(100, 2);
         DispatchOptions options = quick_dispatch(drop);
         int rows = 0;
         options.journal = [&](const std::string&) {

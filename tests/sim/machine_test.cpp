@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "devices/words.h"
 #include "tests/sim/cell_bench.h"
 
 namespace qchopper {
@@ -417,6 +418,60 @@ TEST(Store, EveryFieldThatIsWrongIsNamedByItsAddress) {
     EXPECT_EQ(refused_at([](TicketWords& t) { t.made_for = 0; }), 194U);
 }
 
+TEST(Store, ANameWithSomethingHiddenBehindItsEndIsRefused) {
+    const Field& name = *field_named(ticket_block, "FILE_NAME");
+    for (const std::size_t behind : {7U, 15U}) {  // "piece-1.qjob" fills six registers
+        Bench bench;
+        bench.to_idle();
+        Words block = encode(good_ticket());
+        block[name.address - ticket_block.base + behind] = 0x4142;
+        const std::uint32_t crc = crc32_of_words(std::span(block).first(98));
+        block[98] = static_cast<std::uint16_t>(crc >> 16U);
+        block[99] = static_cast<std::uint16_t>(crc & 0xFFFFU);
+        ASSERT_TRUE(decode_ticket(block).is_ok());
+        ASSERT_EQ(decode_ticket(block).value.file_name, "piece-1.qjob");
+        bench.cell.ticket_draft = block;
+        EXPECT_EQ(bench.send(CellCommand::store, job_a), AckResult::ticket_field) << behind;
+        EXPECT_EQ(bench.cell.ack.detail, 128U);
+    }
+}
+
+TEST(Store, AsksForRoomBeforeItSaysThatThereIsNone) {
+    Bench bench;
+    std::vector<std::uint64_t> asked;
+    std::uint32_t free_kib = 0;
+    bench.hooks.make_room = [&](const CellMemory&, std::uint64_t bytes) {
+        asked.push_back(bytes);
+        return free_kib;
+    };
+    bench.to_idle();
+    bench.write_ticket(good_ticket());
+    EXPECT_EQ(bench.send(CellCommand::store, job_a), AckResult::store_full);
+    free_kib = 2;
+    EXPECT_EQ(bench.send(CellCommand::store, job_a), AckResult::ok);
+    EXPECT_EQ(asked, (std::vector<std::uint64_t>{2024, 2024})) << "a whole KiB more than the file";
+}
+
+TEST(Fence, AnEpochFarAheadIsRefusedAndChangesNothing) {
+    const auto claim = [](Bench& bench, std::uint32_t epoch) {
+        Command command;
+        command.command = CellCommand::claim;
+        command.epoch = epoch;
+        command.owner = owner;
+        command.arg1 = secret;
+        return bench.send(command);
+    };
+    CellMemory memory;
+    memory.epoch_held = 1000;
+    for (const std::uint32_t epoch : {1000U + (1U << 20) + 1, 0x80000000U, 0xFFFFFFFFU}) {
+        Bench bench({}, memory);
+        EXPECT_EQ(claim(bench, epoch), AckResult::epoch_jump) << epoch;
+        EXPECT_EQ(bench.cell.memory.epoch_held, 1000U);
+        EXPECT_FALSE(bench.cell.lease.has_value());
+        EXPECT_EQ(claim(bench, 1000U + (1U << 20)), AckResult::ok) << "as far as it may go";
+    }
+}
+
 TEST(Verify, TellsWhatIsWrongWithTheFileAndMayBeRepeated) {
     const auto verify = [](Bench& bench, const FileCheck& check) {
         EXPECT_EQ(bench.send(CellCommand::verify, job_a), AckResult::pending);
@@ -451,7 +506,7 @@ TEST(Prepare, ChecksReachStockAndToolBeforeAnybodyIsAsked) {
     CellLimits limits;
     limits.reach = {{-10, -10, 0}, {10, 10, 20}};
     limits.max_stock = {30, 30, 30};
-    limits.tools = {3, 4};
+    limits.tools = {{3}, {4}};
     const auto answer = [&](const std::function<void(TicketWords&)>& spoil) {
         Bench bench(limits);
         TicketWords ticket = good_ticket();
@@ -473,6 +528,31 @@ TEST(Prepare, ChecksReachStockAndToolBeforeAnybodyIsAsked) {
                   t.box_max[0] = INT32_MAX;
               }).first,
               AckResult::envelope);
+}
+
+TEST(Prepare, ChecksTheToolsSizeAndSpeedsAndThatNothingLiesBelowTheTable) {
+    CellLimits limits;
+    limits.tools = {{3, 12, 18000, 4000}, {4, 6, 24000, 6000}};
+    const auto answer = [&](const std::function<void(TicketWords&)>& spoil) {
+        Bench bench(limits);
+        TicketWords ticket = good_ticket();
+        spoil(ticket);
+        bench.to_verified(ticket);
+        const AckResult result = bench.send(CellCommand::prepare, job_a);
+        EXPECT_EQ(bench.cell.pending.has_value(), result == AckResult::pending);
+        return std::pair(result, bench.cell.ack.detail);
+    };
+    const auto sound = [](TicketWords& t) {
+        t.tool_diameter_um = 12000;
+        t.spindle_max_rpm = 24000;
+        t.feed_max_mm_per_min = 6000;
+    };
+    EXPECT_EQ(answer(sound).first, AckResult::pending) << "at most the largest of the list";
+    const auto field = [](std::uint32_t address) { return std::pair(AckResult::ticket_field, address); };
+    EXPECT_EQ(answer([](TicketWords& t) { t.tool_diameter_um = 12001; }), field(165));
+    EXPECT_EQ(answer([](TicketWords& t) { t.spindle_max_rpm = 24001; }), field(167));
+    EXPECT_EQ(answer([](TicketWords& t) { t.feed_max_mm_per_min = 6001; }), field(168));
+    EXPECT_EQ(answer([](TicketWords& t) { t.box_min[2] = -1; }), field(149));
 }
 
 TEST(Prepare, IsPendingUntilSomebodyConsents) {

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "segment/error.h"
+#include "segment/files/sha256.h"
 #include "tests/sim/cell_rig.h"
 
 namespace qchopper {
@@ -50,10 +53,61 @@ TEST(Memory, ADamagedFileIsNeverTakenForANewCell) {
         write_file(file, whole.substr(0, length));
         EXPECT_THROW(load_memory(file), InputError) << length;
     }
-    for (const char* bad : {"[]", "{}", "{\"schema\":2}", "null", "{\"schema\":1,\"boot_count\":\"x\"}"}) {
+    for (const char* bad :
+         {"[]", "{}", "{\"schema\":2}", "{\n  \"schema\": 2\n}\n", "null", "{\"schema\":1,\"boot_count\":\"x\"}"}) {
         write_file(file, std::string_view(bad));
         EXPECT_THROW(load_memory(file), InputError) << bad;
     }
+}
+
+// A flipped digit would make another id, another count, another end: a job could start twice.
+TEST(Memory, EveryChangedByteIsFound) {
+    const std::string whole = to_json(a_memory());
+    EXPECT_EQ(memory_from_json(whole, "m"), a_memory());
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+        for (const char other : {'0', '9', ' ', '"', '\0'}) {
+            if (whole[at] == other) continue;
+            std::string damaged = whole;
+            damaged[at] = other;
+            EXPECT_THROW(memory_from_json(damaged, "m"), InputError) << at << other;
+        }
+    }
+    for (const std::string& longer : {whole + " ", whole + whole, " " + whole}) {
+        EXPECT_THROW(memory_from_json(longer, "m"), InputError);
+    }
+}
+
+// A right checksum over wrong contents: what is read is only what could have been written.
+TEST(Memory, ValuesThatNoCellWritesAreRefused) {
+    using Json = nlohmann::json;
+    const auto with = [](const std::string& place, const Json& value) {
+        Json all = Json::parse(to_json(a_memory()));
+        all.erase("sha256");
+        all[Json::json_pointer(place)] = value;
+        const std::string rest = all.dump(1);
+        all["sha256"] = to_hex(sha256({reinterpret_cast<const std::uint8_t*>(rest.data()), rest.size()}));
+        try {
+            memory_from_json(all.dump(1) + "\n", "m");
+        } catch (const InputError& error) {
+            EXPECT_EQ(std::string(error.what()).find("json.exception"), std::string::npos) << error.what();
+            return std::string(error.what());
+        }
+        return std::string("taken");
+    };
+    EXPECT_EQ(with("/boot_count", 4), "taken") << "the forger itself does no harm";
+    const std::vector<Json> others{4294967296ULL, -1, 1.5, 1e300, "3", nullptr, true, Json::array(), Json::object()};
+    const std::string job = "/jobs/" + Json::parse(to_json(a_memory()))["jobs"].begin().key();
+    for (const Json& other : others) {
+        for (const char* place : {"/boot_count", "/epoch_held", "/starts_total", "/schema"}) {
+            EXPECT_NE(with(place, other), "taken") << place << other;
+        }
+        EXPECT_NE(with(job, other), "taken") << other;
+        EXPECT_NE(with(job + "/state", other), "taken") << other;
+        EXPECT_NE(with(job + "/file_sha256", other), "taken") << other;
+    }
+    EXPECT_NE(with(job + "/state", 8), "taken");
+    EXPECT_NE(with("/more", 8), "taken");
+    EXPECT_THROW(memory_from_json(std::string(5'000'000, '['), "m"), InputError);
 }
 
 TEST(Store, BelongsToOneCellAtATime) {

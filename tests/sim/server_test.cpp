@@ -6,6 +6,7 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <random>
 #include <thread>
 
@@ -157,6 +158,28 @@ TEST(Server, TheNinthConnectionIsTurnedAwayAndAFreedPlaceIsGivenAgain) {
     sockets.pop_back();
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     EXPECT_TRUE(is_served(RawSocket(cell.sim.port())));
+}
+
+TEST(Server, ThoseTurnedAwayAreCountedInOneLine) {
+    const rig::Folder folder;
+    std::mutex mutex;
+    std::vector<std::string> lines;
+    CellSimOptions options = rig::quick_cell(folder.path);
+    options.on_message = [&](const std::string& line) {
+        const std::lock_guard lock(mutex);
+        if (line.find("turned away") != std::string::npos) lines.push_back(line);
+    };
+    CellSim sim(options);
+    sim.start();
+    std::vector<std::unique_ptr<RawSocket>> inside;
+    for (int i = 0; i < 8; ++i) {
+        inside.push_back(std::make_unique<RawSocket>(sim.port()));
+        ASSERT_TRUE(is_served(*inside.back()));
+    }
+    for (int i = 0; i < 40; ++i) EXPECT_TRUE(RawSocket(sim.port()).is_closed_within(2)) << i;
+    sim.stop();
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_NE(lines[0].find("40 connections turned away, the last from 127.0.0.1"), std::string::npos) << lines[0];
 }
 
 TEST(Server, ManyConnectionsLeaveNoDescriptorBehind) {

@@ -118,7 +118,7 @@ std::vector<PieceJob> write_jobs(const Segmentation& segmentation, const Intake&
         EXPECT_EQ(bytes, job_file(input)) << "same input, same bytes";
         jobs.push_back({piece.name, folder / job_file_name(piece.name)});
         write_file(jobs.back().file, bytes);
-        const ReadJob job = read_job(jobs.back().file);
+        const ReadJob job = parse_job(read_job(jobs.back().file), jobs.back().file.string());
         EXPECT_EQ(job.setup, input.setup);
         EXPECT_EQ(job.scan_sha256, scan.sha256);
         expect_sound(job, jobs.back().file);
@@ -144,9 +144,10 @@ void run_jobs(const std::vector<PieceJob>& jobs, const Cell& cell, const fs::pat
     dispatch.timings.poll_s = 0.02;
     std::uint32_t started = 0;
     for (const PieceJob& job : jobs) {
-        const JobTicket ticket = job_ticket(job.file);
+        const Bytes file = read_job(job.file);
+        const JobTicket ticket = job_ticket(parse_job(file, job.file.string()), job.file.filename().string());
         EXPECT_EQ(ticket.about.piece, job.piece);
-        const JobOutcome outcome = dispatch_job(bus, ticket, job.file, dispatch, {});
+        const JobOutcome outcome = dispatch_job(bus, ticket, file, dispatch, {});
         EXPECT_EQ(outcome.verdict, StartVerdict::started) << job.piece << ": " << outcome.why;
         EXPECT_EQ(outcome.job_state, JobState::ended) << outcome.why;
         EXPECT_EQ(outcome.job_result, JobResult::complete);

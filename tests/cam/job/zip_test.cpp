@@ -6,6 +6,7 @@
 #include <random>
 
 #include "segment/error.h"
+#include "segment/files/zip.h"
 
 namespace qchopper {
 namespace {
@@ -92,11 +93,36 @@ TEST(Zip, ASizeThatIsALieIsRefused) {
     EXPECT_NE(refusal(lying), "taken");
 }
 
+TEST(Zip, OnlyTheFormThatIsWrittenIsTaken) {
+    const Bytes bytes = zip(some_files());
+    const auto refused = [](const Bytes& other) {
+        const std::string why = refusal(other);
+        EXPECT_EQ(why.find("not a whole job file") == std::string::npos, why == "taken") << why;
+        return why != "taken";
+    };
+    Bytes longer = bytes;
+    longer.push_back(0);
+    EXPECT_TRUE(refused(longer)) << "a byte after the end";
+    Bytes before = bytes;
+    before.insert(before.begin(), 0);
+    EXPECT_TRUE(refused(before)) << "a byte before the beginning";
+    Bytes commented = bytes;
+    commented.at(commented.size() - 2) = 2;  // length of the comment, the last field
+    commented.insert(commented.end(), {'h', 'i'});
+    EXPECT_TRUE(refused(commented)) << "a comment";
+    std::vector<ZipEntry> entries;
+    const std::map<std::string, Bytes> files = some_files();
+    for (const auto& [name, content] : files) entries.insert(entries.begin(), zip_entry(name, content));
+    EXPECT_TRUE(refused(zip(entries))) << "not sorted";
+    EXPECT_TRUE(refused(replaced(bytes, std::string("\0\0\x21\0", 4), std::string("\0\0\x22\0", 4)))) << "a date";
+    EXPECT_FALSE(refused(bytes));
+}
+
 TEST(Zip, OtherBytesAreRefused) {
     EXPECT_NE(refusal({}), "taken");
     EXPECT_NE(refusal({'P', 'K'}), "taken");
     EXPECT_NE(refusal(Bytes(100000, 'P')), "taken");
-    EXPECT_EQ(refusal(zip({{"a", {}}})), "taken");
+    EXPECT_EQ(refusal(zip(std::map<std::string, Bytes>{{"a", {}}})), "taken");
 }
 
 TEST(Zip, DamagedBytesNeverEscape) {

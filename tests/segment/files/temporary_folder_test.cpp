@@ -1,103 +1,75 @@
 #include "segment/files/temporary_folder.h"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <optional>
-#include <set>
-#include <string>
 
 namespace qchopper {
 namespace {
 
 namespace fs = std::filesystem;
 
+// Temporary files of the test lie in a folder of its own.
 struct Temporary : ::testing::Test {
-    fs::path folder = fs::path(testing::TempDir()) / ("temporary" + std::to_string(::getpid()));
-    void SetUp() override { fs::create_directories(folder); }
-    void TearDown() override { fs::remove_all(folder); }
-
-    std::set<std::string> names() const {
-        std::set<std::string> all;
-        for (const auto& entry : fs::directory_iterator(folder)) all.insert(entry.path().filename().string());
-        return all;
+    fs::path room = fs::path(testing::TempDir()) / ("temporary" + std::to_string(::getpid()));
+    void SetUp() override {
+        fs::create_directories(room);
+        ASSERT_EQ(::setenv("TMPDIR", room.c_str(), 1), 0);
     }
-    // What a run leaves that is killed while it fills its folder.
-    void leave_one(const std::string& name) const {
-        const pid_t child = ::fork();
-        if (child == 0) {
-            const TemporaryFolder begun(folder / name);
-            std::ofstream(begun.path() / "half a file") << "half";
-            ::kill(::getpid(), SIGKILL);
-        }
-        int status = 0;
-        ASSERT_EQ(::waitpid(child, &status, 0), child);
-        ASSERT_TRUE(WIFSIGNALED(status));
+    void TearDown() override {
+        ::unsetenv("TMPDIR");
+        fs::remove_all(room);
     }
+    std::ptrdiff_t count() const { return std::distance(fs::directory_iterator(room), fs::directory_iterator{}); }
 };
 
-TEST_F(Temporary, AppearsWholeAtItsPlaceOrNotAtAll) {
-    {
-        const TemporaryFolder given_up(folder / "a.qch");
-        EXPECT_TRUE(fs::is_directory(given_up.path()));
-        EXPECT_FALSE(fs::exists(folder / "a.qch"));
+// A program that makes a folder with a file in it and is killed.
+void be_killed() {
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        const TemporaryFolder folder("qchopper-some-");
+        std::ofstream(folder.path() / "file") << "half";
+        ::raise(SIGKILL);
     }
-    EXPECT_TRUE(names().empty());
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFSIGNALED(status));
+}
+
+TEST_F(Temporary, AFolderIsThereAndGoneAfterwards) {
     {
-        TemporaryFolder made(folder / "a.qch");
-        std::ofstream(made.path() / "file") << "whole";
-        made.move_to_its_place();
+        const TemporaryFolder folder("qchopper-some-");
+        EXPECT_TRUE(fs::is_directory(folder.path()));
+        EXPECT_EQ(folder.path().parent_path(), room);
     }
-    EXPECT_EQ(names(), std::set<std::string>{"a.qch"});
-    EXPECT_TRUE(fs::exists(folder / "a.qch" / "file"));
+    EXPECT_EQ(count(), 0);
 }
 
 TEST_F(Temporary, WhatAKilledRunLeftIsRemovedByTheNext) {
-    leave_one("a.qch");
-    EXPECT_EQ(names().size(), 1U);
-    leave_one("b c.qch");
-    EXPECT_EQ(names().size(), 1U) << "its own remains, that of the first is gone";
-    { const TemporaryFolder next(folder / "a.qch"); }
-    EXPECT_TRUE(names().empty());
+    be_killed();
+    be_killed();
+    EXPECT_EQ(count(), 1) << "the second removed what the first had left";
+    const TemporaryFolder next("qchopper-some-");
+    EXPECT_EQ(count(), 1);
+    EXPECT_TRUE(fs::is_empty(next.path()));
 }
 
-TEST_F(Temporary, WhatIsAliveOrLockedOrNotOursStays) {
-    const TemporaryFolder alive(folder / "z.qch");
-    leave_one("a.qch");
-    ASSERT_EQ(names().size(), 2U);
-    const std::string ours = *names().begin();
-    std::string not_ours = ours;  // another checksum
-    not_ours.back() = not_ours.back() == '0' ? '1' : '0';
-    for (const std::string& name :
-         {not_ours, ours.substr(0, ours.find('-')), std::string("a.qch.tmp.1-00000000"), std::string("my.tmp.notes")}) {
-        fs::create_directory(folder / name);
-    }
-    const std::set<std::string> before = names();
-    const int lock = ::open((folder / ours).c_str(), O_RDONLY | O_DIRECTORY);
-    ASSERT_EQ(::flock(lock, LOCK_EX), 0);
-    { const TemporaryFolder next(folder / "b.qch"); }
-    EXPECT_EQ(names(), before) << "somebody holds the lock";
-    ::close(lock);
-    { const TemporaryFolder next(folder / "b.qch"); }
-    std::set<std::string> rest = before;
-    rest.erase(ours);
-    EXPECT_EQ(names(), rest);
-}
-
-TEST_F(Temporary, ALinkWithSuchANameIsNotFollowed) {
-    leave_one("a.qch");
-    const fs::path ours = folder / *names().begin();
-    fs::remove_all(ours);
-    fs::create_directory(folder / "precious");
-    std::ofstream(folder / "precious" / "file") << "precious";
-    fs::create_directory_symlink(folder / "precious", ours);
-    { const TemporaryFolder next(folder / "a.qch"); }
-    EXPECT_TRUE(fs::exists(folder / "precious" / "file"));
+TEST_F(Temporary, AFolderInUseAndAnybodyElsesStay) {
+    const TemporaryFolder mine("qchopper-some-");
+    fs::create_directory(room / "qchopper-other-abcdef");
+    fs::create_directory(room / "elsewhere");
+    std::ofstream(room / "elsewhere" / "kept") << "x";
+    fs::create_directory_symlink(room / "elsewhere", room / "qchopper-some-abcdef");
+    const TemporaryFolder next("qchopper-some-");
+    EXPECT_TRUE(fs::is_directory(mine.path()));
+    EXPECT_TRUE(fs::is_directory(room / "qchopper-other-abcdef"));
+    EXPECT_TRUE(fs::exists(room / "elsewhere" / "kept"));
 }
 
 }  // namespace

@@ -1,0 +1,63 @@
+#include "devices/drop_folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <system_error>
+#include <vector>
+
+#include "devices/codec.h"
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t id_length = 36;
+
+bool is_id(const std::string& text) {
+    return text.size() == id_length && text.find_first_not_of("0123456789abcdef-") == std::string::npos;
+}
+
+// ".C.qjob.<job id>", or that with the ".tmp.4711" of write_file.
+bool is_on_its_way(std::string name) {
+    const std::size_t aside = name.rfind(".tmp.");
+    if (aside != std::string::npos) name.resize(aside);
+    if (name.size() < id_length + 3 || name.front() != '.') return false;
+    const std::size_t dot = name.size() - id_length - 1;
+    return name[dot] == '.' && is_id(name.substr(dot + 1)) && is_file_name(name.substr(1, dot - 1));
+}
+
+void remove_leftovers(const fs::path& folder) {
+    std::error_code error;
+    std::vector<fs::path> old;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        std::error_code unknown;
+        const bool is_file = fs::is_regular_file(entry->symlink_status(unknown));
+        if (is_file && is_on_its_way(entry->path().filename().string())) old.push_back(entry->path());
+    }
+    for (const fs::path& file : old) fs::remove(file, error);
+}
+
+}  // namespace
+
+std::string name_on_its_way(const std::string& file_name, const Uuid& job_id) {
+    return "." + file_name + "." + to_text(job_id);
+}
+
+DropFolderUse::DropFolderUse(const fs::path& folder)
+    : lock_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (lock_ < 0) return;
+    if (::flock(lock_, LOCK_EX | LOCK_NB) == 0) remove_leftovers(folder);
+    // Shared by all who use the folder; the kernel gives it back when a program dies. Another may be removing leftovers
+    // at this moment, but a hand-off waits for nobody without end.
+    for (int attempt = 0; attempt < 100 && ::flock(lock_, LOCK_SH | LOCK_NB) != 0; ++attempt) ::usleep(10'000);
+}
+
+DropFolderUse::~DropFolderUse() {
+    if (lock_ >= 0) ::close(lock_);
+}
+
+}  // namespace qchopper

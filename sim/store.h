@@ -1,0 +1,40 @@
+// The cell's folder: its memory, its lock, the copies of the files that it runs.
+//
+// Copies of finished jobs make room for new ones, the oldest first; the ids of their jobs stay in the memory
+// (tests/sim/store_test.cpp).
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "segment/files/temporary_folder.h"
+#include "sim/machine.h"
+
+namespace qchopper {
+
+class Store {
+ public:
+    // An empty folder: one of its own, gone with the cell. `most_bytes`: of all copies together. Throws InputError.
+    Store(std::filesystem::path folder, std::uint64_t most_bytes);
+    ~Store();
+    Store(const Store&) = delete;
+    Store& operator=(const Store&) = delete;
+
+    std::filesystem::path memory() const { return folder_ / "memory.json"; }
+    std::filesystem::path job(const Uuid& id) const;
+    std::uint32_t free_kib() const;
+    // Removes copies until so many bytes are free or none is left. To be asked while the cell has no job.
+    void make_room(const CellMemory& memory, std::uint64_t bytes) const;
+
+ private:
+    std::uint64_t free_bytes() const;
+
+    std::unique_ptr<TemporaryFolder> own_;
+    std::filesystem::path folder_;
+    std::uint64_t most_bytes_;
+    int lock_ = -1;
+};
+
+}  // namespace qchopper
