@@ -43,7 +43,9 @@ std::optional<TicketFault> wrong_tool_value(const TicketWords& t, const std::vec
         largest.spindle_max_rpm = std::max(largest.spindle_max_rpm, tool.spindle_max_rpm);
         largest.feed_max_mm_per_min = std::max(largest.feed_max_mm_per_min, tool.feed_max_mm_per_min);
     }
-    const auto field = [](const char* name) { return TicketFault{AckResult::ticket_field, address_of(ticket_block, name)}; };
+    const auto field = [](const char* name) {
+        return TicketFault{AckResult::ticket_field, address_of(ticket_block, name)};
+    };
     if (t.tool_diameter_um > std::round(1000 * largest.diameter)) return field("TOOL_DIAMETER");
     if (t.spindle_max_rpm > largest.spindle_max_rpm) return field("SPINDLE_MAX");
     if (t.feed_max_mm_per_min > largest.feed_max_mm_per_min) return field("FEED_MAX");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "segment/error.h"
+
 namespace qchopper {
 namespace {
 
@@ -100,6 +102,21 @@ std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& setting
         kept.push_back(std::move(parent));
     }
     return kept;
+}
+
+std::vector<Segmentation> grow(const BeamState& state, const Segmentation& root, double crumb_volume_mm3) {
+    std::vector<Segmentation> grown;
+    for (const BeamState::Node& node : state.cuts) {
+        Segmentation segmentation = node.after == 0 ? root : grown[node.after - 1];
+        if (!apply(segmentation, node.cut, crumb_volume_mm3)) {
+            throw InputError(InputFault::config,
+                             "cut " + std::to_string(node.cut.number) +
+                                 " of the beam in project.json does not part piece " + node.cut.piece,
+                             "restore the file, or prepare the scan again");
+        }
+        grown.push_back(std::move(segmentation));
+    }
+    return grown;
 }
 
 }  // namespace qchopper

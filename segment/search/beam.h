@@ -30,4 +30,7 @@ Bsp bsp(Segmentation segmentation, std::vector<std::string> passed_over, const O
 // The next round: the cheapest of what ended and of all children, `settings.beam` at most, cheapest first.
 std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& settings, PieceBook& book);
 
+// The segmentation after each of state.cuts, from that of the root. Throws InputError (config) if a cut does not apply.
+std::vector<Segmentation> grow(const BeamState& state, const Segmentation& root, double crumb_volume_mm3);
+
 }  // namespace qchopper

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "segment/error.h"
-
 namespace qchopper {
 
 BeamState::Branch branch_for(BeamState& state, const std::vector<Cut>& cuts,
@@ -25,21 +23,6 @@ std::vector<Cut> cuts_of(const BeamState& state, const BeamState::Branch& branch
     for (std::size_t at = branch.last; at > 0; at = state.cuts[at - 1].after) cuts.push_back(state.cuts[at - 1].cut);
     std::reverse(cuts.begin(), cuts.end());
     return cuts;
-}
-
-std::vector<Segmentation> grow(const BeamState& state, const Segmentation& root, double crumb_volume_mm3) {
-    std::vector<Segmentation> grown;
-    for (const BeamState::Node& node : state.cuts) {
-        Segmentation segmentation = node.after == 0 ? root : grown[node.after - 1];
-        if (!apply(segmentation, node.cut, crumb_volume_mm3)) {
-            throw InputError(InputFault::config,
-                             "cut " + std::to_string(node.cut.number) +
-                                 " of the beam in project.json does not part piece " + node.cut.piece,
-                             "restore the file, or prepare the scan again");
-        }
-        grown.push_back(std::move(segmentation));
-    }
-    return grown;
 }
 
 }  // namespace qchopper

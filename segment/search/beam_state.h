@@ -41,7 +41,4 @@ BeamState::Branch branch_for(BeamState& state, const std::vector<Cut>& cuts,
 // The cuts of a branch after those of the root.
 std::vector<Cut> cuts_of(const BeamState& state, const BeamState::Branch& branch);
 
-// The segmentation after each of state.cuts, from that of the root. Throws InputError (config) if a cut does not apply.
-std::vector<Segmentation> grow(const BeamState& state, const Segmentation& root, double crumb_volume_mm3);
-
 }  // namespace qchopper

@@ -83,7 +83,7 @@ struct Project {
     std::vector<SolidRecord> discarded;  // what they took out, in their order
     std::vector<std::string> warnings;
     std::optional<BeamState> beam;  // of a search that was interrupted and can go on
-    std::vector<WrittenJob> jobs;  // in the order of the pieces; a piece that does not fit has none
+    std::vector<WrittenJob> jobs;   // in the order of the pieces; a piece that does not fit has none
     bool operator==(const Project&) const = default;
 };
 

@@ -124,7 +124,7 @@ Left stop_in_standstill(const std::string& at, double wait_s, bool silent = fals
     CellSim cell(cell_options);
     cell.start();
     FreezingRelay relay(cell.port());
-    const Job job = make_job(folder.path, 100, 100000);
+    const Job job = make_job(100, 100000);
     std::atomic<bool> cancelled = false;
     std::chrono::steady_clock::time_point asked;
     std::thread signal;

@@ -265,7 +265,7 @@ TEST(HandOffOverTcp, ASecondDispatcherIsToldThatTheCellIsTaken) {
 
 TEST(HandOffOverTcp, QueriesOfAnotherClientOvertakeTheAcknowledgementsAndNothingIsDoneTwice) {
     const Rig rig;
-    const Job job = make_job(rig.folder.path, 100, 20);
+    const Job job = make_job(100, 20);
     std::atomic<bool> ends = false;
     std::thread other([&] {
         const auto bus = connect(*rig.cell);
@@ -323,7 +323,7 @@ TEST(HandOffOverTcp, AskedToStopBeforeTheFirstStatusThereIsNone) {
     context.cancelled = &cancelled;
     const auto bus = connect(*rig.cell);
     EXPECT_FALSE(read_first_status(*bus, "cell-1", context).has_value());
-    const Job job = make_job(rig.folder.path);
+    const Job job = make_job();
     const JobOutcome outcome = rig.dispatch(job, quick_dispatch(rig.drop), context);
     EXPECT_EQ(outcome.verdict, StartVerdict::not_started);
     EXPECT_TRUE(outcome.cancelled);
