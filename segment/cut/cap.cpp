@@ -48,7 +48,18 @@ void mark_inside(Delaunay& cdt) {
     }
 }
 
-// Nothing if the triangulation would merge points, split a loop edge, or give another number of triangles.
+// Whether the edge is one of the triangulation, with what is inside on its left only.
+bool is_border(const Delaunay& cdt, Delaunay::Vertex_handle from, Delaunay::Vertex_handle to) {
+    Delaunay::Face_handle left;
+    int i = 0;
+    if (!cdt.is_edge(from, to, left, i)) return false;
+    Delaunay::Face_handle right = left->neighbor(i);
+    if (left->vertex(Delaunay::ccw(i)) != from) std::swap(left, right);
+    return left->info() == 1 && right->info() == 0;
+}
+
+// Nothing if the triangulation would merge points, split a loop edge, give another number of triangles, or turn them
+// against a loop: of a loop with next to no area each set of coordinates rounds to its own sign.
 std::optional<Triangles> delaunay(std::span<const Point2> points, std::span<const Loop* const> loops) {
     std::vector<std::uint32_t> order;
     for (const Loop* loop : loops) order.insert(order.end(), loop->begin(), loop->end());
@@ -81,14 +92,14 @@ std::optional<Triangles> delaunay(std::span<const Point2> points, std::span<cons
     } catch (const Delaunay::Intersection_of_constraints_exception&) {
         return std::nullopt;
     }
+    mark_inside(cdt);
     std::size_t first = 0;
     for (const Loop* loop : loops) {
         for (std::size_t i = 0; i < loop->size(); ++i) {
-            if (!cdt.is_edge(vertex[first + i], vertex[first + (i + 1) % loop->size()])) return std::nullopt;
+            if (!is_border(cdt, vertex[first + i], vertex[first + (i + 1) % loop->size()])) return std::nullopt;
         }
         first += loop->size();
     }
-    mark_inside(cdt);
     Triangles triangles;
     for (const Delaunay::Face_handle face : cdt.finite_face_handles()) {
         if (face->info() != 1) continue;
