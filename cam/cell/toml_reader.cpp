@@ -104,10 +104,11 @@ TomlReader TomlReader::parse(std::string_view text, const std::string& file, Key
         const toml::table* keys = whole.get();
         return {std::make_shared<const Table>(Table{std::move(whole), keys}), file, "", known};
     } catch (const toml::parse_error& error) {
-        throw InputError(
-            InputFault::config,
-            file + ":" + std::to_string(error.source().begin.line) + ": not TOML: " + std::string(error.description()),
-            "docs/cell-file.md shows a whole cell file");
+        throw InputError(InputFault::config,
+                         file + ":" + std::to_string(error.source().begin.line) + ": not TOML from column " +
+                             std::to_string(error.source().begin.column) +
+                             " on: a value, bracket, comma or quotation mark is missing or too many",
+                         "docs/cell-file.md shows a whole cell file");
     }
 }
 

@@ -66,15 +66,11 @@ bool write_nothing(std::string*, const std::string&, const std::vector<unsigned 
     return false;
 }
 
-std::string first_line(const std::string& text) {
-    return text.substr(0, std::min<std::size_t>(text.find('\n'), 200));
-}
-
 tinygltf::Model load(const Bytes& bytes, const GltfPlace& place, std::string json, Beside& beside) {
     tinygltf::TinyGLTF loader;
     loader.SetFsCallbacks({says_exists, unchanged_path, read_beside, write_nothing, &beside});
     tinygltf::Model model;
-    std::string fault;
+    std::string fault;  // words of the library, which are not for the operator
     std::string remark;
     bool is_loaded = false;
     if (json.size() + bytes.size() > std::numeric_limits<std::uint32_t>::max()) {
@@ -89,13 +85,14 @@ tinygltf::Model load(const Bytes& bytes, const GltfPlace& place, std::string jso
             is_loaded = loader.LoadASCIIFromString(&model, &fault, &remark, json.data(),
                                                    static_cast<unsigned>(json.size()), "");
         }
-    } catch (const std::exception& error) {
-        fault = error.what();
+    } catch (const std::exception&) {
         is_loaded = false;
     }
     if (beside.fault) throw *beside.fault;
     if (!is_loaded) {
-        throw InputError(InputFault::mesh, beside.name + " is no sound glTF: " + first_line(fault), export_again);
+        throw InputError(InputFault::mesh,
+                         beside.name + " is no sound glTF: its buffers, views and accessors do not fit together",
+                         export_again);
     }
     return model;
 }

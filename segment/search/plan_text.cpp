@@ -262,7 +262,9 @@ Plan plan_from_text(std::string_view text, const std::string& file) {
         return plan_from(toml::parse(text, file), file);
     } catch (const toml::parse_error& e) {
         throw InputError(InputFault::config,
-                         file + ":" + std::to_string(e.source().begin.line) + ": " + std::string(e.description()),
+                         file + ":" + std::to_string(e.source().begin.line) + ": not TOML from column " +
+                             std::to_string(e.source().begin.column) +
+                             " on: a value, bracket, comma or quotation mark is missing or too many",
                          "mend the plan; docs/plan-file.md explains its keys");
     }
 }
