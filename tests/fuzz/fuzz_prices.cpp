@@ -5,7 +5,7 @@
 #include "segment/files/sha256.h"
 #include "segment/search/price_cache.h"
 #include "tests/fuzz/demand.h"
-#include "tests/fuzz/temporary_folder.h"
+#include "tests/fuzz/memory_folder.h"
 
 namespace qchopper {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 // A file of prices bears the SHA-256 of its piece as name and of itself as end, so it is put where the cache looks for
 // it, once as it is and once with the right end.
 struct Cache {
-    TemporaryFolder folder;
+    MemoryFolder folder;
     PriceStore store = price_cache(folder.path, {}, {});
     Piece piece{"A", std::make_shared<const TriangleMesh>(), {}};
     std::filesystem::path file;

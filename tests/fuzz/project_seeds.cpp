@@ -4,8 +4,8 @@
 #include "segment/search/plan.h"
 #include "segment/search/price_cache.h"
 #include "segment/search/project_json.h"
+#include "tests/fuzz/memory_folder.h"
 #include "tests/fuzz/seeds.h"
-#include "tests/fuzz/temporary_folder.h"
 
 namespace qchopper {
 namespace {
@@ -42,18 +42,29 @@ Project some_project() {
 Plan some_plan() {
     Plan plan;
     plan.scan = {"bone.ply", std::string(64, 'a'), Unit::mm, 1, {1, 2, 3}, 12, 1000, {{0, 0, 0}, {2, 4, 6}}};
-    PlanCut first{1, "A", {}, {{0, 0, 1}, 5.5}, 2.5, {1, 2, 3}, 1000, {600, 400}};
+    PlanCut first;
+    first.piece = "A";
+    first.inside = {1, 2, 3};
+    first.volume_mm3 = 1000;
+    first.number = 1;
+    first.plane = {{0, 0, 1}, 5.5};
+    first.from_centre = 2.5;
+    first.makes_mm3 = {600, 400};
     PlanCut second = first;
     second.number = 2;
     second.piece = "B";
     second.path = {{1, true}};
     plan.cuts = {first, second};
+    PlanDiscard discard;
+    static_cast<PlanPiece&>(discard) = second;
+    discard.after = 2;
+    plan.discards = {discard};
     return plan;
 }
 
 // The file without the SHA-256 of itself at its end, which the fuzzer puts right.
 Bytes some_prices() {
-    const TemporaryFolder folder;
+    const MemoryFolder folder;
     PiecePrices prices;
     prices.candidates = {{{{0, 0, 1}, 2}, 2.5, 0, 1}, {{{0, 1, 0}, 3}, 3, 1, 0}};
     Price price;

@@ -8,8 +8,8 @@
 
 namespace qchopper {
 
-struct TemporaryFolder {
-    TemporaryFolder() {
+struct MemoryFolder {
+    MemoryFolder() {
         // In memory where that is possible: what is written is synced, and a disk does that thirty times a second.
         const std::filesystem::path memory = "/dev/shm";
         std::error_code error;
@@ -19,12 +19,12 @@ struct TemporaryFolder {
         if (mkdtemp(pattern.data()) == nullptr) std::abort();
         path = pattern;
     }
-    ~TemporaryFolder() {
+    ~MemoryFolder() {
         std::error_code ignored;
         std::filesystem::remove_all(path, ignored);
     }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    MemoryFolder(const MemoryFolder&) = delete;
+    MemoryFolder& operator=(const MemoryFolder&) = delete;
     std::filesystem::path path;
 };
 
