@@ -194,7 +194,7 @@ TEST(ReadGltf, FindsItsNumbersBesideItAndNowhereElse) {
               std::string::npos);
     numbers.pop_back();
     write_file(folder.path / "sub" / "a.bin", numbers);
-    EXPECT_NE(refusal([&] { read_mesh(named("sub/a.bin")); }).find("size mismatch"), std::string::npos);
+    EXPECT_NE(refusal([&] { read_mesh(named("sub/a.bin")); }).find("do not fit together"), std::string::npos);
     try {
         read_mesh(named("none.bin"));
         FAIL();
