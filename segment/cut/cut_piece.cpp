@@ -23,6 +23,7 @@ void add_solids(CutPieces& result, const Piece& parent, TriangleMesh half, const
 }  // namespace
 
 std::optional<CutPieces> cut_piece(const Piece& piece, const Plane& plane, std::int32_t cut_number) {
+    assert(piece.mesh);
     std::optional<CutHalves> halves = cut(*piece.mesh, plane, cut_number);
     if (!halves) return std::nullopt;
     CutPieces result;
@@ -34,6 +35,7 @@ std::optional<CutPieces> cut_piece(const Piece& piece, const Plane& plane, std::
     }
     add_solids(result, piece, std::move(halves->above.mesh), {cut_number, plane, true});
     add_solids(result, piece, std::move(halves->below.mesh), {cut_number, plane, false});
+    assert(result.pieces.size() >= 2);  // something on either side
     return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <cassert>
 #include <limits>
 
 #include "segment/mesh/measure.h"
@@ -34,6 +35,7 @@ void only_exits(const RTCFilterFunctionNArguments* args) {
 }  // namespace
 
 RayTree::RayTree(const TriangleMesh& mesh) : tree_(std::make_unique<Tree>()) {
+    assert(is_consistent(mesh));
     tree_->device = rtcNewDevice(nullptr);
     tree_->scene = rtcNewScene(tree_->device);
     // The low-quality tree pays for a few directions: 0.29 s against 1.1 s at 1.9 million faces, rays a fifth slower.
@@ -68,6 +70,7 @@ RayTree& RayTree::operator=(RayTree&&) noexcept = default;
 namespace {
 
 std::optional<RayHit> trace(RTCScene scene, Vec3 centre, Vec3 origin, Vec3 direction, RTCFilterFunctionN filter) {
+    assert(norm(direction) > 0);
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.filter = filter;

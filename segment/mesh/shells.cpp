@@ -1,6 +1,7 @@
 #include "segment/mesh/shells.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -142,6 +143,7 @@ Shells shells(const TriangleMesh& mesh) {
         box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y), std::min(box.min.z, p.z)};
         box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y), std::max(box.max.z, p.z)};
     };
+    assert(is_consistent(mesh));
     DisjointSets sets(mesh.points.size());
     for (const Triangle& t : mesh.triangles) {
         sets.unite(t[0], t[1]);
@@ -191,10 +193,13 @@ Shells shells(const TriangleMesh& mesh) {
         end_run();
         result.block.push_back(block);
     }
+    assert(result.box.size() == result.count());
+    assert(result.block.size() == (mesh.triangles.size() + triangles_per_block - 1) / triangles_per_block);
     return result;
 }
 
 std::vector<Tether> tethers(const TriangleMesh& mesh, const Shells& shells, Vec3 axis) {
+    assert(shells.shell_of.size() == mesh.triangles.size() && norm(axis) > 0);
     std::vector<Tether> result;
     const bool has_cavity = std::any_of(shells.volume.begin(), shells.volume.end(), [](double v) { return v < 0; });
     if (!has_cavity || shells.count() == 1) return result;
@@ -213,6 +218,7 @@ std::vector<Tether> tethers(const TriangleMesh& mesh, const Shells& shells, Vec3
     for (const Search& s : all) {
         // The line must leave material where it meets the surface; else the shell is inside out, not a cavity.
         if (s.is_hit && dot(area_vector(mesh, s.tether.triangle), frame.along) > 0) result.push_back(s.tether);
+        assert(!s.is_hit || shells.shell_of[s.tether.triangle] != s.tether.cavity);
     }
     return result;
 }
@@ -224,16 +230,19 @@ Solids solids(const TriangleMesh& mesh, const Shells& shells, Vec3 axis) {
     const std::vector<Tether> ties = tethers(mesh, shells, axis);
     for (const Tether& tie : ties) sets.unite(tie.cavity, shells.shell_of[tie.triangle]);
     const auto cavities = std::count_if(shells.volume.begin(), shells.volume.end(), [](double v) { return v < 0; });
+    assert(ties.size() <= static_cast<std::size_t>(cavities));  // one for each cavity at most
     result.loose_cavities = static_cast<std::size_t>(cavities) - ties.size();
     for (std::uint32_t shell = 0; shell < shells.count(); ++shell) {
         std::uint32_t& solid = result.solid_of_shell[sets.root(shell)];
         if (solid == none) solid = static_cast<std::uint32_t>(result.count++);
         result.solid_of_shell[shell] = solid;
     }
+    assert(result.count <= shells.count());
     return result;
 }
 
 TriangleMesh extract(const TriangleMesh& mesh, const std::vector<std::uint32_t>& group_of, std::uint32_t group) {
+    assert(group_of.size() == mesh.triangles.size());
     TriangleMesh part;
     std::vector<std::uint32_t> number(mesh.points.size(), none);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -272,6 +281,8 @@ std::vector<TriangleMesh> split_solids(const TriangleMesh& mesh, Vec3 axis) {
         part.triangles.push_back(triangle);
         if (!mesh.cap_of.empty()) part.cap_of.push_back(mesh.cap_of[t]);
     }
+    assert(std::all_of(parts.begin(), parts.end(), is_consistent));
+    assert(std::none_of(parts.begin(), parts.end(), [](const TriangleMesh& p) { return p.triangles.empty(); }));
     return parts;
 }
 

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <cassert>
 #include <mutex>
 
 #include "segment/score/sweep.h"
@@ -42,6 +43,7 @@ std::vector<std::optional<Price>> price_all(const Piece& piece, std::span<const 
         std::vector<double> offsets;
         for (std::size_t i = first; i < last; ++i) offsets.push_back(candidates[i].plane.offset);
         auto swept = sweep(prepared, candidates[first].plane.normal, offsets, objectives);
+        assert(swept.size() == last - first);
         std::move(swept.begin(), swept.end(), prices.begin() + static_cast<std::ptrdiff_t>(first));
         const std::lock_guard lock(reporting);
         context.progress("planes priced", done += last - first, candidates.size());
