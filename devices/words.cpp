@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cassert>
 
 namespace qchopper {
 
@@ -50,6 +51,7 @@ WordWriter& WordWriter::bytes(std::span<const std::uint8_t> data) {
 
 WordWriter& WordWriter::text(std::string_view characters, std::size_t registers) {
     const std::string_view fitting = cut_utf8(characters, 2 * registers);
+    assert(fitting.size() <= 2 * registers);
     std::vector<std::uint8_t> padded(2 * registers, 0);
     std::copy(fitting.begin(), fitting.end(), padded.begin());
     return bytes(padded);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cassert>
 
 #include "sim/machine_parts.h"
 #include "sim/ticket_check.h"
@@ -283,6 +284,7 @@ Answer start_job(CellState& cell, const Command& command, CellTime now, const Ce
     record.start_time_ms = now.unix_ms;
     record.file_sha256 = job.stored_sha256;
     ++next.starts_total;
+    assert(next.jobs.size() == cell.memory.jobs.size() + 1 && record.starts == 1);
     if (!save(next, hooks)) return {AckResult::store_io, 0};  // first remembered, then moved
     cell.memory = std::move(next);
     job.token = 0;
@@ -344,6 +346,7 @@ Answer judge(CellState& cell, const Command& command, CellTime now, const CellHo
 void remember(CellState& cell, const Acknowledgement& ack) {
     std::erase_if(cell.senders, [&](const Acknowledgement& old) { return old.owner == ack.owner; });
     cell.senders.push_back(ack);
+    assert(cell.senders.size() <= most_senders + 1);
     if (cell.senders.size() > most_senders) {
         // Never that of the lease holder: it may still have to be repeated.
         const bool first_holds = cell.lease && cell.senders.front().owner == cell.lease->owner;

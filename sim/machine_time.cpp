@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "sim/machine_parts.h"
@@ -16,6 +17,7 @@ double run_so_far_s(const CellState& cell, CellTime now) {
 
 void enter_state(CellState& cell, PackState to, std::int64_t at_ms) {
     if (cell.state == PackState::execute) cell.job.run_s = run_so_far_s(cell, {at_ms, 0});
+    assert(to != PackState::undefined);
     cell.state_before = cell.state;
     cell.state = to;
     cell.state_since_ms = at_ms;
@@ -27,7 +29,8 @@ void enter_state(CellState& cell, PackState to, std::int64_t at_ms) {
 void end_job(CellState& cell, JobState state, JobResult result, CellTime now, const CellHooks& hooks) {
     cell.job.state = state;
     cell.job.result = result;
-    cell.consent_present = false;  // the block is used: the next start needs a new look
+    cell.consent_present = false;                               // the block is used: the next start needs a new look
+    assert(cell.memory.jobs.contains(cell.job.ticket.job_id));  // START remembered it
     JobRecord& record = cell.memory.jobs[cell.job.ticket.job_id];
     record.state = state;
     record.result = result;
@@ -43,6 +46,7 @@ void settle(CellState& cell, AckResult result, std::uint32_t detail) {
         ack.detail = detail;
     };
     if (!cell.pending) return;
+    assert(result != AckResult::pending);
     put(cell.ack);
     for (Acknowledgement& ack : cell.senders) put(ack);
     if (cell.pending->waits == Pending::Waits::rehearsal) cell.mode = UnitMode::production;

@@ -1,5 +1,6 @@
 #include "cam/job/json.h"
 
+#include <cassert>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -90,6 +91,7 @@ Box box(const Json& object, const std::string& key) {
 }
 
 Json from_vector(Vec3 v) {
+    assert(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z));  // JSON has no other numbers
     return Json::array({v.x, v.y, v.z});
 }
 

@@ -24,6 +24,7 @@ std::string size_words(Vec3 size) {
 }
 
 void add_piece_margins(const Setup& setup, const Cell& cell, std::vector<Margin>& margins) {
+    assert(setup.stock < cell.stock.size());
     const Vec3 piece = setup.box.size();
     const Vec3 block = setup.block;
     const std::string name = "block " + cell.stock[setup.stock].name + " (" + size_words(block) + ")";

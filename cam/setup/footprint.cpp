@@ -4,6 +4,7 @@
 #include "cam/setup/footprint.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -51,6 +52,7 @@ Rectangle spanned(FootPoint along, double length, double width) {
 }
 
 Rectangle turn_around(const std::vector<FootPoint>& hull) {
+    assert(hull.size() >= 3);
     Rectangle best;
     double least = std::numeric_limits<double>::infinity();
     std::size_t right = 0;
@@ -96,6 +98,7 @@ Rectangle smallest_rectangle(std::vector<FootPoint> points) {
 }
 
 std::array<Vec3, 2> frame_under(Vec3 up) {
+    assert(norm(up) > 0);
     // The axis that is least along `up` is the safest to build on.
     const double x = std::abs(up.x);
     const double y = std::abs(up.y);

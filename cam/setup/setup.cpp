@@ -42,6 +42,7 @@ std::vector<Candidate> caps_owned(const Piece& piece) {
 
 // Ties within a tolerance are no order, so the best is found first and the lowest cut among its equals second.
 Candidate best_cap(const std::vector<Candidate>& candidates) {
+    assert(!candidates.empty());
     Candidate best = candidates.front();
     for (const Candidate& other : candidates) {
         const bool less = other.facing.undercut() < best.facing.undercut();
@@ -85,6 +86,7 @@ void place(const TriangleMesh& mesh, Setup& setup) {
     const Vec3 middle = turned.centre();
     setup.piece_in_setup.shift = -Vec3{middle.x, middle.y, turned.min.z};
     setup.box = bounds(apply(setup.piece_in_setup, mesh));
+    assert(std::abs(setup.box.min.z) < 1e-6);  // set down
 }
 
 double shortfall(Vec3 needed, Vec3 block) {
@@ -114,6 +116,7 @@ void choose_stock(const Cell& cell, Setup& setup) {
         }
     }
     setup.stock_holds = least_lack == 0;
+    assert(setup.stock < cell.stock.size());
 }
 
 void describe(const Candidate& chosen, Setup& setup) {

@@ -1,5 +1,6 @@
 #include "cam/setup/undercut.h"
 
+#include <cassert>
 #include <cmath>
 #include <vector>
 
@@ -15,6 +16,7 @@ constexpr double wall = 1e-6;
 }  // namespace
 
 Facing facing(const TriangleMesh& mesh, Vec3 up, std::optional<std::int32_t> base) {
+    assert(is_consistent(mesh) && norm(up) > 0);
     Facing sums;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const double projected = dot(area_vector(mesh, t), up);
@@ -54,6 +56,7 @@ double hidden_share(const TriangleMesh& mesh, const RayTree& rays, Vec3 up, std:
         all += area;
         if (hidden[t] != 0) unseen += area;
     }
+    assert(unseen <= all);
     return all > 0 ? unseen / all : 0;
 }
 

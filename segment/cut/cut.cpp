@@ -1,6 +1,7 @@
 #include "segment/cut/cut.h"
 
 #include <algorithm>
+#include <cassert>
 #include <string>
 
 #include "segment/cut/cap.h"
@@ -46,6 +47,7 @@ std::vector<Straddler> find_straddlers(const TriangleMesh& mesh, const std::vect
         const bool lone_is_above = above == 1;
         std::uint32_t lone = 0;
         while ((is_above[v[lone]] != 0) != lone_is_above) ++lone;
+        assert(lone < 3);
         straddlers.push_back({t, lone, lone_is_above});
     }
     return straddlers;
@@ -104,6 +106,7 @@ std::vector<Loop> trace_loops(const Section& section) {
             done[s] = true;
             loop.push_back(section.straddlers[s].exit_point);
         }
+        assert(!loop.empty());
         std::reverse(loop.begin(), loop.end());
         loops.push_back(std::move(loop));
     }
@@ -111,6 +114,7 @@ std::vector<Loop> trace_loops(const Section& section) {
 }
 
 std::vector<Point2> flattened(const std::vector<Vec3>& points, Vec3 normal, Vec3 origin) {
+    assert(!points.empty());
     const auto [u, v] = frame_across(normal);
     std::vector<Point2> flat;
     flat.reserve(points.size());
@@ -222,6 +226,7 @@ std::optional<CappedSection> capped_section(const TriangleMesh& mesh, const Plan
 }  // namespace
 
 std::optional<CutHalves> cut(const TriangleMesh& mesh, const Plane& plane, std::int32_t cut_number) {
+    assert(is_consistent(mesh) && cut_number != no_cap);
     const std::vector<std::uint8_t> is_above = points_above(mesh, plane);
     const std::optional<CappedSection> capped = capped_section(mesh, plane, is_above);
     if (!capped) return std::nullopt;
@@ -242,8 +247,13 @@ std::optional<CutHalves> cut(const TriangleMesh& mesh, const Plane& plane, std::
             (is_above[mesh.triangles[t][0]] != 0 ? above : below).whole(t);
         }
     }
+    assert(next_straddler == section.straddlers.size());
     result.above = above.finish(section, capped->caps, true, cut_number);
     result.below = below.finish(section, capped->caps, false, cut_number);
+    assert(is_consistent(result.above.mesh) && is_consistent(result.below.mesh));
+    assert(result.above.parent.size() == result.above.mesh.triangles.size());
+    assert(result.below.parent.size() == result.below.mesh.triangles.size());
+    assert(result.above.mesh.triangles.size() - result.above.first_cap_triangle == capped->caps.triangles.size());
     return result;
 }
 

@@ -24,6 +24,7 @@ void add_solids(CutPieces& result, const Piece& parent, const TriangleMesh& half
 }  // namespace
 
 std::optional<CutPieces> cut_piece(const Piece& piece, const Plane& plane, std::int32_t cut_number) {
+    assert(piece.mesh);
     const std::optional<CutHalves> halves = cut(*piece.mesh, plane, cut_number);
     if (!halves) return std::nullopt;
     CutPieces result;
@@ -36,6 +37,7 @@ std::optional<CutPieces> cut_piece(const Piece& piece, const Plane& plane, std::
     const SolidsOfHalves solids = solids_of_halves(*piece.mesh, plane, *halves);
     add_solids(result, piece, halves->above.mesh, solids.above, {cut_number, plane, true});
     add_solids(result, piece, halves->below.mesh, solids.below, {cut_number, plane, false});
+    assert(result.pieces.size() >= 2);  // something on either side
     return result;
 }
 

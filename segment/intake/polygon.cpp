@@ -1,5 +1,6 @@
 #include "segment/intake/polygon.h"
 
+#include <cassert>
 #include <cstddef>
 
 namespace qchopper {
@@ -81,6 +82,7 @@ class Ring {
 
 void split_polygon(const std::vector<Vec3>& points, std::span<const std::uint32_t> corners,
                    std::vector<Triangle>& triangles) {
+    assert(corners.size() >= 3);
     Ring ring(points, corners);
     std::size_t tip = 1;  // of a convex polygon: the fan about the first corner
     while (ring.size() > 3) {

@@ -1,6 +1,7 @@
 #include "segment/intake/write_ply.h"
 
 #include <bit>
+#include <cassert>
 #include <string>
 
 namespace qchopper {
@@ -24,6 +25,7 @@ std::string header(const TriangleMesh& mesh) {
 }  // namespace
 
 Bytes to_ply(const TriangleMesh& mesh) {
+    assert(is_consistent(mesh));
     const std::string text = header(mesh);
     Bytes bytes;
     bytes.reserve(text.size() + 24 * mesh.points.size() + (mesh.cap_of.empty() ? 13 : 17) * mesh.triangles.size());

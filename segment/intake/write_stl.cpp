@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <string_view>
 
 namespace qchopper {
@@ -22,6 +23,7 @@ void put_vector(std::uint8_t* at, Vec3 v) {
 
 Bytes to_stl(const TriangleMesh& mesh) {
     constexpr std::string_view header = "qchopper, binary STL, millimetres";
+    assert(is_consistent(mesh));
     Bytes bytes(84 + 50 * mesh.triangles.size());
     std::copy(header.begin(), header.end(), bytes.begin());
     put_u32(&bytes[80], static_cast<std::uint32_t>(mesh.triangles.size()));
@@ -32,6 +34,7 @@ Bytes to_stl(const TriangleMesh& mesh) {
             put_vector(at + 12 + 12 * corner, mesh.points[mesh.triangles[t][corner]]);
         }
     }
+    assert(at == bytes.data() + bytes.size());
     return bytes;
 }
 

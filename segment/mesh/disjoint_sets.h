@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -23,11 +24,13 @@ struct DisjointSets {
     }
 
     std::uint32_t root(std::uint32_t a) {
+        assert(a < parent.size());
         while (parent[a] != a) a = parent[a] = parent[parent[a]];
         return a;
     }
 
     void unite(std::uint32_t a, std::uint32_t b) {
+        assert(a < parent.size() && b < parent.size());
         if (parent[a] == parent[b]) return;  // most often, and without a walk
         a = root(a);
         b = root(b);

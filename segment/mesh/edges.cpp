@@ -60,6 +60,7 @@ std::vector<std::uint64_t> by_smaller_end(const TriangleMesh& mesh, std::vector<
 
 Edges edges(const TriangleMesh& mesh) {
     assert(mesh.triangles.size() < (std::size_t{1} << 31) / 3);
+    assert(is_consistent(mesh));
     std::vector<std::uint32_t> first;
     std::vector<std::uint64_t> sorted = by_smaller_end(mesh, first);
     Edges result;
@@ -73,6 +74,7 @@ Edges edges(const TriangleMesh& mesh) {
             while (next != end && far_end(*next) == far_end(*group)) ++next;
             const auto size = next - group;
             if (size == 2 && run_opposite(group[0], group[1]) && far_end(*group) != v) {
+                assert(result.twin[half_edge(group[0])] == no_twin && result.twin[half_edge(group[1])] == no_twin);
                 result.twin[half_edge(group[0])] = half_edge(group[1]);
                 result.twin[half_edge(group[1])] = half_edge(group[0]);
             } else {
@@ -82,6 +84,8 @@ Edges edges(const TriangleMesh& mesh) {
             group = next;
         }
     }
+    assert((faults.open + faults.inconsistent + faults.non_manifold == 0) ==
+           (std::find(result.twin.begin(), result.twin.end(), no_twin) == result.twin.end()));
     return result;
 }
 

@@ -2,6 +2,7 @@
 
 #pragma once
 
+#include <cassert>
 #include <cmath>
 
 #include "segment/mesh/vec3.h"
@@ -21,6 +22,7 @@ inline PlaneFrame frame_across(Vec3 normal) {
                       : size.y <= size.z                   ? Vec3{0, 1, 0}
                                                            : Vec3{0, 0, 1};
     const Vec3 u = normalized(cross(axis, normal));
+    assert(std::abs(dot(u, normal)) <= 1e-9 * norm(normal));
     return {u, cross(normal, u)};
 }
 

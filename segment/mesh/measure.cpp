@@ -1,6 +1,7 @@
 #include "segment/mesh/measure.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace qchopper {
 
@@ -13,10 +14,12 @@ Box bounds(const TriangleMesh& mesh) {
             box.max[axis] = std::max(box.max[axis], p[axis]);
         }
     }
+    assert(box.min.x <= box.max.x && box.min.y <= box.max.y && box.min.z <= box.max.z);
     return box;
 }
 
 double volume_mm3(const TriangleMesh& mesh) {
+    assert(is_consistent(mesh));
     if (mesh.points.empty()) return 0;
     const Vec3 origin = mesh.points.front();  // near the mesh: far from the world's origin the terms would cancel
     double six_volumes = 0;

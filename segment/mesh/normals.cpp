@@ -1,10 +1,12 @@
 #include "segment/mesh/normals.h"
 
+#include <cassert>
 #include <cmath>
 
 namespace qchopper {
 
 std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
+    assert(is_consistent(mesh));
     std::vector<Vec3> normals(mesh.points.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const Triangle& v = mesh.triangles[t];

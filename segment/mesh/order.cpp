@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -69,7 +70,11 @@ std::vector<std::uint32_t> along_curve(const TriangleMesh& mesh) {
 std::vector<std::uint32_t> sorted_by(const std::vector<std::uint32_t>& numbers, std::size_t end,
                                      const std::vector<std::uint32_t>& things) {
     std::vector<std::uint32_t> first(end + 1, 0);
-    for (const std::uint32_t n : numbers) ++first[n + 1];
+    assert(numbers.size() == things.size());
+    for (const std::uint32_t n : numbers) {
+        assert(n < end);
+        ++first[n + 1];
+    }
     for (std::size_t n = 1; n <= end; ++n) first[n] += first[n - 1];
     auto result = huge<std::uint32_t>(things.size());
     for (const std::uint32_t thing : things) result[first[numbers[thing]]++] = thing;
@@ -105,6 +110,7 @@ std::vector<std::uint32_t> divide(const TriangleMesh& mesh, const std::vector<st
 }  // namespace
 
 TriangleMesh in_memory_order(const TriangleMesh& mesh) {
+    assert(is_consistent(mesh));
     const std::vector<std::uint32_t> place = along_curve(mesh);
     auto least = huge<std::uint32_t>(mesh.triangles.size());
     std::vector<std::uint32_t> order(mesh.triangles.size());
@@ -135,6 +141,8 @@ TriangleMesh in_memory_order(const TriangleMesh& mesh) {
         if (!mesh.cap_of.empty()) result.cap_of.push_back(mesh.cap_of[t]);
     }
     for (std::uint32_t v = 0; v < number.size(); ++v) numbered(v);
+    assert(result.points.size() == mesh.points.size() && result.triangles.size() == mesh.triangles.size());
+    assert(is_consistent(result));
     return result;
 }
 

@@ -7,6 +7,7 @@
 #include <CGAL/optimal_bounding_box.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <limits>
 #include <numbers>
@@ -124,6 +125,7 @@ OrientedBox oriented_box(std::span<const Vec3> points) {
     box.axis[1] = with_first_positive(axis[static_cast<std::size_t>(order[1])]);
     box.axis[2] = normalized(cross(box.axis[0], box.axis[1]));
     take_extents(box, points);
+    assert(box.min.x <= box.max.x && box.min.y <= box.max.y && box.min.z <= box.max.z);
     return box;
 }
 

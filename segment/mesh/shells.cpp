@@ -1,6 +1,7 @@
 #include "segment/mesh/shells.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -174,6 +175,7 @@ std::vector<Search> look_along(const TriangleMesh& mesh, const Shells& shells, c
 }  // namespace
 
 Shells shells(const TriangleMesh& mesh) {
+    assert(is_consistent(mesh));
     DisjointSets sets(mesh.points.size());
     for (const Triangle& t : mesh.triangles) {
         sets.unite(t[0], t[1]);
@@ -223,10 +225,13 @@ Shells shells(const TriangleMesh& mesh) {
         end_run();
         result.block.push_back(block);
     }
+    assert(result.box.size() == result.count());
+    assert(result.block.size() == (mesh.triangles.size() + triangles_per_block - 1) / triangles_per_block);
     return result;
 }
 
 std::vector<Tether> tethers(const TriangleMesh& mesh, const Shells& shells, Vec3 axis) {
+    assert(shells.shell_of.size() == mesh.triangles.size() && norm(axis) > 0);
     std::vector<Tether> result;
     if (shells.count() < 2) return result;
     std::vector<bool> is_asked(shells.count());
@@ -248,6 +253,7 @@ std::vector<Tether> tethers(const TriangleMesh& mesh, const Shells& shells, Vec3
                 if (number == 0) doubtful.push_back(s.tether);
                 continue;
             }
+            assert(shells.shell_of[s.tether.triangle] != s.tether.cavity);
             result.push_back(s.tether);
             is_asked[s.tether.cavity] = false;
         }
@@ -263,7 +269,10 @@ Solids solids(const Shells& shells, std::span<const std::array<std::uint32_t, 2>
     Solids result;
     result.solid_of_shell.assign(shells.count(), none);
     DisjointSets sets(shells.count());
-    for (const auto& [a, b] : ties) sets.unite(a, b);
+    for (const auto& [a, b] : ties) {
+        assert(a < shells.count() && b < shells.count());
+        sets.unite(a, b);
+    }
     for (std::uint32_t shell = 0; shell < shells.count(); ++shell) {
         std::uint32_t& solid = result.solid_of_shell[sets.root(shell)];
         if (solid == none) solid = static_cast<std::uint32_t>(result.count++);
@@ -283,10 +292,12 @@ Solids solids(const TriangleMesh& mesh, const Shells& shells, Vec3 axis) {
     for (std::size_t shell = 0; shell < shells.count(); ++shell) {
         if (shells.volume[shell] < 0 && !is_tied[shell]) ++result.loose_cavities;
     }
+    assert(result.count <= shells.count());
     return result;
 }
 
 TriangleMesh extract(const TriangleMesh& mesh, const std::vector<std::uint32_t>& group_of, std::uint32_t group) {
+    assert(group_of.size() == mesh.triangles.size());
     TriangleMesh part;
     std::vector<std::uint32_t> number(mesh.points.size(), none);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -328,6 +339,8 @@ std::vector<TriangleMesh> split_solids(const TriangleMesh& mesh, const Shells& a
         part.triangles.push_back(triangle);
         if (!mesh.cap_of.empty()) part.cap_of.push_back(mesh.cap_of[t]);
     }
+    assert(std::all_of(parts.begin(), parts.end(), is_consistent));
+    assert(std::none_of(parts.begin(), parts.end(), [](const TriangleMesh& p) { return p.triangles.empty(); }));
     return parts;
 }
 

@@ -5,7 +5,9 @@
 
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -26,14 +28,23 @@ struct TriangleMesh {
     bool operator==(const TriangleMesh&) const = default;
 };
 
+// Does every corner name a point, and every triangle have its cap if there are caps? Always so; for asserts.
+inline bool is_consistent(const TriangleMesh& mesh) {
+    const auto names_points = [&](const Triangle& t) { return std::max({t[0], t[1], t[2]}) < mesh.points.size(); };
+    return (mesh.cap_of.empty() || mesh.cap_of.size() == mesh.triangles.size()) &&
+           std::all_of(mesh.triangles.begin(), mesh.triangles.end(), names_points);
+}
+
 // Half the cross product of two edges: the direction is the outward normal, the length the area in mm2.
 inline Vec3 area_vector(const TriangleMesh& mesh, std::size_t triangle) {
+    assert(triangle < mesh.triangles.size());
     const Triangle& t = mesh.triangles[triangle];
     const Vec3 a = mesh.points[t[0]];
     return 0.5 * cross(mesh.points[t[1]] - a, mesh.points[t[2]] - a);
 }
 
 inline std::int32_t cap_of(const TriangleMesh& mesh, std::size_t triangle) {
+    assert(mesh.cap_of.empty() || triangle < mesh.cap_of.size());
     return mesh.cap_of.empty() ? no_cap : mesh.cap_of[triangle];
 }
 

@@ -2,6 +2,7 @@
 
 #pragma once
 
+#include <cassert>
 #include <cmath>
 
 namespace qchopper {
@@ -11,8 +12,14 @@ struct Vec3 {
     double y = 0;
     double z = 0;
     bool operator==(const Vec3&) const = default;
-    double operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
-    double& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+    double operator[](int axis) const {
+        assert(axis >= 0 && axis < 3);
+        return axis == 0 ? x : axis == 1 ? y : z;
+    }
+    double& operator[](int axis) {
+        assert(axis >= 0 && axis < 3);
+        return axis == 0 ? x : axis == 1 ? y : z;
+    }
 };
 
 inline Vec3 operator+(Vec3 a, Vec3 b) {

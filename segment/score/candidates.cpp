@@ -1,5 +1,7 @@
 #include "segment/score/candidates.h"
 
+#include <cassert>
+
 #include "segment/cut/nudge.h"
 #include "segment/mesh/oriented_box.h"
 
@@ -11,6 +13,7 @@ std::vector<Candidate> candidates_along(const Piece& piece, Vec3 normal, int nor
     std::vector<double> wanted;
     for (int k = 1; k <= count; ++k) wanted.push_back(range.low + range.size() * k / (count + 1));
     const std::vector<std::optional<Nudged>> nudged = nudge(piece, n, wanted);
+    assert(nudged.size() == wanted.size());
     std::vector<Candidate> candidates;
     for (std::size_t k = 0; k < wanted.size(); ++k) {
         if (!nudged[k]) continue;

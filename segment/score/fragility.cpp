@@ -1,5 +1,6 @@
 #include "segment/score/fragility.h"
 
+#include <cassert>
 #include <cmath>
 
 #include "segment/mesh/normals.h"
@@ -8,6 +9,7 @@
 
 namespace qchopper {
 double thinness(const Piece& piece, const Plane& plane, double cap_area_mm2, double distance) {
+    assert(cap_area_mm2 > 0 && distance >= 0);
     const TriangleMesh& mesh = *piece.mesh;
     std::vector<WayQuery> queries;
     std::vector<double> weight;  // per query, what it adds if its way to the plane is free

@@ -1,6 +1,7 @@
 #include "segment/score/fragility_sweep.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "segment/parallel.h"
@@ -85,6 +86,7 @@ std::vector<double> sweep_thinness(const PreparedPiece& prepared, Vec3 normal, s
         for (const ThinQuery& q : some) queries.push_back(q.way);
     }
     const std::vector<double> ways = straight_ways(mesh, normal, queries, distance);
+    assert(ways.size() == queries.size());
     std::vector<double> sums(offsets.size(), 0.0);
     std::size_t next = 0;
     for (const auto& some : by_chunk) {
@@ -103,6 +105,7 @@ std::vector<double> sweep_thinness(const PreparedPiece& prepared, Vec3 normal, s
 std::vector<double> sweep_thesis_fragility(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
                                            double distance) {
     const TriangleMesh& mesh = *prepared.piece->mesh;
+    assert(prepared.vertex_normals.size() == mesh.points.size());
     return sum_chunks(mesh.points.size(), offsets.size(), [&](std::size_t begin, std::size_t end, auto sums) {
         for (std::size_t v = begin; v < end; ++v) {
             const double along = std::abs(dot(prepared.vertex_normals[v], normal));

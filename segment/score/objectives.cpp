@@ -1,6 +1,7 @@
 #include "segment/score/objectives.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace qchopper {
 
@@ -36,6 +37,7 @@ std::optional<Terms> terms(const Price& price, std::span<const PieceShare> other
         undercut_sum += piece.undercut;
     }
     Terms result;
+    assert(fewest <= most);
     const double ratio = static_cast<double>(most) / static_cast<double>(fewest);
     result.face_ratio = std::max(ratio - objectives.face_ratio_threshold, 0.0);
     result.fragility = price.fragility;

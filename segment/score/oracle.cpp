@@ -1,6 +1,7 @@
 #include "segment/score/oracle.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <map>
 
@@ -34,6 +35,7 @@ std::vector<Vec3> triangle_normals(const TriangleMesh& mesh, const std::vector<B
 std::vector<SolidPrice> measure_solids(const TriangleMesh& mesh, const std::vector<Vec3>& normals,
                                        const std::vector<std::uint32_t>& solid_of, std::size_t count,
                                        const std::vector<Bound>& bounds) {
+    assert(normals.size() == mesh.triangles.size() && solid_of.size() == mesh.triangles.size());
     std::vector<SolidPrice> solids(count);
     std::vector<std::map<std::int32_t, BaseShare>> bases(count);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {  // which caps does each solid still own?
@@ -52,6 +54,7 @@ std::vector<SolidPrice> measure_solids(const TriangleMesh& mesh, const std::vect
             if (cap_of(mesh, t) == cut_number) continue;
             const auto bound =
                 std::find_if(bounds.begin(), bounds.end(), [&, n = cut_number](const Bound& b) { return b.cut == n; });
+            assert(bound != bounds.end());
             const Vec3 up = bound->up();
             const double by_area = dot(area, up);
             const double by_count = dot(normals[t], up);

@@ -1,6 +1,7 @@
 #include "segment/score/patches.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -52,11 +53,14 @@ void divide(Patches& patches, const TriangleMesh& mesh) {
 
 Patches patches(const TriangleMesh& mesh, std::span<const TriangleSums> sums, std::span<const Vec3> unit) {
     const auto look = [&](std::uint32_t t) { return unit.empty() ? sums[t].area : unit[t]; };
+    assert(sums.size() == mesh.triangles.size() && (unit.empty() || unit.size() == sums.size()));
     Patches result;
     divide(result, mesh);
+    assert(result.neighbour.size() == mesh.points.size());
     for (std::size_t p = 0; p < result.count(); ++p) {
         Patch& patch = result.patch[p];
         const std::uint32_t end = result.patch[p + 1].first_triangle;
+        assert(patch.first_triangle < end && patch.first_point < result.patch[p + 1].first_point);
         for (std::uint32_t t = patch.first_triangle; t < end; ++t) {
             patch.look = patch.look + look(t);
             patch.volume += sums[t].volume;

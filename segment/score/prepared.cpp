@@ -1,6 +1,7 @@
 #include "segment/score/prepared.h"
 
 #include <algorithm>
+#include <cassert>
 #include <map>
 
 #include "segment/files/huge_pages.h"
@@ -59,6 +60,7 @@ std::vector<double> base_sums(const PreparedPiece& p) {
 
 void add_to_bases(std::span<double> sums, const PreparedPiece& prepared, std::uint32_t triangle, double share,
                   double faces) {
+    assert(sums.size() == 3 * prepared.up.size());
     const Vec3 look = prepared.look(triangle);
     const double weight = prepared.unit.empty() ? share : faces;
     const std::uint16_t own = prepared.base.empty() ? no_base : prepared.base[triangle];
@@ -75,6 +77,7 @@ void add_to_bases(std::span<double> sums, const PreparedPiece& prepared, std::ui
 }
 
 PreparedPiece prepare(const Piece& piece, const Objectives& objectives) {
+    assert(piece.mesh && is_consistent(*piece.mesh) && piece.bounds.size() < no_base);
     const TriangleMesh& mesh = *piece.mesh;
     PreparedPiece p;
     p.piece = &piece;
@@ -89,6 +92,8 @@ PreparedPiece prepare(const Piece& piece, const Objectives& objectives) {
                          p.patches = patches(mesh, p.sums, p.unit);
                          p.base_sums = base_sums(p);
                      }});
+    assert(p.base.empty() || p.base.size() == mesh.triangles.size());
+    assert(p.sums.size() == mesh.triangles.size() && p.shells.shell_of.size() == mesh.triangles.size());
     if (objectives.fragility_form == FragilityForm::thesis) p.vertex_normals = vertex_normals(mesh);
     return p;
 }

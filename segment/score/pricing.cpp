@@ -1,5 +1,6 @@
 #include "segment/score/pricing.h"
 
+#include <cassert>
 #include <mutex>
 
 #include "segment/parallel.h"
@@ -41,6 +42,7 @@ std::vector<std::optional<Price>> price_all(const Piece& piece, std::span<const 
         std::vector<double> offsets;
         for (std::size_t i = first; i < last; ++i) offsets.push_back(candidates[i].plane.offset);
         auto swept = sweep(prepared, candidates[first].plane.normal, offsets, objectives);
+        assert(swept.size() == last - first);
         std::move(swept.begin(), swept.end(), prices.begin() + static_cast<std::ptrdiff_t>(first));
         const std::lock_guard lock(reporting);
         context.progress("planes priced", done += last - first, candidates.size());

@@ -1,5 +1,6 @@
 #include "segment/score/slabs.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -189,6 +190,7 @@ class Pass {
             if (s.slab[k] < s.slab[lowest]) lowest = k;
             if (s.slab[k] > s.slab[highest]) highest = k;
         }
+        assert(s.slab[lowest] < s.slab[highest]);
         s.low = s.slab[lowest];
         s.high = s.slab[highest];
         for (std::size_t k = 0; k < 3; ++k) {
@@ -219,6 +221,7 @@ class Pass {
     void add_crossing(const Straddler& s, const std::array<Vec3, 3>& corner, std::size_t plane) {
         const std::size_t from = crossing(s, plane).exit;
         const std::size_t to = (from + 1) % 3;
+        assert(s.height[from] >= offsets_[plane] && s.height[to] < offsets_[plane]);
         const double share = (s.height[from] - offsets_[plane]) / (s.height[from] - s.height[to]);
         const Vec3 at = corner[from] + share * (corner[to] - corner[from]) - p_.origin;
         out_.point.push_back({dot(frame_.u, at), dot(frame_.v, at)});
@@ -272,6 +275,7 @@ class Pass {
 }  // namespace
 
 Slabs slabs(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets) {
+    assert(!offsets.empty() && std::is_sorted(offsets.begin(), offsets.end()));
     return Pass(prepared, normal, offsets).run();
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -34,11 +35,18 @@ struct SumTable {
     std::vector<double> cells;
     SumTable() = default;
     SumTable(std::size_t rows, std::size_t columns) : width(columns), cells(rows * columns, 0.0) {}
-    std::span<double> row(std::size_t r) { return {cells.data() + r * width, width}; }
-    std::span<const double> row(std::size_t r) const { return {cells.data() + r * width, width}; }
+    std::span<double> row(std::size_t r) {
+        assert((r + 1) * width <= cells.size());
+        return {cells.data() + r * width, width};
+    }
+    std::span<const double> row(std::size_t r) const {
+        assert((r + 1) * width <= cells.size());
+        return {cells.data() + r * width, width};
+    }
 };
 
 inline void add(std::span<double> to, std::span<const double> from) {
+    assert(to.size() == from.size());
     for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
 }
 
@@ -67,6 +75,7 @@ inline Crossing crossing(const Straddler& s, std::size_t plane) {
     Crossing c{};
     c.lone_is_above = above[0] + above[1] + above[2] == 1;
     while (above[c.lone] != c.lone_is_above) ++c.lone;
+    assert(c.lone < 3);
     c.exit = c.lone_is_above ? c.lone : (c.lone + 2) % 3;
     return c;
 }

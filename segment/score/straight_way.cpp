@@ -1,6 +1,7 @@
 #include "segment/score/straight_way.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -63,6 +64,7 @@ class Grid {
         for (std::size_t c = 2; c < first_.size(); ++c) first_[c] += first_[c - 1];
         points_.resize(points.size());
         for (const GridPoint& p : points) points_[first_[cell_of(p.at) + 1]++] = p;
+        assert(std::is_sorted(first_.begin(), first_.end()) && first_.back() == points_.size());
     }
 
     bool is_empty() const { return points_.empty(); }
@@ -152,6 +154,7 @@ void pass_over(const Grid& grid, bool up, const Triangle& v, const Seen (&corner
 
 std::vector<double> straight_ways(const TriangleMesh& mesh, Vec3 normal, std::span<const WayQuery> queries,
                                   double most) {
+    assert(most >= 0);
     std::vector<double> least(queries.size(), infinite);
     if (queries.empty()) return least;
     const PlaneFrame frame = frame_across(normal);

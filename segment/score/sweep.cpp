@@ -1,6 +1,7 @@
 #include "segment/score/sweep.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "segment/cut/half_solids.h"
@@ -81,6 +82,7 @@ class Side {
     void read_parts(std::size_t plane, const std::vector<SectionRegion>& regions, Price& price) {
         const std::size_t first = section_.first_loop[plane];
         const std::size_t count = section_.first_loop[plane + 1] - first;
+        assert(count > 0);
         // Loops are one part if they share a cap region or a merged node.
         DisjointSets part(count);
         std::vector<std::pair<std::uint32_t, std::uint32_t>> roots;  // merged node, loop
@@ -175,6 +177,8 @@ std::vector<std::optional<Price>> sweep_solids(const PreparedPiece& prepared, Ve
     if (offsets.empty()) return prices;
     const Slabs all_slabs = slabs(prepared, normal, offsets);
     const Section section = find_section(prepared, all_slabs, offsets);
+    assert(section.first_loop.size() == offsets.size() + 1 && section.first_loop.back() == section.loops.size());
+    assert(std::is_sorted(section.first_loop.begin(), section.first_loop.end()));
     std::vector<std::vector<SectionRegion>> all_regions(offsets.size());
     for (std::size_t plane = 0; plane < offsets.size(); ++plane) {
         if (section.first_loop[plane] == section.first_loop[plane + 1]) continue;
@@ -198,6 +202,7 @@ std::vector<std::optional<Price>> sweep(const PreparedPiece& prepared, Vec3 norm
     const double d = objectives.fragility_distance;
     const std::vector<double> sums =
         by_rays ? sweep_thinness(prepared, normal, offsets, d) : sweep_thesis_fragility(prepared, normal, offsets, d);
+    assert(sums.size() == prices.size());
     for (std::size_t j = 0; j < prices.size(); ++j) {
         if (!prices[j] || prices[j]->cap_area_mm2 <= 0) continue;
         prices[j]->fragility = by_rays ? sums[j] / prices[j]->cap_area_mm2 : sums[j];

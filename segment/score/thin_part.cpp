@@ -1,5 +1,7 @@
 #include "segment/score/thin_part.h"
 
+#include <cassert>
+
 namespace qchopper {
 
 Part part_of(const TriangleMesh& mesh, std::size_t triangle, const Plane& plane, bool above) {
@@ -17,6 +19,7 @@ Part part_of(const TriangleMesh& mesh, std::size_t triangle, const Plane& plane,
 }
 
 Centroid centroid(const Part& part) {
+    assert(part.corners >= 0 && part.corners <= 4);
     Centroid c;
     const Vec3 a = part.corner[0];
     for (std::size_t k = 2; k < static_cast<std::size_t>(part.corners); ++k) {

@@ -14,6 +14,7 @@ std::string words(const Decision& decision) {
 }
 
 std::vector<Cut> standing_cuts(const History& history) {
+    assert(history.standing <= history.decisions.size());
     std::vector<Cut> cuts;
     for (std::size_t i = 0; i < history.standing; ++i) {
         const Decision& decision = history.decisions[i];
@@ -46,6 +47,7 @@ Weights standing_weights(const History& history) {
 }
 
 void decide(History& history, Decision decision) {
+    assert(history.standing <= history.decisions.size());
     history.decisions.resize(history.standing, Reset{});
     history.decisions.push_back(std::move(decision));
     ++history.standing;
@@ -68,6 +70,7 @@ void follow(History& history, const std::vector<Cut>& cuts) {
         --history.standing;
     }
     for (std::size_t i = same; i < cuts.size(); ++i) decide(history, cuts[i]);
+    assert(standing_cuts(history) == cuts);
 }
 
 }  // namespace qchopper

@@ -1,6 +1,7 @@
 #include "segment/search/inside.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -122,6 +123,7 @@ bool contains(const TriangleMesh& mesh, Vec3 point) {
 }
 
 std::optional<Vec3> deep_point(const TriangleMesh& mesh) {
+    assert(is_consistent(mesh));
     std::optional<Vec3> point;
     for (int lines = 16; !point && lines <= 256; lines *= 4) point = longest_middle(mesh, lines);
     if (!point) return point;

@@ -1,6 +1,7 @@
 #include "segment/search/plan.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "segment/error.h"
 #include "segment/search/inside.h"
@@ -15,8 +16,10 @@ std::vector<PathSide> path_of(const Piece& piece) {
 }
 
 const Piece& piece_named(const Segmentation& segmentation, const std::string& name) {
-    return *std::find_if(segmentation.pieces.begin(), segmentation.pieces.end(),
-                         [&](const Piece& p) { return p.name == name; });
+    const auto found = std::find_if(segmentation.pieces.begin(), segmentation.pieces.end(),
+                                    [&](const Piece& p) { return p.name == name; });
+    assert(found != segmentation.pieces.end());
+    return *found;
 }
 
 PlanPiece plan_piece(const Piece& piece, Vec3 centre) {

@@ -1,5 +1,6 @@
 #include "segment/search/price_cache.h"
 
+#include <cassert>
 #include <cstring>
 #include <type_traits>
 
@@ -112,6 +113,7 @@ Price price_from(Reader& in) {
 
 Bytes to_bytes(const PiecePrices& prices) {
     Writer out;
+    assert(prices.candidates.size() == prices.prices.size());
     out.put(prices.candidates.size());
     for (std::size_t i = 0; i < prices.candidates.size(); ++i) {
         const Candidate& c = prices.candidates[i];

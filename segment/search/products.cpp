@@ -1,5 +1,6 @@
 #include "segment/search/products.h"
 
+#include <cassert>
 #include <set>
 
 #include "segment/files/file.h"
@@ -21,6 +22,7 @@ TriangleMesh together(const std::vector<Crumb>& crumbs) {
             all.cap_of.push_back(cap_of(*crumb.mesh, t));
         }
     }
+    assert(is_consistent(all));
     return all;
 }
 
@@ -41,6 +43,7 @@ void write_pieces(const fs::path& folder, const Segmentation& segmentation, Crum
     std::set<std::string> written;
     for (const Piece& piece : segmentation.pieces) {
         const std::string name = piece.name + ".ply";
+        assert(!piece.name.empty() && !written.contains(name));
         write_file(folder / "pieces" / name, to_ply(*piece.mesh));
         written.insert(name);
     }

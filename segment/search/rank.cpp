@@ -1,6 +1,7 @@
 #include "segment/search/rank.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdlib>
 #include <utility>
 
@@ -26,6 +27,7 @@ void sort_best_first(std::vector<Ranked>& ranked) {
 
 std::vector<PieceShare> shares_of_others(const Segmentation& segmentation, std::size_t piece,
                                          const Objectives& objectives, PieceBook& book) {
+    assert(piece < segmentation.pieces.size());
     std::vector<PieceShare> shares;
     for (std::size_t p = 0; p < segmentation.pieces.size(); ++p) {
         if (p != piece) shares.push_back(share(book.own(segmentation.pieces[p]), objectives));
@@ -34,6 +36,7 @@ std::vector<PieceShare> shares_of_others(const Segmentation& segmentation, std::
 }
 
 std::vector<Ranked> rank(const PiecePrices& prices, std::span<const PieceShare> others, const Objectives& objectives) {
+    assert(prices.candidates.size() == prices.prices.size());
     std::vector<Ranked> ranked;
     for (std::size_t i = 0; i < prices.candidates.size(); ++i) {
         if (!prices.prices[i]) continue;

@@ -1,6 +1,7 @@
 #include "segment/search/replay_plan.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -147,6 +148,7 @@ class Replay {
         for (const std::string& name : after.cuts.back().pieces) {
             const auto piece =
                 std::find_if(after.pieces.begin(), after.pieces.end(), [&](const Piece& p) { return p.name == name; });
+            assert(piece != after.pieces.end());
             made.push_back(volume_mm3(*piece->mesh));
         }
         std::sort(made.rbegin(), made.rend());

@@ -1,6 +1,7 @@
 #include "segment/search/search.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 
 #include "segment/search/beam.h"
@@ -176,6 +177,7 @@ class Search {
 
 std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
                          PieceBook& book, const Context& context) {
+    assert(piece < segmentation.pieces.size());
     const Piece* target = &segmentation.pieces[piece];
     book.price(std::span(&target, 1), context);
     const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, book);
@@ -192,6 +194,7 @@ std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t p
 
 Cut cut_by(const Segmentation& segmentation, std::size_t piece, const std::vector<Ranked>& ranked, std::size_t k,
            std::size_t runners_up) {
+    assert(piece < segmentation.pieces.size() && k < ranked.size());
     Cut cut;
     cut.number = static_cast<std::int32_t>(segmentation.cuts.size()) + 1;
     cut.piece = segmentation.pieces[piece].name;

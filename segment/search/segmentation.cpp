@@ -1,6 +1,7 @@
 #include "segment/search/segmentation.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdio>
 
 #include "segment/cut/cut_piece.h"
@@ -21,6 +22,8 @@ std::vector<std::string> add_solids(Segmentation& segmentation, std::vector<Piec
             segmentation.crumbs.push_back({cut_number, volume, bounds(*solid.mesh).centre(), solid.mesh});
         } else {
             solid.name = piece_name(segmentation.names_given++);
+            assert(std::none_of(segmentation.pieces.begin(), segmentation.pieces.end(),
+                                [&](const Piece& other) { return other.name == solid.name; }));
             names.push_back(solid.name);
             segmentation.pieces.push_back(std::move(solid));
         }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 
 #include "segment/mesh/oriented_box.h"
 
@@ -41,6 +42,7 @@ const std::vector<bool>& StopJudge::verdict(const Piece& piece) {
         v.holds.clear();
         for (const auto& rule : piece_rules_) v.holds.push_back(rule(piece));
     }
+    assert(v.holds.size() == piece_rules_.size());
     return v.holds;
 }
 
