@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "segment/cut/plane.h"
+#include "segment/mesh/plane.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper::bench {

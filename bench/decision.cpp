@@ -1,9 +1,9 @@
 #include <algorithm>
 
+#include "base/parallel.h"
 #include "bench/clock.h"
 #include "bench/measures.h"
 #include "segment/mesh/oriented_box.h"
-#include "segment/parallel.h"
 #include "segment/score/fragility_sweep.h"
 #include "segment/score/sweep.h"
 #include "segment/search/search.h"

@@ -1,11 +1,11 @@
 #include <iostream>
 
+#include "app/project/project.h"
+#include "base/file.h"
 #include "bench/child.h"
 #include "bench/clock.h"
 #include "bench/measures.h"
-#include "segment/files/file.h"
-#include "segment/intake/write_ply.h"
-#include "segment/search/project.h"
+#include "segment/io/write_ply.h"
 
 namespace qchopper::bench {
 

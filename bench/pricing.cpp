@@ -2,11 +2,11 @@
 #include <array>
 #include <numbers>
 
+#include "base/parallel.h"
 #include "bench/cgal_clip.h"
 #include "bench/clock.h"
 #include "bench/measures.h"
 #include "segment/cut/cut.h"
-#include "segment/parallel.h"
 #include "segment/score/oracle.h"
 #include "segment/score/pricing.h"
 #include "segment/score/sweep.h"

@@ -5,8 +5,8 @@
 #include <set>
 #include <string>
 
+#include "base/error.h"
 #include "bench/measures.h"
-#include "segment/error.h"
 
 namespace {
 

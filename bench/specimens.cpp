@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iostream>
 
-#include "segment/intake/intake.h"
+#include "segment/import/import_scan.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/order.h"
 

@@ -7,14 +7,14 @@
 #include <fstream>
 #include <iostream>
 
+#include "app/project/presets.h"
+#include "base/error.h"
+#include "base/parallel.h"
 #include "bench/clock.h"
 #include "bench/figures.h"
 #include "bench/specimens.h"
-#include "segment/error.h"
 #include "segment/mesh/measure.h"
-#include "segment/parallel.h"
 #include "segment/picture/exploded.h"
-#include "segment/search/presets.h"
 
 namespace {
 

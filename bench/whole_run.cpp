@@ -1,8 +1,8 @@
 #include <atomic>
 
+#include "base/parallel.h"
 #include "bench/clock.h"
 #include "bench/measures.h"
-#include "segment/parallel.h"
 #include "segment/search/search.h"
 
 namespace qchopper::bench {

@@ -9,12 +9,12 @@
 #include <cstring>
 #include <thread>
 
+#include "base/error.h"
+#include "base/file.h"
 #include "devices/device_error.h"
 #include "devices/drop_folder.h"
 #include "devices/first_contact.h"
 #include "devices/hand_off.h"
-#include "segment/error.h"
-#include "segment/files/file.h"
 
 namespace qchopper {
 namespace {

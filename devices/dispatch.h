@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
+#include "base/context.h"
+#include "base/file.h"
 #include "cam/job/ticket.h"
 #include "devices/bus.h"
 #include "devices/registers.h"
-#include "segment/context.h"
-#include "segment/files/file.h"
 
 namespace qchopper {
 

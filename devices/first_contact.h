@@ -7,11 +7,11 @@
 #include <optional>
 #include <string>
 
+#include "base/context.h"
 #include "devices/bus.h"
 #include "devices/codec.h"
 #include "devices/device_error.h"
 #include "devices/hand_off.h"
-#include "segment/context.h"
 
 namespace qchopper {
 

@@ -10,8 +10,8 @@
 #include <span>
 #include <string>
 
+#include "base/file.h"
 #include "devices/bus.h"
-#include "segment/files/file.h"
 
 namespace qchopper {
 

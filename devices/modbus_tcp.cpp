@@ -16,9 +16,9 @@
 #include <thread>
 #include <vector>
 
+#include "base/error.h"
 #include "devices/device_error.h"
 #include "devices/modbus_frame.h"
-#include "segment/error.h"
 
 namespace qchopper {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "base/error.h"
 #include "devices/codec.h"
-#include "segment/error.h"
 
 namespace qchopper {
 namespace {

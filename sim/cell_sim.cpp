@@ -6,8 +6,8 @@
 #include <random>
 #include <thread>
 
-#include "segment/error.h"
-#include "segment/files/sha256.h"
+#include "base/error.h"
+#include "base/sha256.h"
 #include "sim/memory.h"
 #include "sim/modbus_pdu.h"
 #include "sim/modbus_server.h"

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "base/file.h"
 #include "devices/codec.h"
-#include "segment/files/file.h"
 #include "segment/mesh/measure.h"
 
 namespace qchopper {

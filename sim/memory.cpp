@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "segment/error.h"
-#include "segment/files/sha256.h"
+#include "base/error.h"
+#include "base/sha256.h"
 
 namespace qchopper {
 namespace {

@@ -17,7 +17,7 @@
 #include <list>
 #include <thread>
 
-#include "segment/error.h"
+#include "base/error.h"
 
 namespace qchopper {
 namespace {

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "segment/files/file.h"
+#include "base/file.h"
 
 namespace qchopper {
 

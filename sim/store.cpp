@@ -12,7 +12,7 @@
 #include <tuple>
 #include <vector>
 
-#include "segment/error.h"
+#include "base/error.h"
 
 namespace qchopper {
 namespace {

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "segment/files/temporary_folder.h"
+#include "base/temporary_folder.h"
 #include "sim/machine.h"
 
 namespace qchopper {

@@ -4,9 +4,9 @@
 #include <array>
 #include <charconv>
 
-#include "cam/cell/toml_reader.h"
-#include "segment/error.h"
-#include "segment/files/file.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/toml_reader.h"
 
 namespace qchopper {
 namespace {

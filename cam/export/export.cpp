@@ -3,11 +3,11 @@
 #include <array>
 #include <vector>
 
-#include "segment/error.h"
-#include "segment/intake/write_3mf.h"
-#include "segment/intake/write_glb.h"
-#include "segment/intake/write_ply.h"
-#include "segment/intake/write_stl.h"
+#include "base/error.h"
+#include "segment/io/write_3mf.h"
+#include "segment/io/write_glb.h"
+#include "segment/io/write_ply.h"
+#include "segment/io/write_stl.h"
 #include "segment/mesh/measure.h"
 
 namespace qchopper {

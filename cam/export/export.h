@@ -2,7 +2,7 @@
 //
 // Millimetres; GLB turns them into metres for whoever reads it. In 3MF and GLB the mesh of a piece is the same in
 // either pose and the file says where it goes; STL and PLY hold the points as they come to lie. Same pieces, same bytes
-// (tests/cli/export_test.cpp). docs/export.md tells it to operators.
+// (tests/app/cli/export_test.cpp). docs/export.md tells it to operators.
 
 #pragma once
 
@@ -13,8 +13,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/file.h"
 #include "segment/cut/piece.h"
-#include "segment/files/file.h"
 #include "segment/mesh/pose.h"
 
 namespace qchopper {

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
+#include "base/error.h"
 #include "cam/job/manifest.h"
 #include "cam/job/preview.h"
 #include "cam/job/zip.h"
-#include "segment/error.h"
-#include "segment/intake/write_stl.h"
+#include "segment/io/write_stl.h"
 
 namespace qchopper {
 namespace {

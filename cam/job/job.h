@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "base/file.h"
 #include "cam/cell/cell.h"
 #include "cam/job/ticket.h"
 #include "cam/setup/envelope.h"
 #include "cam/setup/setup.h"
 #include "segment/cut/piece.h"
-#include "segment/files/file.h"
 
 namespace qchopper {
 

@@ -1,6 +1,6 @@
 #include "cam/job/preview.h"
 
-#include "segment/intake/write_glb.h"
+#include "segment/io/write_glb.h"
 
 namespace qchopper {
 

@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "segment/files/file.h"
+#include "base/file.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string>
 
+#include "base/text.h"
 #include "cam/job/job.h"
 #include "cam/job/json.h"
-#include "cam/job/text.h"
 
 namespace qchopper {
 namespace {

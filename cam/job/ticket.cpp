@@ -5,8 +5,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "cam/job/json.h"
-#include "segment/error.h"
 
 namespace qchopper {
 

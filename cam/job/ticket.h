@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/sha256.h"
 #include "cam/cell/material.h"
-#include "segment/files/sha256.h"
 #include "segment/mesh/measure.h"
 
 namespace qchopper {

@@ -7,9 +7,9 @@
 #include <new>
 #include <stdexcept>
 
+#include "base/error.h"
+#include "base/zip.h"
 #include "cam/job/ticket.h"
-#include "segment/error.h"
-#include "segment/files/zip.h"
 
 namespace qchopper {
 namespace {

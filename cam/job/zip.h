@@ -9,7 +9,7 @@
 #include <map>
 #include <string>
 
-#include "segment/files/file.h"
+#include "base/file.h"
 
 namespace qchopper {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/parallel.h"
 #include "segment/mesh/measure.h"
-#include "segment/parallel.h"
 
 namespace qchopper {
 namespace {

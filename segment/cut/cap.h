@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "segment/cut/nest.h"
+#include "segment/mesh/polygon_nesting.h"
 
 namespace qchopper {
 

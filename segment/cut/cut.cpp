@@ -4,10 +4,10 @@
 #include <cassert>
 #include <string>
 
+#include "base/error.h"
+#include "base/huge_pages.h"
 #include "segment/cut/cap.h"
-#include "segment/error.h"
-#include "segment/files/huge_pages.h"
-#include "segment/mesh/frame.h"
+#include "segment/mesh/plane_frame.h"
 
 namespace qchopper {
 namespace {

@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "segment/cut/plane.h"
+#include "segment/mesh/plane.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {

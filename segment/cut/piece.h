@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "segment/cut/plane.h"
+#include "segment/mesh/plane.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {

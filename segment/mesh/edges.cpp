@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "segment/files/huge_pages.h"
+#include "base/huge_pages.h"
 
 namespace qchopper {
 namespace {

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <vector>
 
-#include "segment/files/huge_pages.h"
+#include "base/huge_pages.h"
 #include "segment/mesh/measure.h"
 
 namespace qchopper {

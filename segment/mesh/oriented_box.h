@@ -8,7 +8,7 @@
 #include <array>
 #include <span>
 
-#include "segment/mesh/vec3.h"
+#include "base/vec3.h"
 
 namespace qchopper {
 

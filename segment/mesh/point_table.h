@@ -11,8 +11,8 @@
 #include <limits>
 #include <vector>
 
-#include "segment/files/huge_pages.h"
-#include "segment/mesh/vec3.h"
+#include "base/huge_pages.h"
+#include "base/vec3.h"
 
 namespace qchopper {
 

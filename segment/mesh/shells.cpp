@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "segment/mesh/disjoint_sets.h"
-#include "segment/mesh/frame.h"
+#include "segment/mesh/plane_frame.h"
 
 namespace qchopper {
 namespace {

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "segment/mesh/vec3.h"
+#include "base/vec3.h"
 
 namespace qchopper {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "segment/error.h"
-#include "segment/parallel.h"
+#include "base/error.h"
+#include "base/parallel.h"
 #include "segment/picture/light.h"
 #include "segment/picture/png.h"
 

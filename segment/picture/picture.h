@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <span>
 
-#include "segment/context.h"
-#include "segment/files/file.h"
+#include "base/context.h"
+#include "base/file.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "segment/files/file.h"
+#include "base/file.h"
 #include "segment/picture/picture.h"
 
 namespace qchopper {

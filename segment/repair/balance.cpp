@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include "segment/repair/edge_groups.h"
+#include "segment/mesh/edge_groups.h"
+#include "segment/mesh/manifold.h"
 #include "segment/repair/faces.h"
-#include "segment/repair/manifold.h"
 
 namespace qchopper {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "segment/mesh/edges.h"
-#include "segment/repair/manifold.h"
+#include "segment/mesh/manifold.h"
 #include "segment/repair/weld.h"
 
 namespace qchopper {

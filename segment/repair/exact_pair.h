@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "segment/mesh/vec3.h"
+#include "base/vec3.h"
 
 namespace qchopper {
 

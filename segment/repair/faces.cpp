@@ -6,10 +6,10 @@
 #include <limits>
 
 #include "segment/mesh/disjoint_sets.h"
+#include "segment/mesh/edge_groups.h"
 #include "segment/mesh/edges.h"
+#include "segment/mesh/manifold.h"
 #include "segment/mesh/measure.h"
-#include "segment/repair/edge_groups.h"
-#include "segment/repair/manifold.h"
 
 namespace qchopper {
 namespace {

@@ -12,7 +12,7 @@
 #include <iterator>
 #include <limits>
 
-#include "segment/repair/manifold.h"
+#include "segment/mesh/manifold.h"
 
 namespace qchopper {
 namespace {

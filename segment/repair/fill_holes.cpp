@@ -15,9 +15,9 @@
 #include <optional>
 #include <utility>
 
+#include "segment/mesh/manifold.h"
 #include "segment/mesh/measure.h"
 #include "segment/repair/fair_hole.h"
-#include "segment/repair/manifold.h"
 
 namespace qchopper {
 namespace {

@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "segment/error.h"
+#include "base/error.h"
+#include "base/parallel.h"
 #include "segment/mesh/normals.h"
-#include "segment/parallel.h"
 #include "segment/repair/dents.h"
 #include "segment/repair/surroundings.h"
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "segment/mesh/edges.h"
+#include "segment/mesh/manifold.h"
 #include "segment/repair/faces.h"
-#include "segment/repair/manifold.h"
 
 namespace qchopper {
 namespace {

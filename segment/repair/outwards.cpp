@@ -6,8 +6,8 @@
 #include <numeric>
 #include <vector>
 
+#include "segment/mesh/nesting.h"
 #include "segment/mesh/shells.h"
-#include "segment/repair/nesting.h"
 #include "segment/repair/weld.h"
 
 namespace qchopper {

@@ -5,7 +5,7 @@
 #include <unordered_map>
 
 #include "segment/mesh/disjoint_sets.h"
-#include "segment/repair/manifold.h"
+#include "segment/mesh/manifold.h"
 
 namespace qchopper {
 

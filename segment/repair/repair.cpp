@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "segment/error.h"
+#include "base/error.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
 #include "segment/repair/balance.h"

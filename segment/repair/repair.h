@@ -6,7 +6,7 @@
 
 #pragma once
 
-#include "segment/context.h"
+#include "base/context.h"
 #include "segment/mesh/triangle_mesh.h"
 #include "segment/repair/fill_holes.h"
 #include "segment/repair/report.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "segment/repair/distance.h"
+#include "segment/mesh/distance.h"
 #include "segment/repair/fill_holes.h"
 #include "segment/repair/marks.h"
 #include "segment/repair/resolve.h"

@@ -9,13 +9,13 @@
 #include <numeric>
 
 #include "segment/mesh/disjoint_sets.h"
+#include "segment/mesh/manifold.h"
 #include "segment/mesh/measure.h"
+#include "segment/mesh/triangle_tree.h"
 #include "segment/repair/exact_pair.h"
 #include "segment/repair/fill_loop.h"
-#include "segment/repair/manifold.h"
 #include "segment/repair/patch.h"
 #include "segment/repair/self_intersections.h"
-#include "segment/repair/triangle_tree.h"
 
 namespace qchopper {
 namespace {

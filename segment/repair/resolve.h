@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "segment/context.h"
+#include "base/context.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {

@@ -8,9 +8,9 @@
 #include <bit>
 #include <cmath>
 
-#include "segment/parallel.h"
+#include "base/parallel.h"
+#include "segment/mesh/triangle_tree.h"
 #include "segment/repair/exact_pair.h"
-#include "segment/repair/triangle_tree.h"
 
 namespace qchopper {
 namespace {

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "segment/context.h"
+#include "base/context.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {

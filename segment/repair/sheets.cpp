@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "segment/mesh/disjoint_sets.h"
+#include "segment/mesh/edge_groups.h"
 #include "segment/mesh/edges.h"
-#include "segment/repair/edge_groups.h"
-#include "segment/repair/manifold.h"
+#include "segment/mesh/manifold.h"
 
 namespace qchopper {
 namespace {

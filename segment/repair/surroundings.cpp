@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "segment/mesh/frame.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/normals.h"
+#include "segment/mesh/plane_frame.h"
 
 namespace qchopper {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "segment/files/huge_pages.h"
+#include "base/huge_pages.h"
 #include "segment/mesh/point_table.h"
 
 namespace qchopper {

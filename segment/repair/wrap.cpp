@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "segment/error.h"
+#include "base/error.h"
 #include "segment/mesh/measure.h"
 
 namespace qchopper {

@@ -7,7 +7,7 @@
 
 #pragma once
 
-#include "segment/context.h"
+#include "base/context.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {

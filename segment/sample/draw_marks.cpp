@@ -7,8 +7,8 @@
 #include <set>
 
 #include "segment/mesh/edges.h"
-#include "segment/mesh/frame.h"
 #include "segment/mesh/normals.h"
+#include "segment/mesh/plane_frame.h"
 
 namespace qchopper {
 namespace {

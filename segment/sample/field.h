@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "segment/mesh/vec3.h"
+#include "base/vec3.h"
 
 namespace qchopper {
 

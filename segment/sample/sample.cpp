@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "segment/error.h"
+#include "base/error.h"
 #include "segment/sample/bones.h"
 #include "segment/sample/punch.h"
 #include "segment/sample/refine.h"

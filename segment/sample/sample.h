@@ -11,7 +11,7 @@
 #include <optional>
 #include <string_view>
 
-#include "segment/context.h"
+#include "base/context.h"
 #include "segment/mesh/triangle_mesh.h"
 #include "segment/sample/draw_marks.h"
 

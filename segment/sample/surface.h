@@ -8,7 +8,7 @@
 
 #include <cstddef>
 
-#include "segment/context.h"
+#include "base/context.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/triangle_mesh.h"
 #include "segment/sample/field.h"

@@ -7,7 +7,7 @@
 
 #include <cstddef>
 
-#include "segment/context.h"
+#include "base/context.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {

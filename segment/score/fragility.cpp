@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "segment/mesh/normals.h"
-#include "segment/score/straight_way.h"
+#include "segment/mesh/parallel_rays.h"
 #include "segment/score/thin_part.h"
 
 namespace qchopper {

@@ -4,8 +4,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "segment/parallel.h"
-#include "segment/score/straight_way.h"
+#include "base/parallel.h"
+#include "segment/mesh/parallel_rays.h"
 #include "segment/score/thin_part.h"
 
 namespace qchopper {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "segment/files/huge_pages.h"
+#include "base/huge_pages.h"
 #include "segment/mesh/order.h"
 
 namespace qchopper {

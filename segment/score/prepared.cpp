@@ -4,9 +4,9 @@
 #include <cassert>
 #include <map>
 
-#include "segment/files/huge_pages.h"
+#include "base/huge_pages.h"
+#include "base/parallel.h"
 #include "segment/mesh/normals.h"
-#include "segment/parallel.h"
 
 namespace qchopper {
 namespace {

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <mutex>
 
-#include "segment/parallel.h"
+#include "base/parallel.h"
 #include "segment/score/sweep.h"
 
 namespace qchopper {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "segment/context.h"
+#include "base/context.h"
 #include "segment/score/candidates.h"
 #include "segment/score/oracle.h"
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "segment/cut/nest.h"
+#include "segment/mesh/polygon_nesting.h"
 #include "segment/score/slabs.h"
 
 namespace qchopper {

@@ -6,9 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "segment/files/huge_pages.h"
+#include "base/huge_pages.h"
 #include "segment/mesh/disjoint_sets.h"
-#include "segment/mesh/frame.h"
+#include "segment/mesh/plane_frame.h"
 
 namespace qchopper {
 namespace {

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "segment/cut/nest.h"
+#include "segment/mesh/polygon_nesting.h"
 #include "segment/score/prepared.h"
 
 namespace qchopper {

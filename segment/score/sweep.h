@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "segment/context.h"
+#include "base/context.h"
 #include "segment/score/prepared.h"
 #include "segment/score/price.h"
 

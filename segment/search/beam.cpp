@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "segment/error.h"
+#include "base/error.h"
 
 namespace qchopper {
 namespace {

@@ -4,7 +4,7 @@
 #include <mutex>
 #include <set>
 
-#include "segment/parallel.h"
+#include "base/parallel.h"
 #include "segment/score/pricing.h"
 
 namespace qchopper {

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "segment/context.h"
+#include "base/context.h"
 #include "segment/mesh/oriented_box.h"
 #include "segment/score/candidates.h"
 #include "segment/score/objectives.h"

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "segment/context.h"
+#include "base/context.h"
 #include "segment/search/beam_state.h"
 #include "segment/search/piece_book.h"
 #include "segment/search/rank.h"
@@ -69,7 +69,7 @@ struct BeamProgress {
 // every round that changes it, so that it can be saved: at b = 1 that is every decision. After `time_limit_s` it stops
 // with the round that is being made. Throws Cancelled when asked to stop; the best of the last round stands then.
 // Interrupted anywhere and gone on with from `progress`, it ends as if it had not been interrupted
-// (tests/segment/search/open_project_test.cpp).
+// (tests/app/project/open_project_test.cpp).
 SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, PieceBook& book, const FitsCell& fits_cell,
                  const std::function<void(const Segmentation&)>& on_round, const Context& context,
                  std::optional<double> time_limit_s = std::nullopt, BeamProgress* progress = nullptr);

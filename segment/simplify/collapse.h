@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "segment/context.h"
+#include "base/context.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "segment/error.h"
+#include "base/error.h"
 #include "segment/mesh/edges.h"
-#include "segment/repair/manifold.h"
+#include "segment/mesh/manifold.h"
+#include "segment/mesh/sampled_distance.h"
 #include "segment/simplify/collapse.h"
-#include "segment/simplify/sampled_distance.h"
 
 namespace qchopper {
 namespace {

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "segment/context.h"
+#include "base/context.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "segment/error.h"
+#include "base/error.h"
 
 namespace qchopper {
 namespace {

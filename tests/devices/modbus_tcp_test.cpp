@@ -14,8 +14,8 @@
 #include <functional>
 #include <thread>
 
+#include "base/error.h"
 #include "devices/device_error.h"
-#include "segment/error.h"
 
 namespace qchopper {
 namespace {

@@ -112,12 +112,12 @@ TEST(Registers, TheDocumentIsWhatTheTablesPrint) {
 
 // The simulated cell must not share the logic that it is there to test, and nobody here needs geometry.
 TEST(Rooms, DevicesAndSimTakeOnlyWhatTheyMay) {
-    const std::set<std::string> for_devices{"segment/error.h",
-                                            "segment/context.h",
-                                            "segment/files/file.h",
-                                            "segment/files/sha256.h",
-                                            "segment/files/temporary_folder.h",
-                                            "segment/mesh/vec3.h",
+    const std::set<std::string> for_devices{"base/error.h",
+                                            "base/context.h",
+                                            "base/file.h",
+                                            "base/sha256.h",
+                                            "base/temporary_folder.h",
+                                            "base/vec3.h",
                                             "segment/mesh/measure.h",
                                             "segment/mesh/triangle_mesh.h",
                                             "cam/job/ticket.h"};

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "segment/files/file.h"
+#include "base/file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 

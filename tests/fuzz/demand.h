@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "segment/error.h"
-#include "segment/files/file.h"
+#include "base/error.h"
+#include "base/file.h"
 
 namespace qchopper {
 

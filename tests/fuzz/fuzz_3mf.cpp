@@ -1,8 +1,8 @@
 #include <string>
 
-#include "segment/intake/read_3mf.h"
+#include "segment/io/read_3mf.h"
 #include "tests/fuzz/reader.h"
-#include "tests/segment/intake/wrappings.h"
+#include "tests/segment/io/wrappings.h"
 
 // What begins with "PK" is a package as it stands. No mutation would keep the checksums of one, so everything else is
 // the text of its model, or of two models with a zero between them, and is packed here.

@@ -1,4 +1,4 @@
-#include "segment/intake/read_gltf.h"
+#include "segment/io/read_gltf.h"
 #include "tests/fuzz/reader.h"
 
 // Whatever begins with "glTF" is a GLB; everything else is taken for JSON.

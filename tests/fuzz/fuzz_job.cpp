@@ -2,9 +2,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/sha256.h"
 #include "cam/job/job.h"
 #include "cam/job/zip.h"
-#include "segment/files/sha256.h"
 #include "tests/fuzz/demand.h"
 
 namespace qchopper {

@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "segment/files/sha256.h"
+#include "base/sha256.h"
 #include "sim/memory.h"
 #include "tests/fuzz/demand.h"
 

@@ -1,4 +1,4 @@
-#include "segment/search/plan.h"
+#include "app/project/plan.h"
 #include "tests/fuzz/demand.h"
 
 // A plan that is taken, written and read again is the same plan; only control characters of its texts are replaced

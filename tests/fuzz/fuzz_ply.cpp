@@ -1,4 +1,4 @@
-#include "segment/intake/read_ply.h"
+#include "segment/io/read_ply.h"
 #include "tests/fuzz/reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -2,8 +2,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "segment/files/sha256.h"
-#include "segment/search/price_cache.h"
+#include "app/project/price_cache.h"
+#include "base/sha256.h"
 #include "tests/fuzz/demand.h"
 #include "tests/fuzz/memory_folder.h"
 

@@ -1,4 +1,4 @@
-#include "segment/search/project_json.h"
+#include "app/project/project_json.h"
 #include "tests/fuzz/demand.h"
 
 // A project that is taken, written and read again is the same project.

@@ -1,4 +1,4 @@
-#include "segment/intake/read_stl.h"
+#include "segment/io/read_stl.h"
 #include "tests/fuzz/reader.h"
 
 // The text reader gets the bytes as they are; the binary reader gets them cut to whole triangles, with the count that

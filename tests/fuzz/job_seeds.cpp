@@ -1,8 +1,8 @@
 #include <memory>
 
+#include "base/file.h"
 #include "cam/job/job.h"
 #include "cam/job/zip.h"
-#include "segment/files/file.h"
 #include "tests/fuzz/seeds.h"
 #include "tests/shapes.h"
 

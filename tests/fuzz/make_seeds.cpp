@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "segment/files/file.h"
+#include "base/file.h"
 #include "tests/fuzz/seeds.h"
-#include "tests/segment/intake/encodings.h"
+#include "tests/segment/io/encodings.h"
 
 int main(int argc, char** argv) {
     if (argc != 2) {

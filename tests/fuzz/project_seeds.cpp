@@ -1,9 +1,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "segment/search/plan.h"
-#include "segment/search/price_cache.h"
-#include "segment/search/project_json.h"
+#include "app/project/plan.h"
+#include "app/project/price_cache.h"
+#include "app/project/project_json.h"
 #include "tests/fuzz/memory_folder.h"
 #include "tests/fuzz/seeds.h"
 

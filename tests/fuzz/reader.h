@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "segment/intake/read_mesh.h"
+#include "segment/io/read_mesh.h"
 #include "tests/fuzz/demand.h"
 
 namespace qchopper {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "tests/segment/intake/encodings.h"
+#include "tests/segment/io/encodings.h"
 
 namespace qchopper {
 

@@ -9,7 +9,7 @@
 #include <chrono>
 #include <cstdlib>
 
-#include "segment/files/file.h"
+#include "base/file.h"
 
 namespace qchopper::rig {
 namespace {

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <thread>
 
+#include "base/error.h"
 #include "devices/device_error.h"
 #include "devices/first_contact.h"
-#include "segment/error.h"
 #include "tests/sim/cell_rig.h"
 
 namespace qchopper {

@@ -10,7 +10,7 @@
 #include <random>
 #include <thread>
 
-#include "segment/error.h"
+#include "base/error.h"
 #include "tests/sim/cell_rig.h"
 
 namespace qchopper {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "segment/error.h"
-#include "segment/files/file.h"
+#include "base/error.h"
+#include "base/file.h"
 #include "tests/sim/cell_rig.h"
 
 namespace qchopper {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "segment/error.h"
+#include "base/error.h"
 
 namespace qchopper {
 namespace {

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "base/error.h"
 #include "cam/job/zip.h"
-#include "segment/error.h"
-#include "segment/intake/read_mesh.h"
+#include "segment/io/read_mesh.h"
 #include "tests/cam/job/some_job.h"
 
 namespace qchopper {

@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "cam/job/text.h"
-#include "segment/error.h"
+#include "base/error.h"
+#include "base/text.h"
 
 namespace qchopper {
 namespace {

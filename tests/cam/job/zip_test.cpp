@@ -5,8 +5,8 @@
 #include <cstring>
 #include <random>
 
-#include "segment/error.h"
-#include "segment/files/zip.h"
+#include "base/error.h"
+#include "base/zip.h"
 
 namespace qchopper {
 namespace {

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <random>
 
+#include "base/error.h"
 #include "segment/cut/cut_piece.h"
 #include "segment/cut/nudge.h"
-#include "segment/error.h"
-#include "segment/intake/read_mesh.h"
+#include "segment/io/read_mesh.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
 #include "tests/pieces.h"

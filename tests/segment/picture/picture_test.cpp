@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "segment/error.h"
-#include "segment/parallel.h"
+#include "base/error.h"
+#include "base/parallel.h"
 #include "segment/picture/light.h"
 #include "segment/picture/png.h"
 #include "tests/shapes.h"

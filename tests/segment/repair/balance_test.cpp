@@ -10,12 +10,12 @@
 
 #include "segment/cut/cut.h"
 #include "segment/cut/nudge.h"
-#include "segment/intake/read_mesh.h"
+#include "segment/io/read_mesh.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/shells.h"
 #include "segment/repair/repair.h"
 #include "segment/repair/weld.h"
-#include "tests/segment/intake/help.h"
+#include "tests/segment/io/help.h"
 #include "tests/segment/repair/soup.h"
 #include "tests/shapes.h"
 

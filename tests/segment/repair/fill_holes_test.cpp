@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "segment/intake/read_mesh.h"
+#include "segment/io/read_mesh.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/shells.h"
 #include "segment/repair/weld.h"
-#include "tests/segment/intake/help.h"
+#include "tests/segment/io/help.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

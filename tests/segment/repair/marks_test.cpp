@@ -9,8 +9,8 @@
 #include <random>
 #include <utility>
 
-#include "segment/error.h"
-#include "segment/intake/read_mesh.h"
+#include "base/error.h"
+#include "segment/io/read_mesh.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
 #include "segment/repair/weld.h"

@@ -11,11 +11,11 @@
 
 #include "segment/cut/cut.h"
 #include "segment/cut/nudge.h"
-#include "segment/intake/inspect.h"
-#include "segment/intake/intake.h"
+#include "segment/import/import_scan.h"
+#include "segment/import/inspect.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
-#include "tests/segment/intake/help.h"
+#include "tests/segment/io/help.h"
 
 namespace qchopper {
 namespace {

@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-#include "segment/error.h"
+#include "base/error.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
 #include "segment/repair/choices.h"

@@ -6,13 +6,13 @@
 #include <random>
 #include <set>
 
-#include "segment/intake/read_mesh.h"
+#include "segment/io/read_mesh.h"
 #include "segment/mesh/edges.h"
+#include "segment/mesh/manifold.h"
 #include "segment/mesh/measure.h"
-#include "segment/repair/manifold.h"
 #include "segment/repair/self_intersections.h"
 #include "segment/repair/weld.h"
-#include "tests/segment/intake/help.h"
+#include "tests/segment/io/help.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

@@ -10,11 +10,11 @@
 #include <random>
 
 #include "segment/repair/weld.h"
-#include "tests/segment/intake/help.h"
+#include "tests/segment/io/help.h"
 #include "tests/shapes.h"
 
-#include "segment/intake/read_mesh.h"
-#include "segment/parallel.h"
+#include "base/parallel.h"
+#include "segment/io/read_mesh.h"
 
 namespace qchopper {
 namespace {

@@ -7,9 +7,9 @@
 #include <random>
 
 #include "segment/mesh/edges.h"
+#include "segment/mesh/manifold.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/shells.h"
-#include "segment/repair/manifold.h"
 #include "segment/repair/weld.h"
 #include "tests/shapes.h"
 

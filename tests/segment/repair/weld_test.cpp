@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "segment/intake/read_mesh.h"
-#include "segment/intake/write_stl.h"
+#include "segment/io/read_mesh.h"
+#include "segment/io/write_stl.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
 #include "tests/shapes.h"

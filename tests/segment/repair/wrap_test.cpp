@@ -4,10 +4,10 @@
 
 #include <limits>
 
-#include "segment/error.h"
+#include "base/error.h"
+#include "segment/mesh/distance.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
-#include "segment/repair/distance.h"
 #include "segment/repair/self_intersections.h"
 #include "tests/shapes.h"
 

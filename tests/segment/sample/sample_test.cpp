@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-#include "segment/error.h"
+#include "base/error.h"
 #include "tests/segment/sample/laws.h"
 #include "tests/segment/sample/self_intersections.h"
 

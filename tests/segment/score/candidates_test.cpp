@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/parallel.h"
 #include "segment/cut/nudge.h"
-#include "segment/parallel.h"
 #include "segment/score/pricing.h"
 #include "tests/pieces.h"
 #include "tests/shapes.h"

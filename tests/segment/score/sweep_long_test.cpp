@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <random>
 
+#include "base/error.h"
 #include "segment/cut/cut_piece.h"
-#include "segment/error.h"
-#include "segment/intake/intake.h"
+#include "segment/import/import_scan.h"
 #include "segment/mesh/order.h"
 #include "segment/mesh/shells.h"
 #include "segment/sample/sample.h"

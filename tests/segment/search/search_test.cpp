@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "app/project/presets.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
-#include "segment/search/presets.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

@@ -7,12 +7,12 @@
 #include <map>
 #include <set>
 
+#include "base/error.h"
 #include "segment/cut/cut.h"
-#include "segment/error.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
+#include "segment/mesh/sampled_distance.h"
 #include "segment/sample/sample.h"
-#include "segment/simplify/sampled_distance.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

@@ -1,0 +1,145 @@
+// What the operator typed, as values. The only file that knows the option parser is arguments.cpp.
+
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/vec3.h"
+
+namespace qchopper {
+
+struct SampleArguments {
+    std::string specimen;
+    std::size_t faces = 100'000;
+    int holes = 0;
+    int marks = 0;
+    std::filesystem::path out;
+};
+
+struct InspectArguments {
+    std::filesystem::path scan;
+    std::optional<std::string> units;
+    bool deep = false;
+};
+
+// How a scan becomes a solid, for every command that takes one in.
+struct RepairChoiceArguments {
+    std::optional<double> weld_mm;
+    std::optional<std::string> fill;  // auto | flat | fair | none
+    bool smooth_marks = false;
+    std::optional<double> wrap_mm;
+};
+
+struct RepairArguments : RepairChoiceArguments {
+    std::filesystem::path scan;
+    std::filesystem::path out;
+    std::optional<std::string> units;
+    std::optional<double> scale;
+    std::optional<std::string> crumbs;  // keep | drop
+    bool keep_self_intersections = false;
+    std::optional<double> mark_width;  // mm, of the widest mark
+    std::optional<double> mark_depth;  // mm, of the deepest
+    std::vector<std::string> skipped;  // names of steps
+};
+
+// What a new project is told; a stop rule also tells a search how to go on.
+struct ProjectArguments : RepairChoiceArguments {
+    bool resolve_self_intersections = false;
+    std::optional<std::string> units;
+    std::optional<double> scale;
+    std::optional<std::filesystem::path> cell;
+    std::optional<std::string> preset;
+    std::optional<int> min_cuts;
+    std::optional<std::size_t> max_faces;
+    std::optional<Vec3> max_obb;
+    bool fits_cell = false;
+    std::optional<std::string> stop;       // any | all
+    std::optional<std::string> fragility;  // thinness | thesis
+    std::optional<std::string> weights;    // segment_values.h reads it
+    std::optional<int> beam;
+    std::optional<double> time_limit_s;
+    std::optional<std::string> crumbs;  // keep | drop
+    std::optional<double> fragment_volume_mm3;
+    std::optional<std::filesystem::path> out;
+};
+
+struct PrepareArguments : ProjectArguments {
+    std::filesystem::path input;  // a scan, or a project folder to go on with
+};
+
+struct SegmentArguments : ProjectArguments {
+    std::filesystem::path input;  // a scan, or a project folder
+    // What to do; one of these, or none to see how the project stands.
+    bool step = false;
+    std::optional<std::size_t> accept;   // a place in the ranking, from 1
+    std::optional<std::string> plane;    // nx,ny,nz,d
+    std::optional<std::string> preview;  // a place, or nx,ny,nz,d
+    std::optional<std::string> discard;  // a piece
+    bool undo = false;
+    bool redo = false;
+    bool reset = false;
+    bool goes_on = false;                           // --auto
+    std::optional<std::filesystem::path> plan;      // to write
+    std::optional<std::filesystem::path> replayed;  // a plan to replay
+    // How.
+    std::optional<std::string> piece;
+    std::optional<std::size_t> top;
+    bool write_pieces = false;
+};
+
+struct ExplainArguments {
+    std::filesystem::path project;
+    std::optional<int> cut;                    // the last one
+    std::optional<std::filesystem::path> out;  // of the plot
+};
+
+struct ExportArguments {
+    std::filesystem::path project;
+    std::string format;          // 3mf | stl | ply | glb
+    std::string pose = "place";  // place | setup
+    std::optional<std::string> piece;
+    std::optional<double> simplify_mm;
+    std::optional<std::size_t> max_faces;
+    std::optional<std::filesystem::path> out;
+};
+
+struct DryRunArguments {
+    std::filesystem::path project;
+    std::optional<std::string> piece;
+    double speed = 100'000;  // simulated seconds per second
+};
+
+struct CellSimArguments {
+    std::string listen = "127.0.0.1:15020";
+    std::filesystem::path drop;
+    std::string consent = "auto";
+    std::optional<std::filesystem::path> store;
+    std::optional<std::filesystem::path> cell;
+    double speed = 1;
+};
+
+struct DispatchArguments {
+    std::filesystem::path project;
+    std::optional<std::string> piece;
+    std::optional<std::string> to;
+    std::optional<std::filesystem::path> drop;
+    bool yes = false;
+};
+
+struct Arguments {
+    bool json = false;  // for the option parser; run.cpp knows it earlier
+    bool quiet = false;
+    std::variant<SampleArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
+                 ExplainArguments, ExportArguments, DryRunArguments, CellSimArguments, DispatchArguments>
+        command;
+};
+
+// Nothing if help or version was asked for: it is on stdout then. Throws InputError (use).
+std::optional<Arguments> parse_arguments(int argc, const char* const* argv);
+
+}  // namespace qchopper

@@ -1,0 +1,75 @@
+#include <poll.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <iostream>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "app/cli/commands.h"
+#include "app/cli/exit_code.h"
+#include "app/cli/simulated_limits.h"
+#include "devices/modbus_tcp.h"
+#include "sim/cell_sim.h"
+
+namespace qchopper {
+namespace {
+
+// Waits for a line on stdin, but not longer than the program runs. End of input is no.
+bool ask_on_terminal(const std::string& question) {
+    std::cerr << question << " [y/N] " << std::flush;
+    std::string line;
+    while (!Terminal::is_cancelled()) {
+        pollfd input{STDIN_FILENO, POLLIN, 0};
+        if (::poll(&input, 1, 200) <= 0) continue;
+        char c = 0;
+        if (::read(STDIN_FILENO, &c, 1) <= 0) break;
+        if (c == '\n') break;
+        line += c;
+    }
+    return line == "y" || line == "Y" || line == "yes";
+}
+
+// As an address to connect to, but for port 0: any that is free.
+TcpAddress listen_address(const std::string& text) {
+    if (!text.ends_with(":0")) return parse_tcp_address(text);
+    TcpAddress address = parse_tcp_address(text.substr(0, text.size() - 2));
+    address.port = 0;
+    return address;
+}
+
+}  // namespace
+
+int run(const CellSimArguments& arguments, Terminal& terminal) {
+    terminal.unchanged = "No cell was started.";
+    const TcpAddress address = listen_address(arguments.listen);
+    CellSimOptions options;
+    if (arguments.cell) options.limits = simulated_limits(read_cell(*arguments.cell));
+    options.listen_host = address.host;
+    options.port = address.port;
+    options.drop_folder = arguments.drop;
+    if (arguments.store) options.store_folder = *arguments.store;
+    options.limits.speed = arguments.speed;
+    options.limits.consent = arguments.consent == "auto"  ? Consent::automatic
+                             : arguments.consent == "ask" ? Consent::ask
+                                                          : Consent::never;
+    options.ask = ask_on_terminal;
+    std::mutex saying;  // the cell speaks from its own threads
+    options.on_message = [&](const std::string& line) {
+        const std::lock_guard lock(saying);
+        terminal.say(line);
+    };
+    CellSim sim(options);
+    sim.start();
+    const bool is_ipv6 = address.host.find(':') != std::string::npos;
+    const std::string where = (is_ipv6 ? "[" + address.host + "]" : address.host) + ":" + std::to_string(sim.port());
+    terminal.show("listening " + where);
+    terminal.json(nlohmann::ordered_json{{"schema", "qchopper-cell-sim-1"}, {"listening", where}}.dump());
+    while (!Terminal::is_cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    sim.stop();
+    terminal.say("simulated cell stopped");
+    return exit_done;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,33 @@
+#include "app/cli/commands.h"
+#include "app/cli/hand_over.h"
+#include "app/cli/simulated_limits.h"
+#include "base/temporary_folder.h"
+#include "devices/modbus_tcp.h"
+#include "sim/cell_sim.h"
+
+namespace qchopper {
+
+int run(const DryRunArguments& arguments, Terminal& terminal) {
+    terminal.unchanged = "The project is unchanged.";
+    const auto [cell, jobs] = jobs_of(arguments.project, arguments.piece);
+    const TemporaryFolder drop("qchopper-dry-run-");
+    CellSimOptions options;
+    options.drop_folder = drop.path();
+    options.limits = simulated_limits(cell);
+    options.limits.consent = Consent::automatic;
+    options.limits.speed = arguments.speed;
+    options.limits.acting_ms = 20;
+    CellSim sim(options);
+    sim.start();
+    terminal.say("dry run: a simulated cell inside this program, over TCP on 127.0.0.1:" + std::to_string(sim.port()) +
+                 "; consent is given at once, nothing moves");
+    ModbusTcpBus bus({"127.0.0.1", sim.port()});
+    DispatchOptions dispatch;
+    dispatch.cell_id = cell.id;
+    dispatch.want_simulated = true;
+    dispatch.drop_folder = drop.path();
+    dispatch.timings.poll_s = 0.02;
+    return report(hand_over(jobs, bus, dispatch, terminal), jobs.size(), "qchopper-dry-run-1", true, terminal);
+}
+
+}  // namespace qchopper

@@ -1,0 +1,24 @@
+#include "segment/import/inspect.h"
+#include "app/cli/commands.h"
+#include "app/cli/exit_code.h"
+#include "app/report/inspect_report.h"
+#include "segment/import/import_scan.h"
+
+namespace qchopper {
+
+int run(const InspectArguments& arguments, Terminal& terminal) {
+    terminal.unchanged = "Nothing was changed.";
+    InspectOptions options;
+    options.deep = arguments.deep;
+    const Inspection inspection = inspect(read_mesh(arguments.scan, {.weld = true}), options, terminal.context());
+    std::optional<double> given;
+    if (arguments.units) given = mm_per(unit_named(*arguments.units));
+    const std::optional<double> mm = agreed_mm_per_unit(inspection.mm_per_unit, given, name_of_scan(arguments.scan));
+    InspectedFile file{name_of_scan(arguments.scan), {}, inspection};
+    if (mm) file.units = name_of(unit_of(*mm));
+    for (const std::string& line : lines(file)) terminal.show(line);
+    terminal.json(document(file));
+    return exit_done;
+}
+
+}  // namespace qchopper

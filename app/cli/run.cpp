@@ -1,0 +1,87 @@
+#include "app/cli/run.h"
+
+#include <algorithm>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+
+#include "app/cli/commands.h"
+#include "app/cli/exit_code.h"
+
+namespace qchopper {
+namespace {
+
+// Ends a sentence that may have its mark already.
+std::string sentence(const std::string& text) {
+    return text.empty() || std::string_view(".?!").find(text.back()) == std::string_view::npos ? text + "." : text;
+}
+
+// What helps where the fault was seen too deep down to know.
+const char* general_remedy(InputFault fault) {
+    switch (fault) {
+        case InputFault::use:
+            return "see qchopper --help";
+        case InputFault::mesh:
+            return "see what is wrong with it by: qchopper inspect SCAN";
+        case InputFault::missing:
+            return "check the name and the rights";
+        case InputFault::create:
+            return "choose another place";
+        case InputFault::io:
+            return "check the disk, then say it again";
+        case InputFault::busy:
+            return "wait until it is done, then say it again";
+        case InputFault::config:
+            return "mend that file; docs/cell-file.md explains the keys of a cell";
+    }
+    return "";
+}
+
+// One line: what failed and why; what is unchanged; what to do.
+int report(Terminal& terminal, const std::string& what, const std::string& to_do, int code) {
+    std::string line = "qchopper: " + sentence(what) + " " + terminal.unchanged;
+    if (!to_do.empty()) line += " To do: " + sentence(to_do);
+    for (char& c : line) {
+        if (c == '\n' || c == '\r') c = ' ';  // a name out of a file may hold anything
+    }
+    terminal.error(line);
+    if (terminal.is_json()) {
+        const nlohmann::ordered_json document{{"schema", "qchopper-error-1"},
+                                              {"error", what},
+                                              {"unchanged", terminal.unchanged},
+                                              {"to_do", to_do},
+                                              {"exit_code", code}};
+        terminal.json(document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    }
+    return code;
+}
+
+}  // namespace
+
+int run_program(int argc, const char* const* argv) {
+    // Known before the rest is understood, so that an error in the options comes as a document too.
+    const bool is_json = std::any_of(argv, argv + argc, [](const char* a) { return std::string_view(a) == "--json"; });
+    Terminal terminal(is_json);
+    catch_signals();
+    try {
+        const std::optional<Arguments> arguments = parse_arguments(argc, argv);
+        if (!arguments) return exit_done;  // help or version was asked for
+        if (arguments->quiet) terminal.be_quiet();
+        return std::visit([&](const auto& command) { return run(command, terminal); }, arguments->command);
+    } catch (const InputError& e) {
+        return report(terminal, e.what(), e.to_do.empty() ? general_remedy(e.fault) : e.to_do, exit_code(e.fault));
+    } catch (const DeviceError& e) {
+        return report(terminal, e.what(), e.to_do, exit_code(e.fault));
+    } catch (const Cancelled&) {
+        return report(terminal, "stopped on request", "", Terminal::cancel_code());
+    } catch (const std::bad_alloc&) {
+        return report(terminal, "out of memory", "use a scan with fewer faces, or a machine with more memory",
+                      exit_ours);
+    } catch (const std::exception& e) {
+        return report(terminal, std::string("our fault: ") + e.what(), "report this with the command and the scan",
+                      exit_ours);
+    }
+}
+
+}  // namespace qchopper

@@ -1,0 +1,33 @@
+// Values that segment and prepare are given as one word: weights, planes.
+
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "segment/mesh/plane.h"
+#include "segment/score/objectives.h"
+
+namespace qchopper {
+
+// Those that were named; the others stay as they are.
+struct GivenWeights {
+    std::optional<double> face_ratio;
+    std::optional<double> fragility;
+    std::optional<double> piece_count;
+    std::optional<double> undercut;
+    Weights over(Weights weights) const;
+};
+
+// "face_ratio=10,undercut=2" in any order, or four numbers in the order face ratio, fragility, piece count, undercut.
+// Nothing if it is neither; weights are never negative.
+std::optional<GivenWeights> weights_from(const std::string& text);
+
+// "nx,ny,nz,d": a direction of any length but zero, and the distance along it in mm.
+std::optional<Plane> plane_from(const std::string& text);
+
+// A whole number from 1, the place in a ranking.
+std::optional<std::size_t> place_from(const std::string& text);
+
+}  // namespace qchopper

@@ -1,0 +1,126 @@
+#include "app/cli/terminal.h"
+
+#include <signal.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+
+#include "app/cli/exit_code.h"
+#include "base/text.h"
+
+namespace qchopper {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::atomic<bool> cancelled{false};
+std::atomic<int> signal_number{0};
+std::atomic<long> first_signal_s{0};
+
+// Only what may be done in a signal handler: atomics, clock_gettime, _exit.
+void on_signal(int number) {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    if (number == SIGINT && cancelled && now.tv_sec - first_signal_s <= 2) _exit(exit_interrupted);
+    first_signal_s = now.tv_sec;
+    signal_number = number;
+    cancelled = true;
+}
+
+bool is_plain_terminal() {
+    const char* term = std::getenv("TERM");
+    return isatty(STDERR_FILENO) != 0 && (term == nullptr || std::strcmp(term, "dumb") != 0);
+}
+
+}  // namespace
+
+void catch_signals() {
+    struct sigaction action {};
+    action.sa_handler = on_signal;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    signal(SIGPIPE, SIG_IGN);
+}
+
+Terminal::Terminal(bool json) : json_(json), shows_progress_(is_plain_terminal()) {}
+
+void Terminal::be_quiet() {
+    quiet_ = true;
+    shows_progress_ = false;
+}
+
+bool Terminal::is_cancelled() {
+    return cancelled;
+}
+
+int Terminal::cancel_code() {
+    return signal_number == SIGTERM ? exit_terminated : exit_interrupted;
+}
+
+void Terminal::clear_line() {
+    if (has_line_) std::cerr << "\r\033[K";
+    has_line_ = false;
+}
+
+void Terminal::say(const std::string& line) {
+    if (quiet_) return;
+    clear_line();
+    std::cerr << line << std::endl;
+}
+
+void Terminal::warn(const std::string& line) {
+    clear_line();
+    std::cerr << "warning: " << line << std::endl;
+}
+
+void Terminal::error(const std::string& line) {
+    clear_line();
+    std::cerr << line << std::endl;
+}
+
+void Terminal::show(const std::string& text) {
+    if (json_) return;
+    clear_line();
+    std::cout << text << std::endl;
+}
+
+void Terminal::json(const std::string& document) {
+    if (json_) std::cout << document << std::endl;
+}
+
+void Terminal::progress(const Progress& progress) {
+    if (!shows_progress_) return;
+    const auto now = Clock::now();
+    if (what_ != progress.what) {
+        what_ = progress.what;
+        started_ = now;
+        drawn_ = {};
+    }
+    const bool is_last = progress.total > 0 && progress.done >= progress.total;
+    if (!is_last && now - drawn_ < std::chrono::milliseconds(100)) return;
+    drawn_ = now;
+    std::string line = with_commas(progress.done);
+    if (progress.total > 0) line += " of " + with_commas(progress.total);
+    line += " " + progress.what + "  " +
+            std::to_string(std::chrono::duration_cast<std::chrono::seconds>(now - started_).count()) + " s";
+    winsize size{};
+    const std::size_t width = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 10 ? size.ws_col - 1U : 79;
+    clear_line();
+    std::cerr << line.substr(0, width) << std::flush;
+    has_line_ = true;
+    if (is_last) clear_line();
+}
+
+Context Terminal::context() {
+    Context context;
+    context.cancelled = &cancelled;
+    context.on_progress = [this](const Progress& p) { progress(p); };
+    context.on_message = [this](const std::string& line) { say(line); };
+    return context;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,196 @@
+#include "app/project/open_project.h"
+
+#include <algorithm>
+
+#include "app/project/price_cache.h"
+#include "app/project/products.h"
+#include "segment/cut/nudge.h"
+
+namespace qchopper {
+namespace {
+
+std::optional<Candidate> nudged_off(const Piece& piece, const Plane& plane) {
+    const Plane wanted = canonical(plane);
+    const std::optional<Nudged> nudged = nudge(piece, wanted.normal, std::span(&wanted.offset, 1)).front();
+    if (!nudged) return std::nullopt;
+    return Candidate{{wanted.normal, nudged->offset}, wanted.offset, -1, -1};
+}
+
+}  // namespace
+
+OpenProject::OpenProject(std::filesystem::path folder, Project project, std::function<TriangleMesh()> take_in_scan)
+    : folder_(std::move(folder)), project_(std::move(project)), take_in_scan_(std::move(take_in_scan)) {}
+
+const TriangleMesh& OpenProject::scan() {
+    if (!scan_) scan_ = take_in_scan_();
+    return *scan_;
+}
+
+const Segmentation& OpenProject::segmentation() {
+    if (!segmentation_) segmentation_ = replay(project_, scan());
+    return *segmentation_;
+}
+
+PieceBook& OpenProject::book() {
+    if (!book_) {
+        const SearchSettings& settings = project_.settings;
+        book_ = std::make_unique<PieceBook>(settings.objectives, settings.candidates,
+                                            price_cache(folder_ / "cache", settings.objectives, settings.candidates));
+    }
+    return *book_;
+}
+
+OpenProject::Next OpenProject::next(const FitsCell& fits_cell) {
+    const StopRules& rules = project_.settings.stop;
+    StopJudge judge(rules, fits_cell, [this](const Piece& p) { return book().box(p).size(); });
+    const std::vector<Piece>& pieces = segmentation().pieces;
+    const NextPiece by_rules = judge.next(segmentation(), {});
+    Next next{by_rules.piece, by_rules.is_finished && rules.is_any_set()};
+    if (next.piece || pieces.empty()) return next;
+    const auto largest = std::max_element(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+        return a.mesh->triangles.size() < b.mesh->triangles.size();
+    });
+    next.piece = static_cast<std::size_t>(largest - pieces.begin());
+    return next;
+}
+
+std::optional<std::size_t> OpenProject::piece_named(const std::string& name) {
+    const std::vector<Piece>& pieces = segmentation().pieces;
+    const auto found = std::find_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return p.name == name; });
+    if (found == pieces.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - pieces.begin());
+}
+
+std::vector<Ranked> OpenProject::ranking(std::size_t piece, const Context& context) {
+    return rank(segmentation(), piece, project_.settings, book(), context);
+}
+
+std::optional<Ranked> OpenProject::own_plane(std::size_t piece, const Plane& plane, const Context& context) {
+    const std::optional<Candidate> candidate = nudged_off(segmentation().pieces[piece], plane);
+    if (!candidate) return std::nullopt;
+    return rank_plane(segmentation(), piece, *candidate, project_.settings, book(), context);
+}
+
+bool OpenProject::misses(std::size_t piece, const Plane& plane) {
+    const Piece& target = segmentation().pieces[piece];
+    const std::optional<Candidate> candidate = nudged_off(target, plane);
+    return !candidate || !book().price_of(target, *candidate, {});
+}
+
+bool OpenProject::decide_cut(Cut cut) {
+    Segmentation after = segmentation();
+    if (!apply(after, std::move(cut), project_.settings.objectives.crumb_volume_mm3)) return false;
+    adopt(after);
+    return true;
+}
+
+void OpenProject::adopt(const Segmentation& segmentation) {
+    adopt(segmentation, std::nullopt);
+}
+
+void OpenProject::adopt(const Segmentation& segmentation, std::optional<BeamState> beam) {
+    take_away_products(folder_, project_);
+    segmentation_ = segmentation;
+    project_.ended_because.clear();
+    record(project_, *segmentation_);
+    project_.beam = std::move(beam);
+    save();
+}
+
+bool OpenProject::decide_weights(const Weights& weights) {
+    if (weights == project_.settings.objectives.weights) return false;
+    decide(project_.history, WeightsChange{weights});
+    project_.settings.objectives.weights = weights;
+    project_.beam.reset();
+    save();
+    return true;
+}
+
+bool OpenProject::decide_discard(const std::string& piece) {
+    Segmentation after = segmentation();
+    if (!discard(after, piece)) return false;
+    adopt(after);
+    return true;
+}
+
+bool OpenProject::decide_reset() {
+    if (project_.cuts.empty() && project_.discards.empty()) return false;
+    take_away_products(folder_, project_);
+    decide(project_.history, Reset{});
+    stand_at(project_.history.standing);
+    return true;
+}
+
+std::optional<Decision> OpenProject::undo() {
+    const Decision* last = to_undo(project_.history);
+    if (last == nullptr) return std::nullopt;
+    if (!std::holds_alternative<WeightsChange>(*last)) take_away_products(folder_, project_);
+    stand_at(project_.history.standing - 1);
+    return project_.history.decisions[project_.history.standing];
+}
+
+std::optional<Decision> OpenProject::redo() {
+    const Decision* next = to_redo(project_.history);
+    if (next == nullptr) return std::nullopt;
+    if (!std::holds_alternative<WeightsChange>(*next)) take_away_products(folder_, project_);
+    stand_at(project_.history.standing + 1);
+    return project_.history.decisions[project_.history.standing - 1];
+}
+
+// Whatever follows from the decisions in force is made anew, as a program would that has just loaded them.
+void OpenProject::stand_at(std::size_t standing) {
+    project_.history.standing = standing;
+    project_.settings.objectives.weights = standing_weights(project_.history);
+    project_.beam.reset();
+    std::vector<Cut> cuts = standing_cuts(project_.history);
+    std::vector<Discard> discards = standing_discards(project_.history);
+    if (cuts != project_.cuts || discards != project_.discards) {
+        project_.cuts = std::move(cuts);
+        project_.discards = std::move(discards);
+        segmentation_.reset();
+        record(project_, segmentation());
+    }
+    save();
+}
+
+void OpenProject::set_search(const StopRules& stop, std::size_t beam) {
+    if (stop == project_.settings.stop && beam == project_.settings.beam) return;
+    project_.settings.stop = stop;
+    project_.settings.beam = beam;
+    project_.beam.reset();
+    save();
+}
+
+SearchEnd OpenProject::search(const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
+                              const Context& context, std::optional<double> time_limit_s) {
+    take_away_products(folder_, project_);
+    Segmentation working = segmentation();
+    BeamProgress progress = beam_progress(project_, working, [this]() -> const TriangleMesh& { return scan(); });
+    const auto keep = [&](const Segmentation& best) {
+        adopt(best, progress.saved());
+        on_round(best);
+    };
+    const SearchEnd end =
+        qchopper::search(working, project_.settings, book(), fits_cell, keep, context, time_limit_s, &progress);
+    const bool goes_on = end.is_out_of_time && !end.is_finished;
+    adopt(working, goes_on ? progress.saved() : std::nullopt);
+    if (goes_on) return end;
+    project_.ended_because = end.reason;
+    if (!end.is_finished) project_.warnings.push_back(rules_do_not_hold + end.reason);
+    write_pieces(folder_, working, project_.crumbs);
+    project_.stage = Stage::cut;
+    save();
+    return end;
+}
+
+void OpenProject::keep_pieces_written() {
+    pieces_are_written_ = true;
+    write_pieces(folder_, segmentation(), project_.crumbs);
+}
+
+void OpenProject::save() {
+    save_project(folder_, project_);
+    if (pieces_are_written_) write_pieces(folder_, segmentation(), project_.crumbs);
+}
+
+}  // namespace qchopper

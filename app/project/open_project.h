@@ -1,0 +1,88 @@
+// A project on which one decides: cut by cut, with undo, redo and reset; saved after every decision.
+//
+// Memory and project.json never differ, and killing the program at any moment leaves the decisions before or after the
+// last one. Undo gives back the exact project of before but for its history; redo returns
+// (tests/app/project/open_project_test.cpp). The scan is taken in, and cut again, only when something asks for it.
+
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/project/project.h"
+
+namespace qchopper {
+
+class OpenProject {
+ public:
+    // The caller holds the lock of the folder. `take_in_scan` gives the scan as ScanSource says.
+    OpenProject(std::filesystem::path folder, Project project, std::function<TriangleMesh()> take_in_scan);
+
+    const std::filesystem::path& folder() const { return folder_; }
+    const Project& project() const { return project_; }
+    const TriangleMesh& scan();
+    const Segmentation& segmentation();
+    PieceBook& book();
+
+    // The piece to be cut next: by the rules, or the one with most faces if they hold already or none is set.
+    struct Next {
+        std::optional<std::size_t> piece;  // nothing: there is none
+        bool rules_hold = false;           // rules are set, and they hold
+    };
+    Next next(const FitsCell& fits_cell);
+    // Nothing if no piece has that name.
+    std::optional<std::size_t> piece_named(const std::string& name);
+
+    // Rankings price what is not priced yet, and neither cut nor change anything but the cache.
+    std::vector<Ranked> ranking(std::size_t piece, const Context& context);
+    // The operator's own plane, nudged once. Nothing if it misses, or leaves fewer than two pieces that are no crumbs.
+    // Its normal and offset have the number -1.
+    std::optional<Ranked> own_plane(std::size_t piece, const Plane& plane, const Context& context);
+
+    // Why not: true if it misses the piece, or runs so near to its end or to a cut that bounds it that it parts
+    // nothing.
+    bool misses(std::size_t piece, const Plane& plane);
+
+    // Decisions. False, and nothing changes: the plane misses, the weights are those that stand, no cut stands.
+    bool decide_cut(Cut cut);
+    bool decide_weights(const Weights& weights);
+    bool decide_discard(const std::string& piece);  // no such piece, or the only one
+    bool decide_reset();
+    // Gives the decision that was taken back or put in force again; nothing if there is none.
+    std::optional<Decision> undo();
+    std::optional<Decision> redo();
+
+    // From now on the pieces are written whenever the project is saved, not only at the end of a search.
+    void keep_pieces_written();
+    bool are_pieces_written() const { return pieces_are_written_; }
+
+    // How the search is to go on; no decision, so undo does not take it back.
+    void set_search(const StopRules& stop, std::size_t beam);
+
+    // Lets the search go on by itself to the stop rules, saves the best of every round, and writes the pieces at its
+    // end, unless time ran out.
+    SearchEnd search(const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
+                     const Context& context, std::optional<double> time_limit_s);
+
+    // Makes the next cut or discarded piece of a segmentation that grows outside of here (replay_plan.h) a decision.
+    void adopt(const Segmentation& segmentation);
+
+ private:
+    void adopt(const Segmentation& segmentation, std::optional<BeamState> beam);
+    void stand_at(std::size_t standing);
+    void save();
+
+    std::filesystem::path folder_;
+    Project project_;
+    std::function<TriangleMesh()> take_in_scan_;
+    std::optional<TriangleMesh> scan_;
+    std::optional<Segmentation> segmentation_;
+    std::unique_ptr<PieceBook> book_;
+    bool pieces_are_written_ = false;
+};
+
+}  // namespace qchopper

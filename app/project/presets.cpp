@@ -1,0 +1,41 @@
+#include "app/project/presets.h"
+
+#include <array>
+
+namespace qchopper {
+namespace {
+
+struct Preset {
+    const char* name;
+    Weights weights;
+    bool undercut_by_area;
+    std::optional<std::size_t> max_faces;
+    std::optional<int> min_cuts;
+};
+
+constexpr std::size_t workable_faces = 100'000;
+
+const std::array<Preset, 4> presets{{
+    // name        face ratio, fragility, piece count, undercut
+    {"bunny", {10, 5, 50, 10}, false, std::nullopt, 3},
+    {"femur", {10, 5, 50, 10}, false, workable_faces, std::nullopt},
+    {"vertebrae", {5, 1, 200, 1}, false, workable_faces, std::nullopt},
+    {"skull", {5, 1, 200, 1}, false, workable_faces, std::nullopt},
+}};
+
+}  // namespace
+
+std::optional<SearchSettings> preset(std::string_view name) {
+    for (const Preset& p : presets) {
+        if (name != p.name) continue;
+        SearchSettings settings;
+        settings.objectives.weights = p.weights;
+        settings.objectives.undercut_by_area = p.undercut_by_area;
+        settings.stop.max_faces = p.max_faces;
+        settings.stop.min_cuts = p.min_cuts;
+        return settings;
+    }
+    return std::nullopt;
+}
+
+}  // namespace qchopper

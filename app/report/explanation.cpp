@@ -1,0 +1,133 @@
+#include "app/report/explanation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/report/segment_report.h"
+#include "base/text.h"
+
+namespace qchopper {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t shown = 10;
+
+struct Term {
+    const char* name;
+    double Terms::*value;
+    double Weights::*weight;
+};
+constexpr std::array<Term, 4> all_terms{{{"face ratio", &Terms::face_ratio, &Weights::face_ratio},
+                                         {"fragility", &Terms::fragility, &Weights::fragility},
+                                         {"piece count", &Terms::piece_count, &Weights::piece_count},
+                                         {"undercut", &Terms::undercut, &Weights::undercut}}};
+
+// "10", "0.5"
+std::string short_number(double value) {
+    std::string text = fixed(value, 3);
+    while (text.back() == '0') text.pop_back();
+    if (text.back() == '.') text.pop_back();
+    return text;
+}
+
+std::string of_normal(Vec3 n) {
+    return "(" + fixed(n.x, 3) + ", " + fixed(n.y, 3) + ", " + fixed(n.z, 3) + ")";
+}
+
+// Where one plane is better or worse than another, in what is added to the total.
+std::string differences(const Terms& a, const Terms& b, const Weights& weights) {
+    std::string text;
+    for (const Term& term : all_terms) {
+        const double more = weights.*term.weight * (b.*term.value - a.*term.value);
+        if (std::abs(more) < 0.0005) continue;
+        text += (text.empty() ? "" : ", ") + std::string(term.name) + " " + (more > 0 ? "+" : "") + fixed(more, 3);
+    }
+    return text;
+}
+
+Json to_json(const Terms& t) {
+    return {{"face_ratio", t.face_ratio},
+            {"fragility", t.fragility},
+            {"piece_count", t.piece_count},
+            {"undercut", t.undercut},
+            {"total", t.total}};
+}
+
+Json to_json(const Ranked& r) {
+    return {{"normal", {r.plane.normal.x, r.plane.normal.y, r.plane.normal.z}},
+            {"offset_mm", r.plane.offset},
+            {"normal_number", r.normal},
+            {"offset_number", r.offset},
+            {"terms", to_json(r.terms)}};
+}
+
+}  // namespace
+
+std::string verdict(const Explanation& e) {
+    if (e.ranked.empty()) return "No candidate parts this piece: the plane is the operator's own.";
+    const std::string count = std::to_string(e.ranked.size());
+    const Weights& w = e.objectives.weights;
+    if (!e.is_best()) {
+        const Ranked& best = e.ranked.front();
+        const double more = e.chosen.terms.total - best.terms.total;
+        const std::string who = e.place ? "The plane is number " + std::to_string(*e.place + 1) + " of " + count
+                                        : "The plane is the operator's own, beside " + count + " candidates";
+        return who + ": the best would cost " + fixed(std::abs(more), 3) + (more < 0 ? " more" : " less") + " (" +
+               differences(e.chosen.terms, best.terms, w) + ").";
+    }
+    if (e.ranked.size() == 1) return "The plane is the only candidate that parts the piece.";
+    const Ranked& next = e.ranked[1];
+    const double more = next.terms.total - e.chosen.terms.total;
+    if (more < 0.0005) return "The plane is the best of " + count + "; the next is as good.";
+    return "The plane is the best of " + count + "; the next would cost " + fixed(more, 3) + " more (" +
+           differences(e.chosen.terms, next.terms, w) + ").";
+}
+
+std::vector<std::vector<std::string>> table(const Explanation& e) {
+    const Weights& w = e.objectives.weights;
+    std::vector<std::vector<std::string>> rows{{"", "place", "normal", "offset mm", "total"}};
+    for (const Term& term : all_terms) {
+        rows[0].push_back(std::string(term.name) + " x " + short_number(w.*term.weight));
+    }
+    const auto add = [&](const std::string& place, const Ranked& r, bool is_chosen) {
+        std::vector<std::string> row{is_chosen ? "->" : "", place, of_normal(r.plane.normal), fixed(r.plane.offset, 3),
+                                     fixed(r.terms.total, 4)};
+        for (const Term& term : all_terms) row.push_back(fixed(r.terms.*term.value, 4));
+        rows.push_back(row);
+    };
+    for (std::size_t i = 0; i < std::min(e.ranked.size(), shown); ++i) {
+        add(std::to_string(i + 1), e.ranked[i], e.place == i);
+    }
+    if (!e.place) add("own", e.chosen, true);
+    if (e.place && *e.place >= shown) add(std::to_string(*e.place + 1), e.chosen, true);
+    return rows;
+}
+
+std::string document(const Explanation& e, const Project& project, const std::string& picture) {
+    Json best = Json::array();
+    for (std::size_t i = 0; i < std::min(e.ranked.size(), shown); ++i) best.push_back(to_json(e.ranked[i]));
+    const Weights& w = e.objectives.weights;
+    const Json json{{"schema", "qchopper-explain-1"},
+                    {"cut", e.cut.number},
+                    {"piece", e.cut.piece},
+                    {"pieces", e.cut.pieces},
+                    {"crumbs", e.cut.crumbs},
+                    {"discarded", discarded_json(project)},
+                    {"weights",
+                     {{"face_ratio", w.face_ratio},
+                      {"fragility", w.fragility},
+                      {"piece_count", w.piece_count},
+                      {"undercut", w.undercut}}},
+                    {"chosen", to_json(e.chosen)},
+                    {"place", e.place ? Json(*e.place + 1) : Json()},
+                    {"candidates", e.ranked.size()},
+                    {"best", best},
+                    {"verdict", verdict(e)},
+                    {"picture", picture}};
+    return json.dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace qchopper

@@ -1,0 +1,177 @@
+#include "app/report/inspect_report.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/text.h"
+#include "segment/import/import_scan.h"
+
+namespace qchopper {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* word_of(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::ready:
+            return "ready";
+        case Verdict::to_repair:
+            return "to repair";
+        case Verdict::hopeless:
+            break;
+    }
+    return "hopeless";
+}
+
+// "(1.2, 0.5, -3)"
+std::string place(Vec3 p) {
+    return "(" + fixed(p.x, 4) + ", " + fixed(p.y, 4) + ", " + fixed(p.z, 4) + ")";
+}
+
+std::string percent(double share) {
+    return fixed(100 * share, 3) + " %";
+}
+
+std::string size_line(const InspectedFile& file) {
+    const Vec3 size = file.inspection.box.size();
+    if (file.units) return size_in_words(mm_per(unit_named(*file.units)) * size);
+    return fixed(size.x, 4) + " x " + fixed(size.y, 4) + " x " + fixed(size.z, 4) +
+           " (the file has no unit: say --units)";
+}
+
+std::string volume_line(const InspectedFile& file) {
+    const double volume = file.inspection.volume;
+    if (!file.units) return fixed(volume, 6) + " unit^3";
+    const double unit = mm_per(unit_named(*file.units));
+    return fixed(volume, 6) + " " + *file.units + "^3, " + volume_in_words(unit * unit * unit * volume);
+}
+
+void add_faults(std::vector<std::string>& text, const Inspection& i) {
+    const std::pair<const char*, std::size_t> faults[] = {
+        {"edges of more than two faces", i.non_manifold},
+        {"edges with faces turned against each other", i.inconsistent},
+        {"points where surfaces only touch", i.pinched},
+        {"faces collapsed to a line or point", i.collapsed},
+        {"faces without area", i.no_area},
+        {"faces that lie on another one", i.repeated},
+        {"open sheets, with more missing than there is", i.sheets},
+        {"points in no face", i.unreferenced}};
+    for (const auto& [what, count] : faults) {
+        if (count > 0) text.push_back("             " + with_commas(count) + " " + what);
+    }
+}
+
+void add_holes(std::vector<std::string>& text, const Inspection& i, const std::string& unit) {
+    text.push_back("open edges   " + with_commas(i.open_edges) + " in " + with_commas(i.holes.size()) +
+                   (i.holes.size() == 1 ? " hole" : " holes"));
+    const BorderLoop* const longest = i.longest_hole();
+    if (longest == nullptr) return;
+    text.push_back("             the longest: " + with_commas(longest->edges) + " edges, " + fixed(longest->length, 4) +
+                   " " + unit + ", around " + place(longest->centre));
+}
+
+void add_self_intersections(std::vector<std::string>& text, const Inspection& i) {
+    if (!i.self_intersected) return;
+    const SelfIntersected& found = *i.self_intersected;
+    if (found.pairs == 0) {
+        text.push_back("             it runs through itself nowhere");
+        return;
+    }
+    text.push_back("runs through itself at " + std::string(found.is_complete ? "" : "more than ") +
+                   with_commas(found.pairs) + (found.pairs == 1 ? " pair of faces" : " pairs of faces"));
+    for (const Vec3& at : found.places) text.push_back("             around " + place(at));
+}
+
+Json vector(Vec3 v) {
+    return {v.x, v.y, v.z};
+}
+
+Json hole_document(const BorderLoop& hole) {
+    return {{"edges", hole.edges}, {"length", hole.length}, {"centre", vector(hole.centre)}};
+}
+
+Json self_intersections_document(const std::optional<SelfIntersected>& found) {
+    if (!found) return {};
+    Json places = Json::array();
+    for (const Vec3& at : found->places) places.push_back(vector(at));
+    return {{"pairs", found->pairs}, {"complete", found->is_complete}, {"places", places}};
+}
+
+}  // namespace
+
+std::vector<std::string> lines(const InspectedFile& file) {
+    const Inspection& i = file.inspection;
+    const std::string unit = file.units.value_or("unit");
+    std::vector<std::string> text{file.name + ": " + name_of(i.format)};
+    text.push_back("faces        " + with_commas(i.triangles));
+    text.push_back("vertices     " + with_commas(i.vertices));
+    text.push_back("size         " + size_line(file));
+    text.push_back("shells       " + with_commas(i.shells) + " (" + with_commas(i.cavities) + " cavities, " +
+                   with_commas(i.inside_out) + " inside out)");
+    if (i.crumbs > 0) {
+        text.push_back("crumbs       " + with_commas(i.crumbs) + " too small to be pieces, with " +
+                       percent(i.crumb_area_share) + " of the surface");
+    }
+    add_holes(text, i, unit);
+    text.push_back("volume       " + volume_line(file) + (i.is_closed() ? "" : " (not closed)"));
+    text.push_back("area         " + fixed(i.area, 6) + " " + unit + "^2");
+    add_faults(text, i);
+    add_self_intersections(text, i);
+    for (const std::string& warning : i.warnings) text.push_back("note         " + warning);
+    const Judgement judgement = judge(i);
+    text.push_back("verdict      " + std::string(word_of(judgement.verdict)) +
+                   (judgement.verdict == Verdict::to_repair ? ": prepare or repair does it" : ""));
+    for (const std::string& reason : judgement.reasons) text.push_back("             " + reason);
+    return text;
+}
+
+std::string document(const InspectedFile& file) {
+    const Inspection& i = file.inspection;
+    Json holes = Json::array();
+    for (const BorderLoop& hole : i.holes) holes.push_back(hole_document(hole));
+    const BorderLoop* const longest = i.longest_hole();
+    const Judgement judgement = judge(i);
+    const Json json{{"schema", "qchopper-inspect-2"},
+                    {"file", file.name},
+                    {"format", name_of(i.format)},
+                    {"warnings", i.warnings},
+                    {"faces_in_file", i.faces_in_file},
+                    {"vertices_in_file", i.points_in_file},
+                    {"faces", i.triangles},
+                    {"vertices", i.vertices},
+                    {"welded_vertices", i.welded},
+                    {"units", file.units ? Json(*file.units) : Json()},
+                    {"units_in_file", i.mm_per_unit ? Json(*i.mm_per_unit) : Json()},
+                    {"size", vector(i.box.size())},
+                    {"size_in_words", file.units ? Json(size_line(file)) : Json()},
+                    {"min", vector(i.box.min)},
+                    {"max", vector(i.box.max)},
+                    {"closed", i.is_closed()},
+                    {"volume", i.volume},
+                    {"area", i.area},
+                    {"shells", i.shells},
+                    {"cavities", i.cavities},
+                    {"inside_out", i.inside_out},
+                    {"crumbs", {{"count", i.crumbs}, {"area_share", i.crumb_area_share}}},
+                    {"sheets", {{"count", i.sheets}, {"area_share", i.sheet_area_share}}},
+                    {"open_edges", i.open_edges},
+                    {"holes", holes},
+                    {"longest_hole", longest == nullptr ? Json() : hole_document(*longest)},
+                    {"non_manifold_edges", i.non_manifold},
+                    {"touching_edges", i.touching},
+                    {"inconsistent_edges", i.inconsistent},
+                    {"pinched_vertices", i.pinched},
+                    {"repeated_faces", i.repeated},
+                    {"collapsed_faces", i.collapsed},
+                    {"faces_without_area", i.no_area},
+                    {"faces_without_corners", i.faces_without_area},
+                    {"unreferenced_vertices", i.unreferenced},
+                    {"self_intersections", self_intersections_document(i.self_intersected)},
+                    {"verdict", word_of(judgement.verdict)},
+                    {"reasons", judgement.reasons}};
+    return json.dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace qchopper

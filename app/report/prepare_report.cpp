@@ -1,0 +1,129 @@
+#include "app/report/prepare_report.h"
+#include "base/text.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/report/columns.h"
+#include "app/report/segment_report.h"
+#include "app/report/shell_word.h"
+
+namespace qchopper {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(Vec3 v) {
+    return Json::array({v.x, v.y, v.z});
+}
+
+std::string counted(std::size_t count, const std::string& thing) {
+    return with_commas(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
+std::string lengths(Vec3 v) {
+    return fixed(v.x, 0) + " x " + fixed(v.y, 0) + " x " + fixed(v.z, 0);
+}
+
+Json cut_json(const Cut& cut) {
+    const Terms& t = cut.chosen.terms;
+    return {{"number", cut.number},
+            {"piece", cut.piece},
+            {"normal", to_json(cut.chosen.plane.normal)},
+            {"offset_mm", cut.chosen.plane.offset},
+            {"terms",
+             {{"face_ratio", t.face_ratio},
+              {"fragility", t.fragility},
+              {"piece_count", t.piece_count},
+              {"undercut", t.undercut},
+              {"total", t.total}}},
+            {"pieces", cut.pieces},
+            {"crumbs", cut.crumbs}};
+}
+
+Json piece_json(const PieceReport& piece, const Cell& cell) {
+    const Setup& s = piece.carving.setup;
+    Json margins;
+    for (const Margin& m : piece.carving.envelope.margins) margins[m.name] = m.mm;
+    return {{"name", piece.name},
+            {"faces", piece.faces},
+            {"volume_mm3", piece.volume_mm3},
+            {"box_mm", to_json(s.box.size())},
+            {"block", cell.stock[s.stock].name},
+            {"block_mm", to_json(s.block)},
+            {"base_cut", s.base ? Json(*s.base) : Json()},
+            {"base", s.base_words},
+            {"undercut", s.undercut},
+            {"fits", piece.carving.envelope.fits()},
+            {"margins_mm", margins},
+            {"job", piece.job.empty() ? Json() : Json(piece.job.string())}};
+}
+
+}  // namespace
+
+bool PreparedProject::all_fit() const {
+    return std::all_of(pieces.begin(), pieces.end(), [](const PieceReport& p) { return !p.job.empty(); });
+}
+
+std::vector<std::string> table(const PreparedProject& prepared, const Cell& cell) {
+    std::vector<std::vector<std::string>> rows{
+        {"piece", "faces", "volume", "box mm", "block", "base", "undercut", "fits"}};
+    for (const PieceReport& p : prepared.pieces) {
+        const Setup& s = p.carving.setup;
+        rows.push_back({p.name, with_commas(p.faces), volume_in_words(p.volume_mm3), lengths(s.box.size()),
+                        cell.stock[s.stock].name, s.base ? "cut " + std::to_string(*s.base) : "none",
+                        fixed(s.undercut, 3), p.job.empty() ? "no" : "yes"});
+    }
+    std::vector<std::string> lines = columns(rows);
+    const std::size_t crumbs = prepared.project.crumb_list.size();
+    if (crumbs > 0) {
+        double volume = 0;
+        for (const SolidRecord& c : prepared.project.crumb_list) volume += c.volume_mm3;
+        lines.push_back(
+            counted(crumbs, "crumb") + " (" + volume_in_words(volume) + " in all), listed in project.json" +
+            (prepared.project.crumbs == CrumbChoice::keep ? " and kept in pieces/crumbs.ply" : ", dropped"));
+    }
+    for (const std::string& line : discarded_lines(prepared.project)) lines.push_back(line);
+    const auto jobs = std::count_if(prepared.pieces.begin(), prepared.pieces.end(),
+                                    [](const PieceReport& p) { return !p.job.empty(); });
+    const std::string folder = prepared.folder.string();
+    lines.push_back(counted(prepared.pieces.size(), "piece") + " by " + counted(prepared.project.cuts.size(), "cut") +
+                    ", " + counted(static_cast<std::size_t>(jobs), "job") + " in " + folder + "/jobs, pictures in " +
+                    folder + "/pictures.");
+    const std::string word = shell_word(prepared.folder);
+    lines.push_back("Next: qchopper dry-run " + word + "   or   qchopper dispatch " + word);
+    return lines;
+}
+
+std::string document(const PreparedProject& prepared, const Cell& cell) {
+    const Project& p = prepared.project;
+    Json cuts = Json::array();
+    for (const Cut& cut : p.cuts) cuts.push_back(cut_json(cut));
+    Json pieces = Json::array();
+    for (const PieceReport& piece : prepared.pieces) pieces.push_back(piece_json(piece, cell));
+    Json crumbs = Json::array();
+    for (const SolidRecord& c : p.crumb_list) {
+        crumbs.push_back(
+            {{"cut", c.cut}, {"faces", c.faces}, {"volume_mm3", c.volume_mm3}, {"centre_mm", to_json(c.centre)}});
+    }
+    const Json json{{"schema", "qchopper-prepare-1"},
+                    {"project", prepared.folder.string()},
+                    {"scan",
+                     {{"path", p.scan.path.string()},
+                      {"sha256", p.scan.sha256},
+                      {"units", name_of(p.scan.unit)},
+                      {"scale", p.scan.scale},
+                      {"faces", p.scan.faces},
+                      {"volume_mm3", p.scan.volume_mm3}}},
+                    {"stop_rules_hold", prepared.rules_hold},
+                    {"ended_because", p.ended_because},
+                    {"all_fit", prepared.all_fit()},
+                    {"cuts", cuts},
+                    {"pieces", pieces},
+                    {"crumbs", crumbs},
+                    {"discarded", discarded_json(p)},
+                    {"warnings", p.warnings}};
+    return json.dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace qchopper

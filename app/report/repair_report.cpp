@@ -1,0 +1,166 @@
+#include "app/report/repair_report.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/text.h"
+#include "segment/mesh/measure.h"
+
+namespace qchopper {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(Vec3 v) {
+    return Json::array({v.x, v.y, v.z});
+}
+
+std::string verdict(const RepairReport& r) {
+    if (r.is_solid()) return "closed: a solid";
+    if (r.sheets > 0) return "no solid: more is missing than there is";
+    if (r.open_edges > 0) return "open at " + with_commas(r.open_edges) + " edges";
+    return "no solid: it has no volume";
+}
+
+// Distances are mm where the unit of the file is known, else in that unit.
+std::string unit_of_lengths(const RepairedScan& scan) {
+    return scan.mm_per_unit ? "mm" : "units of the file";
+}
+
+std::string distance_line(const RepairedScan& scan) {
+    const Farthest& f = scan.report.deviation->largest();
+    if (f.triangles == 0) return "nothing that was scanned has changed its place";
+    return fixed(f.mm, 6) + " " + unit_of_lengths(scan) + ", at most " + fixed(f.at_most, 6) +
+           ", from the scan to the "
+           "result over what changed";
+}
+
+Json to_json(const Farthest& f) {
+    return {{"distance", f.mm}, {"at_most", f.at_most}, {"at", to_json(f.at)}, {"faces_looked_at", f.triangles}};
+}
+
+Json holes(const RepairReport& r) {
+    Json all = Json::array();
+    for (const OpenHole& hole : r.left_open) {
+        all.push_back({{"edges", hole.edges}, {"centre", to_json(hole.centre)}});
+    }
+    return all;
+}
+
+Json steps_of(const RepairReport& r) {
+    Json all = Json::array();
+    for (const RepairStep& step : steps(r)) {
+        all.push_back({{"step", step.name}, {"count", step.count}, {"words", step.words}});
+    }
+    return all;
+}
+
+Json counts(const RepairReport& r) {
+    return {{"points_welded", r.welded},
+            {"faces_collapsed", r.collapsed},
+            {"points_unused", r.unreferenced},
+            {"border_points_welded", r.border_welded},
+            {"border_moved_mm", r.border_moved_mm},
+            {"faces_repeated", r.repeated},
+            {"faces_of_double_sheets", r.of_double_sheets},
+            {"edges_split", r.edges_split},
+            {"edges_cut", r.edges_cut},
+            {"points_copied", r.points_copied},
+            {"faces_turned", r.faces_turned},
+            {"edges_stitched", r.stitched},
+            {"no_area_removed", r.no_area_removed},
+            {"no_area_left", r.no_area_left},
+            {"holes_filled", r.holes_filled},
+            {"holes_faired", r.holes_faired},
+            {"faces_added", r.faces_added},
+            {"points_added", r.points_added},
+            {"added_area_share", r.added_area_share},
+            {"loose_sheets", r.loose_sheets},
+            {"loose_sheet_faces", r.loose_sheet_faces},
+            {"shells", r.shells},
+            {"cavities", r.cavities},
+            {"shells_turned", r.shells_turned},
+            {"shells_overlapping", r.overlapping},
+            {"crumbs", r.crumbs},
+            {"crumb_faces", r.crumb_faces},
+            {"crumb_area_share", r.crumb_area_share},
+            {"crumbs_dropped", r.crumbs_dropped}};
+}
+
+Json resolved(const RepairReport& r) {
+    if (!r.resolved) return {};
+    Json where = Json::array();
+    for (const Vec3& p : r.resolved->where_left) where.push_back(to_json(p));
+    return {{"pairs", r.resolved->pairs},   {"left", r.resolved->left},
+            {"places", r.resolved->places}, {"removed", r.resolved->removed},
+            {"added", r.resolved->added},   {"undone", r.resolving_undone},
+            {"where_left", where}};
+}
+
+Json marks(const RepairReport& r) {
+    if (!r.marks) return {};
+    return {{"marks", r.marks->marks},
+            {"points_moved", r.marks->points_moved},
+            {"area_mm2", r.marks->area_mm2},
+            {"length_mm", r.marks->length_mm},
+            {"most_depth_mm", r.marks->most_depth},
+            {"mean_depth_mm", r.marks->mean_depth}};
+}
+
+}  // namespace
+
+std::vector<std::string> lines(const RepairedScan& scan, const RepairedFile& file) {
+    const RepairReport& r = scan.report;
+    std::vector<std::string> text;
+    text.push_back(file.out.string() + ": " + with_commas(r.faces_out) + " faces, " +
+                   with_commas(r.faces_in - r.faces_gone) + " of them as scanned");
+    for (const RepairStep& step : steps(r)) {
+        if (step.count == 0) continue;
+        text.push_back(step.name + std::string(step.name.size() < 13 ? 13 - step.name.size() : 1, ' ') + step.words);
+    }
+    if (r.deviation) text.push_back("distance     " + distance_line(scan));
+    if (r.open_edges == 0 && scan.mm_per_unit) {
+        const double unit = *scan.mm_per_unit;
+        text.push_back("volume       " + volume_in_words(unit * unit * unit * r.volume));
+    }
+    text.push_back("verdict      " + verdict(r));
+    return text;
+}
+
+std::string document(const RepairedScan& scan, const RepairedFile& file) {
+    const RepairReport& r = scan.report;
+    Json json{
+        {"schema", "qchopper-repair-1"},
+        {"file", file.scan.string()},
+        {"out", file.out.string()},
+        {"format", name_of(scan.format)},
+        {"sha256", to_hex(scan.sha256)},
+        {"units", scan.mm_per_unit ? Json(name_of(unit_of(*scan.mm_per_unit))) : Json()},
+        {"scale", file.scale},
+        {"faces_in", r.faces_in},
+        {"vertices_in", r.points_in},
+        {"faces", r.faces_out},
+        {"vertices", r.points_out},
+        {"faces_gone", r.faces_gone},
+        {"faces_new", r.faces_new},
+        {"passes", r.passes},
+        {"steps", steps_of(r)},
+        {"counts", counts(r)},
+        {"self_intersections", resolved(r)},
+        {"marks", marks(r)},
+        {"wrap", r.wrapped ? Json{{"alpha_mm", r.wrapped->alpha_mm}, {"offset_mm", r.wrapped->offset_mm}} : Json()},
+        {"left_open", holes(r)},
+        {"closed", r.open_edges == 0},
+        {"solid", r.is_solid()},
+        {"volume", r.volume}};
+    if (r.deviation) {
+        json["deviation"] = {{"unit", scan.mm_per_unit ? "mm" : "file"},
+                             {"largest", r.deviation->largest().mm},
+                             {"from_scan", to_json(r.deviation->from_scan)},
+                             {"from_result", to_json(r.deviation->from_result)}};
+    }
+    json["warnings"] = scan.warnings;
+    json["verdict"] = verdict(r);
+    return json.dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace qchopper

@@ -1,0 +1,261 @@
+#include "app/report/segment_report.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/report/columns.h"
+#include "app/report/shell_word.h"
+#include "base/text.h"
+
+namespace qchopper {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(Vec3 v) {
+    return Json::array({v.x, v.y, v.z});
+}
+
+std::string in_words(Vec3 v, int digits) {
+    return fixed(v.x, digits) + " " + fixed(v.y, digits) + " " + fixed(v.z, digits);
+}
+
+std::string weights_in_words(const Weights& w) {
+    return "face ratio " + fixed(w.face_ratio, 3) + ", fragility " + fixed(w.fragility, 3) + ", piece count " +
+           fixed(w.piece_count, 3) + ", undercut " + fixed(w.undercut, 3);
+}
+
+bool is_crumb(const SolidPrice& solid, const Project& project) {
+    return solid.volume_mm3 < project.settings.objectives.crumb_volume_mm3;
+}
+
+// Of planes in which the piece runs through itself; the cut says it too (cut_piece.cpp).
+std::string sections_cross(const std::string& planes) {
+    return "The sections of " + planes + " cross: the piece runs through itself there, and the caps would overlap.";
+}
+
+// Undo and redo by the names of what they would take back or bring again; empty: nothing.
+std::string undo_in_words(const Project& project) {
+    const Decision* decision = to_undo(project.history);
+    return decision != nullptr ? "Undo " + words(*decision) : "";
+}
+
+std::string redo_in_words(const Project& project) {
+    const Decision* decision = to_redo(project.history);
+    return decision != nullptr ? "Redo " + words(*decision) : "";
+}
+
+void add(std::vector<std::string>& text, const std::vector<std::string>& more) {
+    text.insert(text.end(), more.begin(), more.end());
+}
+
+std::vector<std::string> proposal_lines(const Proposal& p, const std::filesystem::path& folder) {
+    std::vector<std::string> text;
+    text.push_back("Piece " + p.piece + ", " + with_commas(p.faces) + " faces: " + with_commas(p.ranked.size()) +
+                   " planes, best first." +
+                   (p.rules_hold ? " The stop rules hold already; this is the piece with most faces." : ""));
+    std::vector<std::vector<std::string>> rows{
+        {"K", "normal", "offset mm", "face ratio", "fragility", "piece count", "undercut", "total"}};
+    for (std::size_t k = 0; k < std::min(p.top, p.ranked.size()); ++k) {
+        const Ranked& r = p.ranked[k];
+        rows.push_back({std::to_string(k + 1), in_words(r.plane.normal, 4), fixed(r.plane.offset, 3),
+                        fixed(r.terms.face_ratio, 3), fixed(r.terms.fragility, 4), fixed(r.terms.piece_count, 0),
+                        fixed(r.terms.undercut, 4), fixed(r.terms.total, 4)});
+    }
+    add(text, columns(rows));
+    std::string crossing;
+    for (const std::size_t k : p.crossing) crossing += (crossing.empty() ? "K " : ", ") + std::to_string(k);
+    if (!crossing.empty()) text.push_back(sections_cross(crossing));
+    if (!p.ranked.empty()) {
+        text.push_back("Nothing was cut. Take one by: qchopper segment " + shell_word(folder) + " --piece " + p.piece +
+                       " --accept K");
+    }
+    return text;
+}
+
+std::vector<std::string> preview_lines(const Preview& p, const Project& project) {
+    std::vector<std::string> text;
+    text.push_back("Plane " + in_words(p.plane.plane.normal, 6) + ", " + fixed(p.plane.plane.offset, 3) +
+                   " mm on piece " + p.piece + ": total " + fixed(p.plane.terms.total, 4));
+    text.push_back("Outline: " + with_commas(p.outline.loops.size()) +
+                   (p.outline.loops.size() == 1 ? " loop, " : " loops, ") + fixed(p.outline.length_mm, 1) +
+                   " mm long, within " + in_words(p.outline.box.min, 1) + " to " + in_words(p.outline.box.max, 1) +
+                   " mm");
+    std::vector<std::vector<std::string>> rows{{"would make", "side", "faces", "volume"}};
+    for (const SolidPrice& s : p.solids) {
+        rows.push_back({is_crumb(s, project) ? "crumb" : "piece", s.above ? "above" : "below", with_commas(s.faces),
+                        volume_in_words(s.volume_mm3)});
+    }
+    add(text, columns(rows));
+    if (p.sections_cross) text.push_back(sections_cross("this plane"));
+    text.push_back("Nothing was cut.");
+    return text;
+}
+
+std::vector<std::string> standing_lines(const Project& project) {
+    std::vector<std::vector<std::string>> rows{{"piece", "made by", "faces", "volume"}};
+    for (const SolidRecord& p : project.pieces) {
+        rows.push_back({p.name, p.cut > 0 ? "cut " + std::to_string(p.cut) : "the scan", with_commas(p.faces),
+                        volume_in_words(p.volume_mm3)});
+    }
+    std::vector<std::string> text = columns(rows);
+    text.push_back(std::to_string(project.pieces.size()) + (project.pieces.size() == 1 ? " piece by " : " pieces by ") +
+                   std::to_string(project.cuts.size()) + (project.cuts.size() == 1 ? " cut, " : " cuts, ") +
+                   with_commas(project.crumb_list.size()) +
+                   (project.crumb_list.size() == 1 ? " crumb. Weights: " : " crumbs. Weights: ") +
+                   weights_in_words(project.settings.objectives.weights) + ".");
+    add(text, discarded_lines(project));
+    for (const auto& [option, what] : {std::pair{"--undo", undo_in_words(project)}, {"--redo", redo_in_words(project)}})
+        if (!what.empty()) text.push_back(std::string(option) + ": " + what);
+    return text;
+}
+
+Json plane_json(const Ranked& r, const Project& project) {
+    const Terms& t = r.terms;
+    return {{"normal", to_json(r.plane.normal)},
+            {"offset_mm", r.plane.offset},
+            {"offset_in_scan_mm", r.plane.offset + height(r.plane.normal, project.scan.centre)},
+            {"wanted_offset_mm", r.wanted_offset},
+            {"normal_number", r.normal},
+            {"offset_number", r.offset},
+            {"terms",
+             {{"face_ratio", t.face_ratio},
+              {"fragility", t.fragility},
+              {"piece_count", t.piece_count},
+              {"undercut", t.undercut},
+              {"total", t.total}}}};
+}
+
+Json proposal_json(const Proposal& p, const Project& project) {
+    Json planes = Json::array();
+    for (std::size_t k = 0; k < std::min(p.top, p.ranked.size()); ++k) {
+        Json plane{{"k", k + 1}};
+        plane.update(plane_json(p.ranked[k], project));
+        plane["sections_cross"] = std::find(p.crossing.begin(), p.crossing.end(), k + 1) != p.crossing.end();
+        planes.push_back(plane);
+    }
+    return {{"piece", p.piece},
+            {"faces", p.faces},
+            {"rules_hold", p.rules_hold},
+            {"candidates", p.ranked.size()},
+            {"planes", planes}};
+}
+
+Json preview_json(const Preview& p, const Project& project) {
+    Json loops = Json::array();
+    for (const auto& loop : p.outline.loops) {
+        Json points = Json::array();
+        for (const Vec3 point : loop) points.push_back(to_json(point));
+        loops.push_back(points);
+    }
+    Json solids = Json::array();
+    for (const SolidPrice& s : p.solids) {
+        solids.push_back({{"side", s.above ? "above" : "below"},
+                          {"faces", s.faces},
+                          {"volume_mm3", s.volume_mm3},
+                          {"crumb", is_crumb(s, project)}});
+    }
+    return {{"piece", p.piece},
+            {"plane", plane_json(p.plane, project)},
+            {"sections_cross", p.sections_cross},
+            {"loops", loops},
+            {"length_mm", p.outline.length_mm},
+            {"box_min_mm", to_json(p.outline.box.min)},
+            {"box_max_mm", to_json(p.outline.box.max)},
+            {"makes", solids}};
+}
+
+Json cuts_json(const Project& project) {
+    Json cuts = Json::array();
+    for (const Cut& cut : project.cuts) {
+        Json json{{"number", cut.number}, {"piece", cut.piece}};
+        json.update(plane_json(cut.chosen, project));
+        json["pieces"] = cut.pieces;
+        json["crumbs"] = cut.crumbs;
+        cuts.push_back(json);
+    }
+    return cuts;
+}
+
+Json text_or_null(const std::string& text) {
+    return text.empty() ? Json() : Json(text);
+}
+
+}  // namespace
+
+std::vector<std::string> discarded_lines(const Project& project) {
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < project.discarded.size(); ++i) {
+        const SolidRecord& solid = project.discarded[i];
+        const std::size_t after = project.discards.at(i).after;
+        lines.push_back("discarded " + (after > 0 ? "after cut " + std::to_string(after) : "before the first cut") +
+                        ": piece " + solid.name + ", " + with_commas(solid.faces) + " faces, " +
+                        fixed(solid.volume_mm3 / 1000, 3) + " ml (" +
+                        fixed(100 * solid.volume_mm3 / project.scan.volume_mm3, 2) + " % of the scan)");
+    }
+    return lines;
+}
+
+Json discarded_json(const Project& project) {
+    Json all = Json::array();
+    for (std::size_t i = 0; i < project.discarded.size(); ++i) {
+        const SolidRecord& solid = project.discarded[i];
+        all.push_back({{"name", solid.name},
+                       {"after", project.discards.at(i).after},
+                       {"cut", solid.cut},
+                       {"faces", solid.faces},
+                       {"volume_mm3", solid.volume_mm3}});
+    }
+    return all;
+}
+
+std::vector<std::string> lines(const SegmentAnswer& answer, const std::filesystem::path& folder,
+                               const Project& project) {
+    std::vector<std::string> text;
+    if (!answer.done.empty()) text.push_back(answer.done);
+    add(text, answer.notes);
+    if (answer.plan)
+        text.push_back(
+            "Plan of " + std::to_string(project.cuts.size()) + " cuts" +
+            (project.discards.empty() ? "" : " and " + std::to_string(project.discards.size()) + " discarded pieces") +
+            ": " + answer.plan->string());
+    if (answer.plan) add(text, discarded_lines(project));
+    if (answer.pieces_written) text.push_back("The pieces are in " + (folder / "pieces").string() + ".");
+    if (answer.proposal) add(text, proposal_lines(*answer.proposal, folder));
+    if (answer.preview) add(text, preview_lines(*answer.preview, project));
+    if (!answer.proposal && !answer.preview && !answer.plan) add(text, standing_lines(project));
+    return text;
+}
+
+std::string document(const SegmentAnswer& answer, const std::filesystem::path& folder, const Project& project) {
+    Json pieces = Json::array();
+    for (const SolidRecord& p : project.pieces) {
+        pieces.push_back({{"name", p.name}, {"cut", p.cut}, {"faces", p.faces}, {"volume_mm3", p.volume_mm3}});
+    }
+    const Weights& w = project.settings.objectives.weights;
+    Json json{{"schema", "qchopper-segment-1"},
+              {"project", folder.string()},
+              {"done", text_or_null(answer.done)},
+              {"demand_met", answer.is_demand_met},
+              {"notes", answer.notes},
+              {"undo", text_or_null(undo_in_words(project))},
+              {"redo", text_or_null(redo_in_words(project))},
+              {"ended_because", text_or_null(project.ended_because)},
+              {"weights",
+               {{"face_ratio", w.face_ratio},
+                {"fragility", w.fragility},
+                {"piece_count", w.piece_count},
+                {"undercut", w.undercut}}},
+              {"cuts", cuts_json(project)},
+              {"pieces", pieces},
+              {"crumbs", project.crumb_list.size()},
+              {"discarded", discarded_json(project)},
+              {"warnings", project.warnings}};
+    if (answer.pieces_written) json["pieces_written"] = (folder / "pieces").string();
+    if (answer.plan) json["plan"] = answer.plan->string();
+    if (answer.proposal) json["proposal"] = proposal_json(*answer.proposal, project);
+    if (answer.preview) json["preview"] = preview_json(*answer.preview, project);
+    return json.dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace qchopper

@@ -1,0 +1,132 @@
+#include "base/file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "base/error.h"
+#include "base/huge_pages.h"
+
+namespace qchopper {
+namespace {
+
+// Closes a descriptor on every way out.
+struct Descriptor {
+    int fd;
+    explicit Descriptor(int descriptor) : fd(descriptor) {}
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor() {
+        if (fd >= 0) ::close(fd);
+    }
+};
+
+std::string reason() {
+    return std::generic_category().message(errno);
+}
+
+void write_all(int fd, const std::uint8_t* data, std::size_t size, const std::filesystem::path& path) {
+    while (size > 0) {
+        const ssize_t written = ::write(fd, data, size);
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) throw InputError(InputFault::io, path.string() + " cannot be written: " + reason());
+        data += written;
+        size -= static_cast<std::size_t>(written);
+    }
+}
+
+void write_bytes(const std::filesystem::path& path, const std::uint8_t* data, std::size_t size) {
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+    const std::filesystem::path aside = path.string() + ".tmp." + std::to_string(::getpid());
+    try {
+        const Descriptor file(::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+        if (file.fd < 0) throw InputError(InputFault::create, path.string() + " cannot be created: " + reason());
+        write_all(file.fd, data, size, path);
+        if (::fsync(file.fd) != 0) throw InputError(InputFault::io, path.string() + " cannot be saved: " + reason());
+        if (::rename(aside.c_str(), path.c_str()) != 0) {
+            throw InputError(InputFault::create, path.string() + " cannot be replaced: " + reason());
+        }
+    } catch (...) {
+        ::unlink(aside.c_str());
+        throw;
+    }
+    const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (directory.fd >= 0) ::fsync(directory.fd);
+}
+
+const char* kind_of(mode_t mode) {
+    if (S_ISDIR(mode)) return "a folder";
+    if (S_ISFIFO(mode)) return "a pipe";
+    if (S_ISSOCK(mode)) return "a socket";
+    return "a device";
+}
+
+std::string in_words(std::uint64_t bytes) {
+    const bool is_large = bytes + 1 >= std::uint64_t{1} << 30;
+    return std::to_string((bytes + 1) >> (is_large ? 30U : 20U)) + (is_large ? " GB" : " MB");
+}
+
+[[noreturn]] void refuse_size(const std::string& name, SizeLimit limit) {
+    throw InputError(limit.fault, name + " is larger than " + in_words(limit.bytes) + ", the most that such a file has",
+                     "check that it is the right file");
+}
+
+// `size`: what is expected; there may be more or less.
+Bytes read_to_end(int fd, std::uint64_t size, const std::string& name, SizeLimit limit) {
+    Bytes bytes;
+    const std::size_t room = static_cast<std::size_t>(size) + 1;  // to see the end
+    reserve_huge(bytes, room);
+    bytes.resize(room);
+    std::size_t filled = 0;
+    while (true) {
+        if (filled > limit.bytes) refuse_size(name, limit);
+        if (filled == bytes.size()) bytes.resize(filled + 65536);
+        const ssize_t got = ::read(fd, bytes.data() + filled, bytes.size() - filled);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) throw InputError(InputFault::missing, name + " cannot be read: " + reason());
+        if (got == 0) break;
+        filled += static_cast<std::size_t>(got);
+    }
+    bytes.resize(filled);
+    return bytes;
+}
+
+}  // namespace
+
+Bytes read_file(const std::filesystem::path& path, SizeLimit limit) {
+    // Without O_NONBLOCK the opening of a named pipe waits for a writer; regular files do not know the difference.
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+    if (file.fd < 0) {
+        throw InputError(InputFault::missing, path.string() + " cannot be opened: " + reason(),
+                         "check the name and the rights");
+    }
+    struct stat info {};
+    if (::fstat(file.fd, &info) != 0) {
+        throw InputError(InputFault::missing, path.string() + " cannot be read: " + reason());
+    }
+    if (!S_ISREG(info.st_mode)) {
+        throw InputError(InputFault::missing, path.string() + " is " + kind_of(info.st_mode) + ", not a file",
+                         "name the file itself");
+    }
+    const auto size = static_cast<std::uint64_t>(info.st_size);
+    if (size > limit.bytes) refuse_size(path.string(), limit);
+    return read_to_end(file.fd, size, path.string(), limit);
+}
+
+Bytes read_standard_input(SizeLimit limit) {
+    return read_to_end(STDIN_FILENO, 0, "standard input", limit);
+}
+
+void write_file(const std::filesystem::path& path, const Bytes& bytes) {
+    write_bytes(path, bytes.data(), bytes.size());
+}
+
+void write_file(const std::filesystem::path& path, std::string_view text) {
+    write_bytes(path, reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+}
+
+}  // namespace qchopper

@@ -1,0 +1,96 @@
+// On std::thread, for the build under the thread sanitizer: every synchronisation is one that it sees. New threads for
+// each loop, and none for a loop inside another one's range: slower than TBB, which is of no matter there.
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "base/parallel.h"
+
+namespace qchopper {
+namespace {
+
+// More threads than cores are wanted: the more they are interleaved, the more the sanitizer sees.
+constexpr std::size_t usual_threads = 4;
+constexpr std::size_t ranges_per_thread = 4;
+
+std::mutex limits_mutex;
+std::multiset<std::size_t> limits;
+thread_local bool is_inside_a_loop = false;
+
+std::size_t thread_count() {
+    const std::lock_guard lock(limits_mutex);
+    return limits.empty() ? usual_threads : std::min(usual_threads, *limits.begin());
+}
+
+// The first exception of any thread.
+class FirstException {
+ public:
+    void keep() {
+        const std::lock_guard lock(mutex_);
+        if (!exception_) exception_ = std::current_exception();
+        is_kept_ = true;
+    }
+    bool is_kept() const { return is_kept_; }
+    void rethrow() const {
+        if (exception_) std::rethrow_exception(exception_);
+    }
+
+ private:
+    std::mutex mutex_;
+    std::exception_ptr exception_;
+    std::atomic<bool> is_kept_ = false;
+};
+
+}  // namespace
+
+void parallel_ranges(std::size_t begin, std::size_t end, std::size_t grain,
+                     const std::function<void(std::size_t first, std::size_t end)>& work) {
+    if (begin >= end) return;
+    const std::size_t count = end - begin;
+    const std::size_t threads = std::min(thread_count(), (count + grain - 1) / grain);
+    if (threads <= 1 || is_inside_a_loop) {
+        work(begin, end);
+        return;
+    }
+    const std::size_t step = std::max(grain, count / (ranges_per_thread * threads));
+    std::atomic<std::size_t> next = begin;
+    FirstException exception;
+    const auto run = [&] {
+        is_inside_a_loop = true;
+        try {
+            for (std::size_t first = next.fetch_add(step); first < end && !exception.is_kept();
+                 first = next.fetch_add(step)) {
+                work(first, std::min(end, first + step));
+            }
+        } catch (...) {
+            exception.keep();
+        }
+        is_inside_a_loop = false;
+    };
+    std::vector<std::thread> others;
+    for (std::size_t i = 1; i < threads; ++i) others.emplace_back(run);
+    run();
+    for (std::thread& other : others) other.join();
+    exception.rethrow();
+}
+
+struct ThreadLimit::State {
+    std::multiset<std::size_t>::iterator place;
+};
+
+ThreadLimit::ThreadLimit(std::size_t count) : state_(new State) {
+    const std::lock_guard lock(limits_mutex);
+    state_->place = limits.insert(count);
+}
+
+ThreadLimit::~ThreadLimit() {
+    const std::lock_guard lock(limits_mutex);
+    limits.erase(state_->place);
+}
+
+}  // namespace qchopper

@@ -1,0 +1,23 @@
+// Numbers for people: the same letters under every locale (tests/cam/job/ticket_test.cpp).
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace qchopper {
+
+// A number with so many decimals; never "-0".
+std::string fixed(double value, int decimals);
+
+// 1234567 -> "1,234,567"
+std::string with_commas(std::size_t number);
+
+// "1.234 l"; below a litre in ml, with three digits: "320 ml", "0.0123 ml".
+std::string volume_in_words(double mm3);
+
+// "45 s", "12 min", "3 h 05 min".
+std::string duration(std::uint32_t seconds);
+
+}  // namespace qchopper

@@ -1,0 +1,52 @@
+// One table of a settings file, read key by key: every fault names file, line and key.
+//
+// Unknown keys are refused as soon as their table is opened (tests/cam/cell/cell_test.cpp).
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/vec3.h"
+
+namespace qchopper {
+
+using Keys = std::span<const std::string_view>;
+
+// The smallest number of letters to change, add or drop from one word to the other.
+std::size_t letters_apart(std::string_view a, std::string_view b);
+
+class TomlReader {
+ public:
+    // The outermost table. Throws InputError (config) if the text is not TOML; `file` is for messages.
+    static TomlReader parse(std::string_view text, const std::string& file, Keys known);
+
+    bool has(std::string_view key) const;
+    // Each throws InputError (config) if the key is missing, of another type, or out of bounds.
+    std::string text(std::string_view key) const;  // one line, not empty
+    double number(std::string_view key, double least, double most) const;
+    std::uint32_t whole(std::string_view key, std::uint32_t least, std::uint32_t most) const;
+    std::vector<double> numbers(std::string_view key, std::size_t count, double least, double most) const;
+    Vec3 vector(std::string_view key, double least, double most) const;
+    TomlReader table(std::string_view key, Keys known) const;
+    std::vector<TomlReader> tables(std::string_view key, Keys known) const;
+
+    // Throws InputError (config): "FILE:LINE: KEY: why".
+    [[noreturn]] void refuse(std::string_view key, const std::string& why, const std::string& to_do = {}) const;
+
+ private:
+    struct Table;  // hides the TOML library; keeps the whole file alive
+    TomlReader(std::shared_ptr<const Table> table, std::string file, std::string prefix, Keys known);
+    std::string full(std::string_view key) const { return prefix_ + std::string(key); }
+
+    std::shared_ptr<const Table> table_;
+    std::string file_;
+    std::string prefix_;
+};
+
+}  // namespace qchopper

@@ -1,5 +1,0 @@
-#include "cli/run.h"
-
-int main(int argc, char** argv) {
-    return qchopper::run_program(argc, argv);
-}

@@ -1,0 +1,178 @@
+#include "segment/import/import_scan.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "base/error.h"
+#include "segment/import/inspect.h"
+#include "segment/mesh/measure.h"
+
+namespace qchopper {
+namespace {
+
+constexpr double largest_mm = 1e11;  // beyond this a double does not hold 0.0001 mm any more
+constexpr const char* repair_first = "repair the scan in the scanning software, then try again";
+
+std::string in_digits(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.6g", value);
+    return text.data();
+}
+
+std::string place(Vec3 p) {
+    return in_digits(p.x) + ", " + in_digits(p.y) + ", " + in_digits(p.z);
+}
+
+std::string counted(std::size_t count, const std::string& one, const std::string& many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+// What one unit of the file is; nothing where that may stay open.
+std::optional<double> mm_per_unit_of(const RawMesh& scan, const std::string& name, const IntakeOptions& options) {
+    const std::optional<double> agreed = agreed_mm_per_unit(scan.mm_per_unit, options.mm_per_unit, name);
+    if (agreed || options.may_lack_unit) return agreed;
+    throw InputError(InputFault::use, name + " is " + name_of(scan.format) + ", which has no unit",
+                     "say --units mm, cm, m or in");
+}
+
+void check(const IntakeOptions& options) {
+    const double unit = options.mm_per_unit.value_or(1);
+    const double factor = unit * options.scale;
+    if (unit > 0 && options.scale > 0 && std::isfinite(factor) && factor != 0) return;
+    throw InputError(InputFault::use, "units and scale must be positive numbers", "leave --scale out for 1");
+}
+
+// Of the points in use.
+Box box_of(const TriangleMesh& mesh) {
+    const Vec3 first = mesh.points[mesh.triangles[0][0]];
+    Box box{first, first};
+    for (const Triangle& t : mesh.triangles) {
+        for (const std::uint32_t corner : t) {
+            for (int axis = 0; axis < 3; ++axis) {
+                box.min[axis] = std::min(box.min[axis], mesh.points[corner][axis]);
+                box.max[axis] = std::max(box.max[axis], mesh.points[corner][axis]);
+            }
+        }
+    }
+    return box;
+}
+
+void check_range(const Box& box, double mm_per_unit, const std::string& name) {
+    const double far = largest_mm / mm_per_unit;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (box.min[axis] >= -far && box.max[axis] <= far) continue;
+        throw InputError(InputFault::mesh,
+                         name + " reaches to (" + place(box.max) + ") and (" + place(box.min) +
+                             "): more than 100 000 km from its origin",
+                         "check --units, or export the scan again");
+    }
+}
+
+std::string scaled_in_words(double scale) {
+    return "The scan is scaled by " + in_digits(scale) + " (--scale): its pieces are not in true size.";
+}
+
+// Says what stands between the result and a solid.
+void check_solid(const RepairedScan& scan, const std::string& name, bool may_be_open) {
+    const RepairReport& r = scan.report;
+    const auto refuse = [&](const std::string& why, const std::string& to_do = repair_first) {
+        throw InputError(InputFault::mesh, name + why, to_do);
+    };
+    if (scan.mesh.triangles.empty()) {
+        refuse(r.of_double_sheets > 0 ? ": nothing but flat double sheets, which enclose nothing"
+                                      : ": no face has an area");
+    }
+    if (may_be_open) return;
+    if (r.sheets > 0) {
+        refuse(" is open: " + counted(r.sheets, "part of it is a sheet", "parts of it are sheets") +
+                   " with more missing than there is; the first around (" + place(r.first_sheet) +
+                   ") in the units of the file",
+               "scan the other side too, or close the surface in the scanning software");
+    }
+    if (!r.left_open.empty()) {
+        const OpenHole& hole = r.left_open.front();
+        refuse(": " + counted(r.left_open.size(), "hole", "holes") + " cannot be closed; the first has " +
+               std::to_string(hole.edges) + " edges around (" + place(hole.centre) + ") in the units of the file");
+    }
+    if (r.open_edges > 0) {
+        refuse(" does not close at " + counted(r.open_edges, "edge", "edges") + "; the first near (" +
+               place(r.first_open_edge) + ") in the units of the file");
+    }
+    if (!(r.volume > 0)) refuse(" has no volume");
+}
+
+// Of a file that lies in several, the hash over the hashes.
+Sha256 hash_of(const Bytes& bytes, const std::vector<Sha256>& beside) {
+    const Sha256 own = sha256(bytes);
+    if (beside.empty()) return own;
+    Bytes all(own.begin(), own.end());
+    for (const Sha256& other : beside) all.insert(all.end(), other.begin(), other.end());
+    return sha256(all);
+}
+
+void warn_of_size(const Intake& intake, std::vector<std::string>& warnings) {
+    const Vec3 size = bounds(intake.mesh).size();
+    const double longest = std::max({size.x, size.y, size.z});
+    if (longest >= 10 && longest <= 20000) return;
+    warnings.push_back("The scan measures " + size_in_words(size) + ": is --units right?");
+}
+
+}  // namespace
+
+RepairedScan repair_scan(const std::filesystem::path& path, const IntakeOptions& options, const Context& context) {
+    check(options);
+    const std::string name = name_of_scan(path);
+    RepairedScan result;
+    context.check_cancelled();
+    const Bytes bytes = read_scan(path);
+    RawMesh scan = parse_mesh(bytes, name, folder_of(path));
+    result.format = scan.format;
+    result.sha256 = hash_of(bytes, scan.beside);
+    result.warnings = std::move(scan.warnings);
+    if (scan.faces_without_area > 0) {
+        result.warnings.push_back(counted(scan.faces_without_area, "face has", "faces have") +
+                                  " fewer than three corners; left out.");
+    }
+    result.mm_per_unit = mm_per_unit_of(scan, name, options);
+    const double unit = result.mm_per_unit.value_or(1);
+    result.scanned = box_of(scan.mesh);
+    check_range(result.scanned, unit * options.scale, name);
+    RepairOptions repairs = options.repair;
+    repairs.mm_per_unit = unit;
+    Repaired repaired = repair(std::move(scan.mesh), repairs, context);
+    result.mesh = std::move(repaired.mesh);
+    result.report = std::move(repaired.report);
+    check_solid(result, name, repairs.fill.fill == Fill::none);
+    for (std::string& warning : warnings(result.report)) result.warnings.push_back(std::move(warning));
+    return result;
+}
+
+void enlarge(RepairedScan& scan, double scale) {
+    if (scale == 1) return;
+    for (Vec3& p : scan.mesh.points) p = scale * p;
+    scan.report.volume *= scale * scale * scale;
+    scan.warnings.push_back(scaled_in_words(scale));
+}
+
+Intake take_in(const std::filesystem::path& path, const IntakeOptions& options, const Context& context) {
+    RepairedScan scan = repair_scan(path, options, context);
+    check_solid(scan, path.string(), false);
+    Intake intake;
+    intake.mm_per_unit = scan.mm_per_unit.value_or(1);
+    const double factor = intake.mm_per_unit * options.scale;
+    intake.centre = factor * scan.scanned.centre();
+    intake.mesh = std::move(scan.mesh);
+    for (Vec3& p : intake.mesh.points) p = factor * p - intake.centre;
+    intake.sha256 = scan.sha256;
+    intake.report = {std::move(scan.report), {}};
+    if (options.scale != 1) {
+        intake.report.warnings.push_back(scaled_in_words(options.scale));
+    }
+    for (std::string& warning : scan.warnings) intake.report.warnings.push_back(std::move(warning));
+    warn_of_size(intake, intake.report.warnings);
+    return intake;
+}
+
+}  // namespace qchopper

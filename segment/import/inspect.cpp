@@ -1,0 +1,298 @@
+#include "segment/import/inspect.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "segment/mesh/links.h"
+#include "segment/mesh/manifold.h"
+#include "segment/mesh/nesting.h"
+#include "segment/mesh/shells.h"
+#include "segment/repair/crumbs.h"
+#include "segment/repair/loose_sheets.h"
+#include "segment/repair/self_intersections.h"
+#include "segment/repair/weld.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::size_t most_places = 10;
+constexpr double places_apart = 0.01;  // of the diagonal
+
+// One mesh on its way through all that is asked about it.
+class Inspecting {
+ public:
+    Inspecting(RawMesh scan, const InspectOptions& options, const Context& context)
+        : options_(options), context_(context), mesh_(std::move(scan.mesh)) {
+        mesh_.cap_of = {};
+        result_.format = scan.format;
+        result_.mm_per_unit = scan.mm_per_unit;
+        result_.warnings = std::move(scan.warnings);
+        result_.faces_in_file = scan.faces_in_file;
+        result_.faces_without_area = scan.faces_without_area;
+        result_.welded = scan.welded;
+        result_.points_in_file = mesh_.points.size() + scan.welded;
+        result_.triangles_in_file = mesh_.triangles.size();
+    }
+
+    Inspection inspect() {
+        step("points welded");
+        const WeldCounts counts = weld(mesh_);
+        result_.welded += counts.welded;
+        result_.collapsed = counts.collapsed;
+        result_.unreferenced = counts.unreferenced;
+        result_.triangles = mesh_.triangles.size();
+        result_.vertices = mesh_.points.size();
+        step("edges looked at");
+        look_at_edges();
+        step("shells looked at");
+        look_at_shells();
+        if (options_.deep) look_for_self_intersections();
+        return std::move(result_);
+    }
+
+ private:
+    void step(const char* what) {
+        context_.check_cancelled();
+        context_.progress(what, ++steps_, 3);
+    }
+
+    void look_for_self_intersections() {
+        const SelfIntersections found = self_intersections(mesh_, {}, context_);
+        SelfIntersected told;
+        told.pairs = found.pairs.size();
+        told.is_complete = found.is_complete;
+        const double apart = places_apart * norm(result_.box.size());
+        for (const auto& pair : found.pairs) {
+            if (told.places.size() == most_places) break;
+            const Vec3 place = meeting_place(mesh_, pair);
+            const bool is_near = std::any_of(told.places.begin(), told.places.end(),
+                                             [&](Vec3 other) { return norm(place - other) < apart; });
+            if (!is_near) told.places.push_back(place);
+        }
+        result_.self_intersected = std::move(told);
+    }
+
+    void look_at_edges() {
+        links_ = links(mesh_);
+        result_.open_edges = links_.faults.open;
+        result_.inconsistent = links_.faults.inconsistent;
+        result_.non_manifold = links_.faults.non_manifold;
+        result_.touching = count_touching();
+        result_.pinched = links_.extra_fans.size();
+        result_.repeated = links_.repeated;
+        // As repair counts shells: surfaces that only touch in points are two. At faulty edges they would fall to
+        // pieces.
+        if (result_.non_manifold + result_.inconsistent == 0) split_fans(mesh_, links_.extra_fans);
+        links_.extra_fans = {};
+        loops_ = border_loops(mesh_, links_.open);
+        for (const std::vector<std::uint32_t>& loop : loops_) {
+            BorderLoop hole{centre_of(mesh_, loop), loop.size(), 0};
+            for (const std::uint32_t h : loop) {
+                hole.length += norm(mesh_.points[end_of(mesh_, h)] - mesh_.points[start_of(mesh_, h)]);
+            }
+            result_.holes.push_back(hole);
+        }
+    }
+
+    // A wall between two solids, or a solid that touches itself along an edge: parted, nothing is open.
+    std::size_t count_touching() const {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> ways;
+        for (const std::uint32_t h : links_.faulty) {
+            const std::uint32_t from = start_of(mesh_, h);
+            const std::uint32_t to = end_of(mesh_, h);
+            std::pair<std::size_t, std::size_t>& way = ways[std::minmax(from, to)];
+            ++(from < to ? way.first : way.second);
+        }
+        return static_cast<std::size_t>(std::count_if(
+            ways.begin(), ways.end(), [](const auto& edge) { return edge.second.first == edge.second.second; }));
+    }
+
+    void look_at_shells() {
+        shells_ = shells(mesh_);
+        result_.shells = shells_.count();
+        if (result_.shells == 0) return;
+        result_.box = shells_.box[0];
+        for (std::size_t s = 0; s < shells_.count(); ++s) {
+            result_.volume += shells_.volume[s];
+            for (int axis = 0; axis < 3; ++axis) {
+                result_.box.min[axis] = std::min(result_.box.min[axis], shells_.box[s].min[axis]);
+                result_.box.max[axis] = std::max(result_.box.max[axis], shells_.box[s].max[axis]);
+            }
+        }
+        area_.assign(shells_.count(), 0);
+        for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+            const double area = norm(area_vector(mesh_, t));
+            result_.no_area += area == 0;
+            area_[shells_.shell_of[t]] += area;
+        }
+        for (const double area : area_) result_.area += area;
+        is_open_.assign(shells_.count(), false);
+        for (const std::vector<std::uint32_t>* half_edges : {&links_.open, &links_.faulty}) {
+            for (const std::uint32_t h : *half_edges) is_open_[shells_.shell_of[h / 3]] = true;
+        }
+        look_for_cavities();
+        look_for_sheets();
+    }
+
+    // Negative shells are cavities where something lies around them and inside out where nothing does. Shells with an
+    // open border have no sign. The volume of a solid is that of its outer shell without that of its cavities.
+    void look_for_cavities() {
+        std::vector<bool> is_negative(shells_.count());
+        double whole = 0;
+        for (std::size_t s = 0; s < shells_.count(); ++s) {
+            is_negative[s] = !is_open_[s] && shells_.volume[s] < 0;
+            if (!is_open_[s]) whole += shells_.volume[s];
+        }
+        std::vector<double> of_solid = shells_.volume;
+        std::vector<double> area_of_solid = area_;
+        std::vector<bool> is_solid = is_open_;
+        is_solid.flip();
+        std::vector<std::vector<std::uint32_t>> around(shells_.count());
+        if (std::find(is_negative.begin(), is_negative.end(), true) != is_negative.end()) {
+            around = shells_around(mesh_, shells_, is_negative);
+        }
+        for (std::size_t s = 0; s < shells_.count(); ++s) {
+            if (!is_negative[s]) continue;
+            if (around[s].empty()) {
+                ++result_.inside_out;
+                of_solid[s] = -of_solid[s];
+                whole += 2 * of_solid[s];
+                continue;
+            }
+            ++result_.cavities;
+            is_solid[s] = false;
+            const std::uint32_t outer = *std::min_element(around[s].begin(), around[s].end(), [&](auto a, auto b) {
+                return std::abs(shells_.volume[a]) < std::abs(shells_.volume[b]);
+            });
+            of_solid[outer] += shells_.volume[s];
+            area_of_solid[outer] += area_[s];
+        }
+        double area = 0;
+        for (std::size_t s = 0; s < shells_.count(); ++s) {
+            if (!is_solid[s] || !(of_solid[s] < crumb_share * whole)) continue;
+            ++result_.crumbs;
+            area += area_of_solid[s];
+        }
+        if (result_.area > 0) result_.crumb_area_share = area / result_.area;
+    }
+
+    // A flat lid on each hole is the least that closes it; its area is that of the loop seen along its mean normal.
+    void look_for_sheets() {
+        std::vector<double> lids(shells_.count());
+        for (const std::vector<std::uint32_t>& loop : loops_) {
+            const Vec3 origin = mesh_.points[start_of(mesh_, loop[0])];
+            Vec3 sum;
+            for (const std::uint32_t h : loop) {
+                sum = sum + cross(mesh_.points[start_of(mesh_, h)] - origin, mesh_.points[end_of(mesh_, h)] - origin);
+            }
+            lids[shells_.shell_of[loop[0] / 3]] += 0.5 * norm(sum);
+        }
+        double area = 0;
+        for (std::size_t s = 0; s < shells_.count(); ++s) {
+            if (!(lids[s] > most_fill_of_surface * area_[s])) continue;
+            ++result_.sheets;
+            area += area_[s];
+        }
+        if (result_.area > 0) result_.sheet_area_share = area / result_.area;
+    }
+
+    const InspectOptions& options_;
+    const Context& context_;
+    std::size_t steps_ = 0;
+    TriangleMesh mesh_;
+    Inspection result_;
+    Links links_;
+    std::vector<std::vector<std::uint32_t>> loops_;
+    Shells shells_;
+    std::vector<double> area_;   // per shell
+    std::vector<bool> is_open_;  // per shell: it has an open or faulty edge
+};
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+// How lengths are told next to the longest of them.
+struct Wording {
+    const char* unit;
+    double mm;
+    int decimals;  // three digits for the longest
+};
+
+Wording wording_for(double longest_mm) {
+    const auto in = [&](const char* unit, double mm) {
+        const double value = longest_mm / mm;
+        return Wording{unit, mm, value >= 99.95 ? 0 : value >= 9.995 ? 1 : 2};
+    };
+    if (longest_mm >= 999.5) return in("m", 1000);
+    return longest_mm >= 99.95 ? in("cm", 10) : in("mm", 1);
+}
+
+std::string in_words(double mm, const Wording& wording) {
+    std::array<char, 400> text{};  // the largest double has 309 digits
+    std::snprintf(text.data(), text.size(), "%.*f %s", wording.decimals, mm / wording.mm, wording.unit);
+    return text.data();
+}
+
+}  // namespace
+
+const BorderLoop* Inspection::longest_hole() const {
+    const auto longest = std::max_element(holes.begin(), holes.end(),
+                                          [](const BorderLoop& a, const BorderLoop& b) { return a.length < b.length; });
+    return longest == holes.end() ? nullptr : &*longest;
+}
+
+Inspection inspect(RawMesh scan, const InspectOptions& options, const Context& context) {
+    return Inspecting(std::move(scan), options, context).inspect();
+}
+
+Judgement judge(const Inspection& i) {
+    Judgement judgement;
+    const auto hopeless = [&](const std::string& why) {
+        judgement.verdict = Verdict::hopeless;
+        judgement.reasons = {why};
+        return judgement;
+    };
+    if (i.triangles == i.no_area) return hopeless("No face has an area.");
+    if (i.sheet_area_share > loose_sheet_share) {
+        return hopeless(counted(i.sheets, "part of it is a sheet", "parts of it are sheets") +
+                        " with more missing than there is: scan the other side too.");
+    }
+    if (i.is_closed() && i.volume == 0) return hopeless("It has no volume.");
+    const auto tell = [&](std::size_t count, const char* one, const char* many) {
+        if (count > 0) judgement.reasons.push_back(counted(count, one, many));
+    };
+    const auto add = [&](std::size_t count, const char* one, const char* many) {
+        tell(count, one, many);
+        if (count > 0) judgement.verdict = Verdict::to_repair;
+    };
+    tell(i.collapsed, "face is collapsed to a line or point and dropped.",
+         "faces are collapsed to a line or point and dropped.");
+    tell(i.touching, "edge where solids only touch is parted.", "edges where solids only touch are parted.");
+    tell(i.pinched, "point where surfaces only touch is parted.", "points where surfaces only touch are parted.");
+    add(i.repeated, "face lies on another one and is dropped.", "faces lie on others and are dropped.");
+    add(i.non_manifold - std::min(i.non_manifold, i.touching), "edge of more than two faces is split.",
+        "edges of more than two faces are split.");
+    add(i.inconsistent, "edge has faces turned against each other, which are turned.",
+        "edges have faces turned against each other, which are turned.");
+    add(i.no_area, "face has no area and is taken away.", "faces have no area and are taken away.");
+    add(i.sheets, "small loose sheet is dropped.", "small loose sheets are dropped.");
+    add(i.holes.size() - std::min(i.holes.size(), i.sheets), "hole is closed.", "holes are closed.");
+    add(i.inside_out, "shell is inside out and turned.", "shells are inside out and turned.");
+    if (i.self_intersected && i.self_intersected->pairs > 0) {
+        judgement.reasons.push_back(counted(i.self_intersected->pairs, "pair of faces runs", "pairs of faces run") +
+                                    " through each other; repair mends what lies close together.");
+        judgement.verdict = Verdict::to_repair;
+    }
+    return judgement;
+}
+
+std::string size_in_words(Vec3 size_mm) {
+    const Wording wording = wording_for(std::max({size_mm.x, size_mm.y, size_mm.z}));
+    return in_words(size_mm.x, wording) + " x " + in_words(size_mm.y, wording) + " x " + in_words(size_mm.z, wording);
+}
+
+}  // namespace qchopper

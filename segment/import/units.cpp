@@ -1,0 +1,65 @@
+#include <array>
+#include <cstdio>
+
+#include "base/error.h"
+#include "segment/import/import_scan.h"
+
+namespace qchopper {
+namespace {
+
+struct UnitName {
+    std::string_view name;
+    double mm;
+};
+constexpr std::array<UnitName, 6> units{
+    {{"mm", 1}, {"cm", 10}, {"m", 1000}, {"in", 25.4}, {"ft", 304.8}, {"um", 0.001}}};  // in the order of Unit
+
+std::string in_digits(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.6g", value);
+    return text.data();
+}
+
+std::string unit_in_words(double mm) {
+    for (const UnitName& unit : units) {
+        if (unit.mm == mm) return std::string(unit.name);
+    }
+    return in_digits(mm) + " mm";
+}
+
+}  // namespace
+
+double mm_per(Unit unit) {
+    return units[static_cast<std::size_t>(unit)].mm;
+}
+
+std::string name_of(Unit unit) {
+    return std::string(units[static_cast<std::size_t>(unit)].name);
+}
+
+Unit unit_named(std::string_view name) {
+    for (std::size_t i = 0; i < units.size(); ++i) {
+        if (units[i].name == name) return static_cast<Unit>(i);
+    }
+    throw InputError(InputFault::use, "unknown unit \"" + std::string(name) + "\"", "use mm, cm, m or in");
+}
+
+Unit unit_of(double mm) {
+    for (std::size_t i = 0; i < units.size(); ++i) {
+        if (units[i].mm == mm) return static_cast<Unit>(i);
+    }
+    throw InputError(InputFault::use, "a unit of " + in_digits(mm) + " mm has no name", "say --units mm, cm, m or in");
+}
+
+std::optional<double> agreed_mm_per_unit(std::optional<double> in_file, std::optional<double> given,
+                                         const std::string& name) {
+    if (in_file && given && *in_file != *given) {
+        throw InputError(InputFault::use,
+                         name + " says itself that its unit is " + unit_in_words(*in_file) + ", but --units says " +
+                             unit_in_words(*given),
+                         "leave --units out; if the file is wrong, save it in a format without units, such as PLY");
+    }
+    return in_file ? in_file : given;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,46 @@
+// The header of a PLY file: which elements follow, and how each of their properties is stored.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "segment/io/read_mesh.h"
+
+namespace qchopper {
+
+enum class PlyType { i8, u8, i16, u16, i32, u32, f32, f64 };
+
+std::size_t size_of(PlyType type);
+inline bool is_integer(PlyType type) {
+    return type != PlyType::f32 && type != PlyType::f64;
+}
+
+struct PlyProperty {
+    std::string name;
+    PlyType type = PlyType::f32;
+    bool is_list = false;
+    PlyType count_type = PlyType::u8;  // of a list
+};
+
+struct PlyElement {
+    std::string name;
+    std::uint64_t count = 0;
+    std::vector<PlyProperty> properties;
+    std::size_t line = 0;  // where the header names it
+};
+
+struct PlyHeader {
+    MeshFormat format = MeshFormat::ply_ascii;
+    std::vector<PlyElement> elements;
+    std::size_t size = 0;   // bytes up to the first element
+    std::size_t lines = 0;  // lines up to there
+};
+
+// Throws InputError (mesh) with the line of the fault.
+PlyHeader read_ply_header(std::string_view file, const std::string& name);
+
+}  // namespace qchopper

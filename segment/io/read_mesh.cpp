@@ -1,0 +1,106 @@
+#include "segment/io/read_mesh.h"
+
+#include "base/error.h"
+#include "segment/io/glb_file.h"
+#include "segment/io/gunzip.h"
+#include "segment/io/read_3mf.h"
+#include "segment/io/read_gltf.h"
+#include "segment/io/read_obj.h"
+#include "segment/io/read_off.h"
+#include "segment/io/read_ply.h"
+#include "segment/io/read_stl.h"
+#include "segment/io/to_utf8.h"
+
+namespace qchopper {
+namespace {
+
+[[noreturn]] void refuse_unknown(const Bytes& bytes, const std::string& name) {
+    throw InputError(
+        InputFault::mesh,
+        name + " begins like no PLY, STL, OBJ, OFF, glTF, GLB or 3MF file, and " + why_no_binary_stl(bytes),
+        "give a file of one of these formats; if it was one, export or copy it again");
+}
+
+// OBJ comes last: its only mark is that its first line looks like it.
+RawMesh parse_by_content(const Bytes& bytes, const std::string& name, const std::filesystem::path& folder) {
+    if (is_ply(bytes)) return parse_ply(bytes, name);
+    if (is_ascii_stl(bytes)) return parse_ascii_stl(bytes, name);
+    if (is_glb(bytes) || is_gltf(bytes)) return parse_gltf(bytes, name, folder);
+    if (is_3mf(bytes)) return parse_3mf(bytes, name);
+    if (is_off(bytes)) return parse_off(bytes, name);
+    if (is_obj(bytes)) return parse_obj(bytes, name);
+    refuse_unknown(bytes, name);
+}
+
+// What the wrapping holds. A binary STL comes first, since its length is a better mark than any few bytes.
+RawMesh parse_wrapped(const Bytes& bytes, const std::string& name, const std::filesystem::path& folder,
+                      const ReadOptions& options) {
+    if (is_binary_stl(bytes)) return parse_binary_stl(bytes, name, options.weld);
+    if (const std::optional<Bytes> text = to_utf8(bytes)) return parse_by_content(*text, name, folder);
+    return parse_by_content(bytes, name, folder);
+}
+
+RawMesh parse_packed(const Bytes& bytes, const std::string& name, const std::filesystem::path& folder,
+                     const ReadOptions& options) {
+    if (bytes.empty()) throw InputError(InputFault::mesh, name + " is empty", "export or copy the file again");
+    if (!is_gzip(bytes) || is_binary_stl(bytes)) return parse_wrapped(bytes, name, folder, options);
+    const Bytes unpacked = gunzip(bytes, name);
+    if (unpacked.empty()) throw InputError(InputFault::mesh, name + " is empty once unpacked", "copy the file again");
+    return parse_wrapped(unpacked, name, folder, options);
+}
+
+}  // namespace
+
+std::string name_of(MeshFormat format) {
+    switch (format) {
+        case MeshFormat::ply_ascii:
+            return "PLY, ASCII";
+        case MeshFormat::ply_little_endian:
+            return "PLY, binary little-endian";
+        case MeshFormat::ply_big_endian:
+            return "PLY, binary big-endian";
+        case MeshFormat::stl_ascii:
+            return "STL, ASCII";
+        case MeshFormat::obj:
+            return "OBJ";
+        case MeshFormat::off:
+            return "OFF";
+        case MeshFormat::gltf:
+            return "glTF";
+        case MeshFormat::glb:
+            return "GLB";
+        case MeshFormat::three_mf:
+            return "3MF";
+        case MeshFormat::stl_binary:
+            break;
+    }
+    return "STL, binary";
+}
+
+RawMesh parse_mesh(const Bytes& bytes, const std::string& name, const std::filesystem::path& folder,
+                   const ReadOptions& options) {
+    RawMesh scan = parse_packed(bytes, name, folder, options);
+    if (scan.mesh.triangles.empty()) {
+        throw InputError(InputFault::mesh, name + " holds no faces", "export the scan as a surface, not as points");
+    }
+    return scan;
+}
+
+Bytes read_scan(const std::filesystem::path& path) {
+    return path == "-" || path == "/dev/stdin" ? read_standard_input() : read_file(path);
+}
+
+RawMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
+    return parse_mesh(read_scan(path), path == "-" ? "standard input" : path.string(), folder_of(path), options);
+}
+
+std::string name_of_scan(const std::filesystem::path& path) {
+    return path == "-" ? "standard input" : path.string();
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+    if (path == "-") return {};
+    return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+}
+
+}  // namespace qchopper

@@ -1,0 +1,155 @@
+#include "segment/io/write_glb.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <sstream>
+
+#include "base/error.h"
+
+namespace qchopper {
+namespace {
+
+template <class Number>
+int add_view(tinygltf::Model& model, const std::vector<Number>& numbers, int target) {
+    std::vector<unsigned char>& data = model.buffers[0].data;
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = data.size();
+    view.byteLength = numbers.size() * sizeof(Number);
+    view.target = target;
+    data.resize(data.size() + view.byteLength);
+    std::memcpy(data.data() + view.byteOffset, numbers.data(), view.byteLength);  // glTF is little-endian, as we are
+    model.bufferViews.push_back(view);
+    return static_cast<int>(model.bufferViews.size()) - 1;
+}
+
+int add_positions(tinygltf::Model& model, const TriangleMesh& mesh) {
+    std::vector<float> numbers;
+    numbers.reserve(3 * mesh.points.size());
+    tinygltf::Accessor accessor;
+    accessor.minValues.assign(3, std::numeric_limits<float>::max());
+    accessor.maxValues.assign(3, std::numeric_limits<float>::lowest());
+    for (const Vec3& p : mesh.points) {
+        for (int axis = 0; axis < 3; ++axis) {
+            numbers.push_back(static_cast<float>(p[axis]));
+            const auto a = static_cast<std::size_t>(axis);
+            accessor.minValues[a] = std::min<double>(accessor.minValues[a], numbers.back());
+            accessor.maxValues[a] = std::max<double>(accessor.maxValues[a], numbers.back());
+        }
+    }
+    accessor.bufferView = add_view(model, numbers, TINYGLTF_TARGET_ARRAY_BUFFER);
+    accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
+    accessor.type = TINYGLTF_TYPE_VEC3;
+    accessor.count = mesh.points.size();
+    model.accessors.push_back(accessor);
+    return static_cast<int>(model.accessors.size()) - 1;
+}
+
+// The triangles that are caps, or those that are not.
+void add_primitive(tinygltf::Model& model, tinygltf::Mesh& to, const TriangleMesh& mesh, bool caps, int positions,
+                   int material) {
+    std::vector<std::uint32_t> corners;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if ((cap_of(mesh, t) != no_cap) != caps) continue;
+        corners.insert(corners.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+    }
+    if (corners.empty()) return;
+    tinygltf::Accessor accessor;
+    accessor.bufferView = add_view(model, corners, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    accessor.componentType = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    accessor.type = TINYGLTF_TYPE_SCALAR;
+    accessor.count = corners.size();
+    model.accessors.push_back(accessor);
+    tinygltf::Primitive primitive;
+    primitive.attributes["POSITION"] = positions;
+    primitive.indices = static_cast<int>(model.accessors.size()) - 1;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.material = material;
+    to.primitives.push_back(primitive);
+}
+
+// Numbers of the materials; those of the first node serve all that look the same.
+int add_matt(tinygltf::Model& model, const std::string& name, std::array<double, 3> colour) {
+    tinygltf::Material material;
+    material.name = name;
+    material.pbrMetallicRoughness.baseColorFactor = {colour[0], colour[1], colour[2], 1.0};
+    material.pbrMetallicRoughness.metallicFactor = 0;
+    material.pbrMetallicRoughness.roughnessFactor = 0.9;
+    const auto same = std::find(model.materials.begin(), model.materials.end(), material);
+    if (same != model.materials.end()) return static_cast<int>(same - model.materials.begin());
+    model.materials.push_back(material);
+    return static_cast<int>(model.materials.size()) - 1;
+}
+
+tinygltf::Value extras(const std::vector<GlbNote>& notes) {
+    using tinygltf::Value;
+    Value::Object inner;
+    for (const auto& [name, value] : notes) {
+        inner[name] = std::visit([](const auto& v) { return Value(v); }, value);
+    }
+    return Value(Value::Object{{"qchopper", Value(inner)}});
+}
+
+void add_node(tinygltf::Model& model, const GlbNode& from) {
+    tinygltf::Mesh mesh;
+    mesh.name = from.name;
+    const int surface = add_matt(model, "surface", from.surface);
+    const int cap = add_matt(model, "cap", from.cap);
+    const int positions = add_positions(model, *from.mesh);
+    add_primitive(model, mesh, *from.mesh, false, positions, surface);
+    add_primitive(model, mesh, *from.mesh, true, positions, cap);
+    tinygltf::Node node;
+    node.name = from.name;
+    node.mesh = static_cast<int>(model.meshes.size());
+    if (from.origin != Vec3{}) node.translation = {from.origin.x, from.origin.y, from.origin.z};
+    if (!from.notes.empty()) node.extras = extras(from.notes);
+    model.nodes[0].children.push_back(static_cast<int>(model.nodes.size()));
+    model.nodes.push_back(node);
+    model.meshes.push_back(mesh);
+}
+
+void add_root(tinygltf::Model& model, const std::string& name) {
+    tinygltf::Node root;
+    root.name = name;
+    constexpr double half_root_2 = 0.70710678118654752;
+    root.rotation = {-half_root_2, 0, 0, half_root_2};  // -90 degrees about X: Z up becomes Y up
+    root.scale = {0.001, 0.001, 0.001};
+    model.nodes = {root};
+    tinygltf::Scene scene;
+    scene.nodes = {0};
+    model.scenes = {scene};
+    model.defaultScene = 0;
+}
+
+void check_size(const GlbScene& scene) {
+    double bytes = 0;
+    for (const GlbNode& node : scene.nodes) {
+        bytes += 12.0 * static_cast<double>(node.mesh->points.size() + node.mesh->triangles.size());
+    }
+    constexpr double most = 4.2e9;  // a chunk tells its length in 32 bits, and the JSON wants some room
+    if (bytes > most) {
+        throw InputError(InputFault::use, "the pieces are too large for one GLB file, which ends at 4 GiB",
+                         "export them one by one with --piece, or simplify them");
+    }
+}
+
+}  // namespace
+
+Bytes to_glb(const GlbScene& scene) {
+    check_size(scene);
+    tinygltf::Model model;
+    model.asset.version = "2.0";
+    model.asset.generator = scene.generator;
+    model.buffers.resize(1);
+    add_root(model, scene.root);
+    for (const GlbNode& node : scene.nodes) add_node(model, node);
+    std::ostringstream stream;
+    tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true);
+    const std::string text = stream.str();
+    return {text.begin(), text.end()};
+}
+
+}  // namespace qchopper

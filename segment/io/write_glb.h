@@ -1,0 +1,41 @@
+// Writes meshes as GLB (glTF 2.0, binary), for any viewer: one node each, under a root that makes metres of mm.
+//
+// glTF wants metres and Y up: the root node turns and scales, the numbers inside stay millimetres with Z up, in single
+// precision about the node's own origin. Caps are a second primitive with a colour of their own. Same scene, same bytes
+// (tests/segment/io/write_glb_test.cpp).
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/file.h"
+#include "segment/mesh/triangle_mesh.h"
+
+namespace qchopper {
+
+using GlbNote = std::pair<std::string, std::variant<bool, int, double, std::string>>;
+
+struct GlbNode {
+    std::string name;                                 // "piece/B"
+    const TriangleMesh* mesh = nullptr;               // in the coordinates of the node; stays the caller's
+    Vec3 origin;                                      // of the node
+    std::array<double, 3> surface{0.80, 0.72, 0.56};  // linear red, green, blue
+    std::array<double, 3> cap{0.90, 0.85, 0.74};
+    std::vector<GlbNote> notes;  // extras: {"qchopper": {...}}
+};
+
+struct GlbScene {
+    std::string generator;
+    std::string root = "scene";  // name of the root node
+    std::vector<GlbNode> nodes;
+};
+
+// Throws InputError (use) for a scene beyond the 4 GiB that the format can hold.
+Bytes to_glb(const GlbScene& scene);
+
+}  // namespace qchopper

@@ -1,0 +1,198 @@
+// Branch and bound over the changed triangles, after M. Guthe, P. Borodin and R. Klein, "Fast and accurate Hausdorff
+// distance calculation between meshes" (2005): a triangle whose bound stays below what is found is dropped, the others
+// are split in four.
+
+#include "segment/mesh/distance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/parallel.h"
+#include "segment/mesh/triangle_tree.h"
+
+namespace qchopper {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+constexpr std::size_t chunk = 1U << 17;
+
+using Places = std::array<Vec3, 3>;
+
+// A triangle, or a part of one, with what is known of it.
+struct Part {
+    Places corner;
+    double found = 0;    // largest distance at a corner
+    double at_most = 0;  // anywhere in it
+    Vec3 at;
+};
+
+// Distances are convex above one triangle of the other surface: where one is nearest to all corners, no inner point is
+// farther than a corner. Else no point is farther than a corner's distance plus the way from that corner.
+void look_at(Part& part, const TriangleTree& tree, const TriangleMesh& to) {
+    std::array<TriangleTree::Nearest, 3> nearest;
+    part.found = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        nearest[k] = tree.nearest(to, part.corner[k]);
+        if (nearest[k].distance >= part.found) {
+            part.found = nearest[k].distance;
+            part.at = part.corner[k];
+        }
+    }
+    double by_way = 0;  // every inner point is nearest to some corner, at most 0.58 of the longest edge away
+    double by_plane = infinite;
+    for (std::size_t k = 0; k < 3; ++k) {
+        by_way = std::max(by_way, norm(part.corner[(k + 1) % 3] - part.corner[k]));
+        const Places target = corners_of(to, nearest[k].triangle);
+        double above = 0;
+        for (const Vec3& corner : part.corner) {
+            above = std::max(above, norm(corner - closest_on_triangle(corner, target)));
+        }
+        by_plane = std::min(by_plane, above);
+    }
+    // In a right or blunt triangle the farthest point from all corners lies on the longest edge: half of it. In an
+    // acute one it is the circumcentre, at most the longest edge over the root of three.
+    part.at_most = std::max(part.found, std::min(part.found + 0.578 * by_way, by_plane));
+}
+
+std::array<Part, 4> split(const Part& part) {
+    const auto& [a, b, c] = part.corner;
+    const Vec3 ab = 0.5 * (a + b);
+    const Vec3 bc = 0.5 * (b + c);
+    const Vec3 ca = 0.5 * (c + a);
+    const auto made = [](Vec3 p, Vec3 q, Vec3 r) {
+        Part smaller;
+        smaller.corner = {p, q, r};
+        return smaller;
+    };
+    return {made(a, ab, ca), made(ab, b, bc), made(ca, bc, c), made(ab, bc, ca)};
+}
+
+// Whether the bounds are near enough that a part need not be split.
+bool is_settled(double at_most, double found, const DistanceOptions& options) {
+    return at_most <= found + std::max(options.tolerance * found, options.tolerance_mm);
+}
+
+// The corners of a triangle in an order that does not depend on how it is turned or where it begins.
+Places sorted_corners(const TriangleMesh& mesh, std::size_t t) {
+    Places corners = corners_of(mesh, t);
+    std::sort(corners.begin(), corners.end(), [](const Vec3& a, const Vec3& b) {
+        return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+    });
+    return corners;
+}
+
+std::uint64_t hash_of(const Places& corners) {
+    std::uint64_t h = 0;
+    for (const Vec3& p : corners) {
+        for (int axis = 0; axis < 3; ++axis) {
+            h ^= std::hash<double>{}(p[axis]) + 0x9e3779b97f4a7c15U + (h << 12) + (h >> 4);
+            h *= 0xff51afd7ed558ccdU;
+        }
+    }
+    return h ^ h >> 32;
+}
+
+// Triangles by the hash of their corners, so that equal ones of two meshes are found.
+using Hashed = std::vector<std::pair<std::uint64_t, std::uint32_t>>;
+
+Hashed hashed(const TriangleMesh& mesh) {
+    Hashed all(mesh.triangles.size());
+    for (std::uint32_t t = 0; t < all.size(); ++t) all[t] = {hash_of(sorted_corners(mesh, t)), t};
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+// The triangles of `mesh` that `other` does not have; ascending.
+std::vector<std::uint32_t> missing_in(const TriangleMesh& mesh, const Hashed& ours, const TriangleMesh& other,
+                                      const Hashed& theirs) {
+    std::vector<std::uint32_t> missing;
+    auto begin = theirs.begin();
+    for (const auto& [hash, t] : ours) {
+        while (begin != theirs.end() && begin->first < hash) ++begin;
+        bool is_there = false;
+        for (auto it = begin; !is_there && it != theirs.end() && it->first == hash; ++it) {
+            is_there = sorted_corners(mesh, t) == sorted_corners(other, it->second);
+        }
+        if (!is_there) missing.push_back(t);
+    }
+    std::sort(missing.begin(), missing.end());
+    return missing;
+}
+
+// Where the search stands: the largest distance found, and a bound on what was not looked into.
+void settle(Farthest& result, std::vector<Part>& open, const DistanceOptions& options) {
+    for (const Part& part : open) {
+        if (part.found <= result.mm) continue;
+        result.mm = part.found;
+        result.at = part.at;
+    }
+    std::erase_if(open, [&](const Part& part) {
+        const bool is_done = is_settled(part.at_most, result.mm, options);
+        if (is_done) result.at_most = std::max(result.at_most, part.at_most);
+        return is_done;
+    });
+}
+
+}  // namespace
+
+Farthest farthest(const TriangleMesh& from, std::span<const std::uint32_t> triangles, const TriangleMesh& to,
+                  const DistanceOptions& options, const Context& context) {
+    Farthest result;
+    result.triangles = triangles.size();
+    if (triangles.empty()) return result;
+    if (to.triangles.empty()) {
+        result.mm = result.at_most = infinite;
+        return result;
+    }
+    const TriangleTree tree(to);
+    const auto look_at_all = [&](std::vector<Part>& parts) {
+        context.check_cancelled();
+        parallel_for(0, parts.size(), [&](std::size_t i) { look_at(parts[i], tree, to); });
+        settle(result, parts, options);
+    };
+    // Most triangles are settled at once: not all of them need to be held.
+    std::vector<Part> open;
+    for (std::size_t begin = 0; begin < triangles.size(); begin += chunk) {
+        std::vector<Part> some(std::min(chunk, triangles.size() - begin));
+        for (std::size_t i = 0; i < some.size(); ++i) some[i].corner = corners_of(from, triangles[begin + i]);
+        look_at_all(some);
+        open.insert(open.end(), some.begin(), some.end());
+    }
+    settle(result, open, options);
+    std::size_t points = 3 * triangles.size();
+    while (!open.empty() && points < options.most_points) {
+        std::vector<Part> smaller;
+        smaller.reserve(4 * open.size());
+        for (const Part& part : open) {
+            for (const Part& quarter : split(part)) smaller.push_back(quarter);
+        }
+        open = std::move(smaller);
+        look_at_all(open);
+        points += 3 * open.size();
+    }
+    for (const Part& part : open) result.at_most = std::max(result.at_most, part.at_most);
+    result.at_most = std::max(result.at_most, result.mm);
+    return result;
+}
+
+Deviation deviation(const TriangleMesh& scan, const TriangleMesh& result, const DistanceOptions& options,
+                    const Context& context) {
+    std::vector<std::uint32_t> gone;
+    std::vector<std::uint32_t> made;
+    {
+        const Hashed in_scan = hashed(scan);
+        const Hashed in_result = hashed(result);
+        gone = missing_in(scan, in_scan, result, in_result);
+        made = missing_in(result, in_result, scan, in_scan);
+    }
+    Deviation found;
+    found.from_scan = farthest(scan, gone, result, options, context);
+    found.from_result = farthest(result, made, scan, options, context);
+    return found;
+}
+
+}  // namespace qchopper

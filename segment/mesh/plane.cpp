@@ -1,0 +1,17 @@
+#include "segment/mesh/plane.h"
+
+#include <cmath>
+
+namespace qchopper {
+
+Plane canonical(const Plane& plane) {
+    const double length = norm(plane.normal);
+    const Vec3 n = plane.normal;
+    const bool flip = n.x < 0 || (n.x == 0 && (n.y < 0 || (n.y == 0 && n.z < 0)));
+    double scale = flip ? -1 : 1;
+    if (std::abs(length - 1) > 1e-14) scale /= length;  // an already unit normal keeps its bits
+    // 0.0 + x turns -0.0 into 0.0: one plane, one spelling.
+    return {{0.0 + scale * n.x, 0.0 + scale * n.y, 0.0 + scale * n.z}, 0.0 + scale * plane.offset};
+}
+
+}  // namespace qchopper

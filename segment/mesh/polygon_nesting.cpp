@@ -1,0 +1,234 @@
+#include "segment/mesh/polygon_nesting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace qchopper {
+namespace {
+
+// Loops that touch have points within this share of the section's size of each other; only rounding moves them.
+constexpr double touch_share = 1e-9;
+
+struct Rectangle {
+    Point2 min{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    Point2 max{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    void include(Point2 p) {
+        min = {std::min(min.x, p.x), std::min(min.y, p.y)};
+        max = {std::max(max.x, p.x), std::max(max.y, p.y)};
+    }
+    bool is_near(Point2 p, double reach) const {
+        return p.x >= min.x - reach && p.x <= max.x + reach && p.y >= min.y - reach && p.y <= max.y + reach;
+    }
+};
+
+bool is_inside(std::span<const Point2> points, const Loop& loop, Point2 p) {
+    bool inside = false;
+    for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
+        const Point2 a = points[loop[i]];
+        const Point2 b = points[loop[j]];
+        if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
+    }
+    return inside;
+}
+
+bool is_on_segment(Point2 p, Point2 a, Point2 b, double reach) {
+    if (p.x < std::min(a.x, b.x) - reach || p.x > std::max(a.x, b.x) + reach) return false;
+    if (p.y < std::min(a.y, b.y) - reach || p.y > std::max(a.y, b.y) + reach) return false;
+    const double dx = b.x - a.x;
+    const double dy = b.y - a.y;
+    const double beside = dx * (p.y - a.y) - dy * (p.x - a.x);
+    return beside * beside <= reach * reach * (dx * dx + dy * dy) || (dx == 0 && dy == 0);
+}
+
+bool is_on(std::span<const Point2> points, const Loop& loop, Point2 p, double reach) {
+    for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
+        if (is_on_segment(p, points[loop[i]], points[loop[j]], reach)) return true;
+    }
+    return false;
+}
+
+// Tells of many points whether they are on a loop: its edges by the rows that they pass, as many rows as edges.
+// The rows run askew, because sides of built shapes run along the axes.
+class Outline {
+ public:
+    Outline(std::span<const Point2> points, const Loop& loop, double reach)
+        : points_(points), loop_(loop), reach_(reach), rows_(loop.size()) {
+        double high = -std::numeric_limits<double>::infinity();
+        for (const std::uint32_t p : loop) {
+            low_ = std::min(low_, across(points[p]));
+            high = std::max(high, across(points[p]));
+        }
+        per_mm_ = high > low_ ? static_cast<double>(loop.size()) / (high - low_) : 0;
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const double a = across(points[loop[i]]);
+            const double b = across(points[loop[next(i)]]);
+            const std::size_t last = row(std::max(a, b) + 2 * reach);
+            for (std::size_t r = row(std::min(a, b) - 2 * reach); r <= last; ++r) rows_[r].push_back(i);
+        }
+    }
+    bool has(Point2 p) const {
+        const std::vector<std::size_t>& edges = rows_[row(across(p))];
+        return std::any_of(edges.begin(), edges.end(), [&](std::size_t i) {
+            return is_on_segment(p, points_[loop_[i]], points_[loop_[next(i)]], reach_);
+        });
+    }
+
+ private:
+    static double across(Point2 p) { return 0.62 * p.x + 0.78 * p.y; }
+    std::size_t next(std::size_t i) const { return i + 1 < loop_.size() ? i + 1 : 0; }
+    std::size_t row(double at) const {
+        const double r = (at - low_) * per_mm_;
+        return r <= 0 ? 0 : std::min(static_cast<std::size_t>(r), rows_.size() - 1);
+    }
+
+    std::span<const Point2> points_;
+    const Loop& loop_;
+    double reach_;
+    double low_ = std::numeric_limits<double>::infinity();
+    double per_mm_ = 0;
+    std::vector<std::vector<std::size_t>> rows_;
+};
+
+// A point well inside the loop: in the widest gap between the heights of its points, in the middle of the widest
+// stretch there. Nothing for a loop without breadth.
+std::optional<Point2> interior_point(std::span<const Point2> points, const Loop& loop, double reach) {
+    std::vector<double> heights;
+    for (const std::uint32_t p : loop) heights.push_back(points[p].y);
+    std::sort(heights.begin(), heights.end());
+    std::size_t widest = 1;
+    for (std::size_t i = 2; i < heights.size(); ++i) {
+        if (heights[i] - heights[i - 1] > heights[widest] - heights[widest - 1]) widest = i;
+    }
+    const double y = heights[widest - 1] + (heights[widest] - heights[widest - 1]) / 2;
+    std::vector<double> crossings;
+    for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
+        const Point2 a = points[loop[i]];
+        const Point2 b = points[loop[j]];
+        if ((a.y > y) != (b.y > y)) crossings.push_back((b.x - a.x) * (y - a.y) / (b.y - a.y) + a.x);
+    }
+    std::sort(crossings.begin(), crossings.end());
+    Point2 best;
+    double breadth = 0;
+    for (std::size_t i = 1; i < crossings.size(); i += 2) {
+        if (crossings[i] - crossings[i - 1] <= breadth) continue;
+        breadth = crossings[i] - crossings[i - 1];
+        best = {crossings[i - 1] + breadth / 2, y};
+    }
+    if (breadth <= reach) return std::nullopt;
+    return best;
+}
+
+enum class Place { outside, inside, same };
+
+// Where a loop lies that does not cross the other one: any of its points tells that is not on the other loop; almost
+// always the first. Where all its points are, the middles of its edges are asked, then a point inside it.
+Place place(std::span<const Point2> points, const Loop& loop, const Loop& other, double reach) {
+    const auto by_point = [&](Point2 p) { return is_inside(points, other, p) ? Place::inside : Place::outside; };
+    if (!is_on(points, other, points[loop.front()], reach)) return by_point(points[loop.front()]);
+    const Outline outline(points, other, reach);
+    for (const std::uint32_t p : loop) {
+        if (!outline.has(points[p])) return by_point(points[p]);
+    }
+    for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
+        const Point2 a = points[loop[i]];
+        const Point2 b = points[loop[j]];
+        const Point2 middle{a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2};
+        if (!outline.has(middle)) return by_point(middle);
+    }
+    const std::optional<Point2> within = interior_point(points, loop, reach);
+    if (!within || !is_inside(points, other, *within)) return Place::outside;
+    const Outline own(points, loop, reach);
+    const bool is_same = std::all_of(other.begin(), other.end(), [&](std::uint32_t p) { return own.has(points[p]); });
+    return is_same ? Place::same : Place::inside;
+}
+
+// The loops around each loop. Of loops with the same outline (a solid that fills a cavity) the next one inwards is the
+// one that runs the right way round for its depth.
+std::vector<std::vector<std::size_t>> loops_around(std::span<const Point2> points, std::span<const Loop> loops,
+                                                   std::span<const double> area) {
+    const std::size_t count = loops.size();
+    std::vector<Rectangle> box(count);
+    Rectangle all;
+    for (std::size_t i = 0; i < count; ++i) {
+        for (const std::uint32_t p : loops[i]) box[i].include(points[p]);
+        all.include(box[i].min);
+        all.include(box[i].max);
+    }
+    const double reach = touch_share * std::hypot(all.max.x - all.min.x, all.max.y - all.min.y);
+    std::vector<std::vector<std::size_t>> around(count);
+    std::vector<std::vector<std::size_t>> same(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t j = 0; j < count; ++j) {
+            if (j == i || !box[j].is_near(points[loops[i].front()], reach)) continue;
+            const Place where = place(points, loops[i], loops[j], reach);
+            if (where == Place::inside) around[i].push_back(j);
+            if (where == Place::same) same[i].push_back(j);
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        if (same[i].empty() || same[i].front() < i) continue;
+        std::vector<std::size_t> rest{i};
+        rest.insert(rest.end(), same[i].begin(), same[i].end());
+        std::vector<std::size_t> taken;
+        while (!rest.empty()) {
+            const bool is_material = (around[i].size() + taken.size()) % 2 == 0;
+            auto next =
+                std::find_if(rest.begin(), rest.end(), [&](std::size_t k) { return (area[k] >= 0) == is_material; });
+            if (next == rest.end()) next = rest.begin();
+            taken.push_back(*next);
+            rest.erase(next);
+        }
+        for (std::size_t k = 1; k < taken.size(); ++k) {
+            around[taken[k]].insert(around[taken[k]].end(), taken.begin(),
+                                    taken.begin() + static_cast<std::ptrdiff_t>(k));
+        }
+    }
+    return around;
+}
+
+}  // namespace
+
+double signed_area(std::span<const Point2> points, const Loop& loop) {
+    double twice = 0;
+    const Point2 o = points[loop.front()];
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Point2 a = points[loop[i]];
+        const Point2 b = points[loop[(i + 1) % loop.size()]];
+        twice += (a.x - o.x) * (b.y - o.y) - (b.x - o.x) * (a.y - o.y);
+    }
+    return twice / 2;
+}
+
+std::vector<CapRegion> nest(std::span<const Point2> points, std::span<const Loop> loops) {
+    const std::size_t count = loops.size();
+    std::vector<double> area(count);
+    for (std::size_t i = 0; i < count; ++i) area[i] = signed_area(points, loops[i]);
+    const std::vector<std::vector<std::size_t>> around = loops_around(points, loops, area);
+    std::vector<CapRegion> regions;
+    std::vector<std::size_t> region_of(count, count);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (around[i].size() % 2 != 0) continue;
+        region_of[i] = regions.size();
+        regions.push_back({i, {}, area[i] >= 0});
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        if (around[i].size() % 2 == 0) continue;
+        std::size_t outer = count;
+        for (const std::size_t j : around[i]) {
+            const bool is_outer = region_of[j] != count;
+            if (is_outer && (outer == count || std::abs(area[j]) < std::abs(area[outer]))) outer = j;
+        }
+        if (outer == count) {  // loops that cross each other can be inside holes only: then it stands alone
+            regions.push_back({i, {}, false});
+            continue;
+        }
+        CapRegion& region = regions[region_of[outer]];
+        region.holes.push_back(i);
+        if (area[i] > 0) region.is_simple = false;
+    }
+    return regions;
+}
+
+}  // namespace qchopper

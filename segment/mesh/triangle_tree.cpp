@@ -1,0 +1,189 @@
+#include "segment/mesh/triangle_tree.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "base/parallel.h"
+#include "segment/mesh/measure.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::size_t block = 4096;
+
+template <class Work>
+void in_blocks(std::size_t count, const Work& work) {
+    parallel_ranges(0, count, block, [&](std::size_t first, std::size_t end) {
+        for (std::size_t i = first; i < end; ++i) work(i);
+    });
+}
+
+// Spreads the low 10 bits so that two zeros follow each.
+std::uint32_t spread(std::uint32_t x) {
+    x = (x | x << 16) & 0x030000FF;
+    x = (x | x << 8) & 0x0300F00F;
+    x = (x | x << 4) & 0x030C30C3;
+    x = (x | x << 2) & 0x09249249;
+    return x;
+}
+
+// Ascending by the upper 32 bits, where only 30 are in use; equal ones keep their order.
+void sort_by_code(std::vector<std::uint64_t>& keyed) {
+    constexpr int digit = 10;
+    std::vector<std::uint64_t> other(keyed.size());
+    for (int shift = 32; shift < 62; shift += digit) {
+        std::array<std::size_t, 1U << digit> place{};
+        const auto digit_of = [&](std::uint64_t k) { return (k >> shift) & ((1U << digit) - 1); };
+        for (const std::uint64_t k : keyed) ++place[digit_of(k)];
+        std::size_t sum = 0;
+        for (std::size_t& p : place) sum += std::exchange(p, sum);
+        for (const std::uint64_t k : keyed) other[place[digit_of(k)]++] = k;
+        keyed.swap(other);
+    }
+}
+
+// Triangles by the place of their middle along Morton's curve (1966).
+std::vector<std::uint32_t> along_curve(const TriangleMesh& mesh, const Box& box) {
+    const Vec3 size = box.size();
+    const double longest = std::max({size.x, size.y, size.z});
+    const double scale = longest > 0 && std::isfinite(longest) ? 1023.0 / longest : 0;
+    std::vector<std::uint64_t> keyed(mesh.triangles.size());
+    in_blocks(keyed.size(), [&](std::size_t t) {
+        const Triangle& v = mesh.triangles[t];
+        std::uint32_t code = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double middle =
+                ((mesh.points[v[0]][axis] - box.min[axis]) + (mesh.points[v[1]][axis] - box.min[axis]) +
+                 (mesh.points[v[2]][axis] - box.min[axis])) /
+                3;
+            code |= spread(std::min(static_cast<std::uint32_t>(scale * middle), 1023U)) << axis;
+        }
+        keyed[t] = std::uint64_t{code} << 32 | t;
+    });
+    sort_by_code(keyed);
+    std::vector<std::uint32_t> order(keyed.size());
+    in_blocks(order.size(), [&](std::size_t i) { order[i] = static_cast<std::uint32_t>(keyed[i]); });
+    return order;
+}
+
+void grow(FloatBox& box, const FloatBox& by) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.min[axis] = std::min(box.min[axis], by.min[axis]);
+        box.max[axis] = std::max(box.max[axis], by.max[axis]);
+    }
+}
+
+// Squared distance from a point to a box, in the tree's coordinates; a little less than the true one.
+double squared_distance(const FloatBox& box, Vec3 p) {
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        const double low = box.min[a];
+        const double high = box.max[a];
+        // a float may lie off the number it stands for by this much
+        const double slack = 2.5e-7 * std::max(std::abs(low), std::abs(high));
+        const double out = std::max({0.0, low - slack - p[axis], p[axis] - high - slack});
+        sum += out * out;
+    }
+    return sum;
+}
+
+}  // namespace
+
+TriangleTree::TriangleTree(const TriangleMesh& mesh) {
+    const std::size_t count = mesh.triangles.size();
+    if (count == 0) return;
+    const Box box = bounds(mesh);
+    centre = box.centre();
+    order = along_curve(mesh, box);
+    of_triangle.resize(count);
+    leaves = std::bit_ceil((count + per_leaf - 1) / per_leaf);
+    of_node.resize(2 * leaves);
+    in_blocks((count + per_leaf - 1) / per_leaf, [&](std::size_t leaf) {
+        const std::size_t end = std::min(count, (leaf + 1) * per_leaf);
+        for (std::size_t place = leaf * per_leaf; place < end; ++place) {
+            of_triangle[place] = box_of(corners_of(mesh, order[place]));
+            grow(of_node[leaves + leaf], of_triangle[place]);
+        }
+    });
+    for (std::size_t level = leaves / 2; level > 0; level /= 2) {
+        in_blocks(level, [&](std::size_t i) {
+            const std::size_t node = level + i;
+            of_node[node] = of_node[2 * node];
+            grow(of_node[node], of_node[2 * node + 1]);
+        });
+    }
+}
+
+FloatBox TriangleTree::box_of(const std::array<Vec3, 3>& corners) const {
+    FloatBox box;
+    for (const Vec3& corner : corners) {
+        const std::array<float, 3> at{static_cast<float>(corner.x - centre.x), static_cast<float>(corner.y - centre.y),
+                                      static_cast<float>(corner.z - centre.z)};
+        grow(box, {at, at});
+    }
+    return box;
+}
+
+TriangleTree::Nearest TriangleTree::nearest(const TriangleMesh& mesh, Vec3 p, double within) const {
+    Nearest best;
+    double best_squared = within * within;
+    const Vec3 at = p - centre;
+    struct Open {
+        std::size_t node;
+        double squared;
+    };
+    std::array<Open, 64> stack;
+    std::size_t height = 0;
+    if (leaves > 0) stack[height++] = {1, 0};
+    while (height > 0) {
+        const auto [node, squared] = stack[--height];
+        if (squared >= best_squared) continue;
+        if (node >= leaves) {
+            const std::size_t end = std::min(order.size(), (node - leaves + 1) * per_leaf);
+            for (std::size_t place = (node - leaves) * per_leaf; place < end; ++place) {
+                const Vec3 point = closest_on_triangle(p, corners_of(mesh, order[place]));
+                const double d = dot(point - p, point - p);
+                if (!(d < best_squared)) continue;
+                best_squared = d;
+                best = {std::sqrt(d), point, order[place]};
+            }
+            continue;
+        }
+        Open near{2 * node, squared_distance(of_node[2 * node], at)};
+        Open far{2 * node + 1, squared_distance(of_node[2 * node + 1], at)};
+        if (far.squared < near.squared) std::swap(near, far);
+        if (far.squared < best_squared) stack[height++] = far;
+        if (near.squared < best_squared) stack[height++] = near;
+    }
+    return best;
+}
+
+Vec3 closest_on_triangle(Vec3 p, const std::array<Vec3, 3>& triangle) {
+    const auto& [a, b, c] = triangle;
+    const Vec3 ab = b - a;
+    const Vec3 ac = c - a;
+    const double d1 = dot(ab, p - a);
+    const double d2 = dot(ac, p - a);
+    if (d1 <= 0 && d2 <= 0) return a;
+    const double d3 = dot(ab, p - b);
+    const double d4 = dot(ac, p - b);
+    if (d3 >= 0 && d4 <= d3) return b;
+    const double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 > d3) return a + (d1 / (d1 - d3)) * ab;
+    const double d5 = dot(ab, p - c);
+    const double d6 = dot(ac, p - c);
+    if (d6 >= 0 && d5 <= d6) return c;
+    const double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 > d6) return a + (d2 / (d2 - d6)) * ac;
+    const double va = d3 * d6 - d5 * d4;
+    const double along = (d4 - d3) + (d5 - d6);
+    if (va <= 0 && d4 >= d3 && d5 >= d6 && along > 0) return b + ((d4 - d3) / along) * (c - b);
+    const double sum = va + vb + vc;
+    if (!(sum > 0)) return a;
+    return a + (vb / sum) * ab + (vc / sum) * ac;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,89 @@
+// A tree of boxes over the triangles of a mesh: what is near a place, without looking at everything.
+//
+// Boxes are single precision about the mesh's own centre. Rounding keeps the order of numbers, so boxes that meet in
+// double meet here too: nothing near is ever missed (tests/segment/mesh/triangle_tree_test.cpp).
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "segment/mesh/triangle_mesh.h"
+
+namespace qchopper {
+
+struct FloatBox {
+    static constexpr float none = std::numeric_limits<float>::infinity();
+    std::array<float, 3> min{none, none, none};  // as it begins it holds nothing and meets nothing
+    std::array<float, 3> max{-none, -none, -none};
+};
+
+inline bool do_meet(const FloatBox& a, const FloatBox& b) {
+    // without branches: three comparisons that fail at random cost more than six
+    return (a.min[0] <= b.max[0]) & (b.min[0] <= a.max[0]) & (a.min[1] <= b.max[1]) & (b.min[1] <= a.max[1]) &
+           (a.min[2] <= b.max[2]) & (b.min[2] <= a.max[2]);
+}
+
+// The closest point of a triangle to a point (C. Ericson, "Real-Time Collision Detection", 2005, 5.1.5).
+Vec3 closest_on_triangle(Vec3 p, const std::array<Vec3, 3>& triangle);
+
+struct TriangleTree {
+    static constexpr std::size_t per_leaf = 4;
+
+    Vec3 centre;
+    std::vector<std::uint32_t> order;   // triangles along a curve that fills space; per_leaf of them are a leaf
+    std::vector<FloatBox> of_triangle;  // in that order
+    std::vector<FloatBox> of_node;      // node 1 is the root, node n has the children 2n and 2n+1
+    std::size_t leaves = 0;             // a power of two: node leaves + i is leaf i
+
+    explicit TriangleTree(const TriangleMesh& mesh);
+
+    FloatBox box_of(const std::array<Vec3, 3>& corners) const;
+
+    // Calls found(triangle) for every triangle whose box meets this one.
+    template <class Found>
+    void for_each_near(const FloatBox& box, const Found& found) const {
+        descend([&](const FloatBox& node) { return do_meet(node, box); },
+                [&](std::size_t place) {
+                    if (do_meet(of_triangle[place], box)) found(order[place]);
+                });
+    }
+
+    struct Nearest {
+        double distance = std::numeric_limits<double>::infinity();
+        Vec3 point;
+        std::uint32_t triangle = 0;
+    };
+    // The nearest point of the surface, if it is closer than `within`; else the distance is infinite. `mesh` is the one
+    // that the tree was made of.
+    Nearest nearest(const TriangleMesh& mesh, Vec3 p, double within = std::numeric_limits<double>::infinity()) const;
+
+ private:
+    template <class Enter, class Visit>
+    void descend(const Enter& enter, const Visit& visit) const {
+        std::array<std::size_t, 64> stack;
+        std::size_t height = 0;
+        if (leaves > 0 && enter(of_node[1])) stack[height++] = 1;
+        while (height > 0) {
+            const std::size_t node = stack[--height];
+            if (node >= leaves) {
+                const std::size_t begin = (node - leaves) * per_leaf;
+                const std::size_t end = begin + per_leaf < order.size() ? begin + per_leaf : order.size();
+                for (std::size_t place = begin; place < end; ++place) visit(place);
+                continue;
+            }
+            if (enter(of_node[2 * node + 1])) stack[height++] = 2 * node + 1;
+            if (enter(of_node[2 * node])) stack[height++] = 2 * node;
+        }
+    }
+};
+
+inline std::array<Vec3, 3> corners_of(const TriangleMesh& mesh, std::size_t triangle) {
+    const Triangle& t = mesh.triangles[triangle];
+    return {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]};
+}
+
+}  // namespace qchopper

@@ -1,0 +1,194 @@
+#include "tests/app/cli/program.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <thread>
+
+namespace qchopper::program {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path fresh_folder() {
+    std::string pattern = (fs::temp_directory_path() / "qchopper-cli-XXXXXX").string();
+    if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    return pattern;
+}
+
+void keep_to_one_core() {
+    cpu_set_t allowed;
+    CPU_ZERO(&allowed);
+    ::sched_getaffinity(0, sizeof allowed, &allowed);
+    int core = 0;
+    while (CPU_ISSET(core, &allowed) == 0) ++core;
+    CPU_ZERO(&allowed);
+    CPU_SET(core, &allowed);
+    ::sched_setaffinity(0, sizeof allowed, &allowed);
+}
+
+void redirect(const fs::path& file, int flags, int descriptor) {
+    const int opened = ::open(file.c_str(), flags, 0600);
+    if (opened < 0 || ::dup2(opened, descriptor) < 0) ::_exit(127);
+}
+
+// Looks every few milliseconds; false if it takes too long.
+bool comes_true(const std::function<bool()>& condition, double seconds) {
+    const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    while (!condition()) {
+        if (std::chrono::steady_clock::now() > until) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(3));
+    }
+    return true;
+}
+
+}  // namespace
+
+Folder::Folder() : path(fresh_folder()) {}
+Folder::~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+}
+
+Process::Process(const Arguments& arguments, const Surroundings& surroundings) {
+    put(streams_.path / "in", surroundings.input);
+    std::vector<std::string> words{QCHOPPER_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    pid_ = ::fork();
+    if (pid_ != 0) return;
+    if (::chdir(surroundings.folder.c_str()) != 0) ::_exit(127);
+    redirect(streams_.path / "in", O_RDONLY, STDIN_FILENO);
+    redirect(streams_.path / "out", O_WRONLY | O_CREAT, STDOUT_FILENO);
+    redirect(streams_.path / "err", O_WRONLY | O_CREAT, STDERR_FILENO);
+    if (surroundings.one_core) keep_to_one_core();
+    if (!surroundings.temporary_folder.empty()) ::setenv("TMPDIR", surroundings.temporary_folder.c_str(), 1);
+    ::execv(argv[0], argv.data());
+    ::_exit(127);
+}
+
+Process::~Process() {
+    if (pid_ <= 0 || has_ended()) return;
+    ::kill(pid_, SIGKILL);
+    ::waitpid(pid_, &status_, 0);
+}
+
+bool Process::has_ended() {
+    if (!ended_) ended_ = ::waitpid(pid_, &status_, WNOHANG) == pid_;
+    return ended_;
+}
+
+void Process::signal(int number) const {
+    ::kill(pid_, number);
+}
+
+std::string Process::out() const {
+    return bytes_in(streams_.path / "out");
+}
+std::string Process::err() const {
+    return bytes_in(streams_.path / "err");
+}
+
+bool Process::waits_until_out(const std::string& text, double seconds) {
+    const auto is_there = [&] { return out().find(text) != std::string::npos; };
+    return comes_true([&] { return is_there() || has_ended(); }, seconds) && is_there();
+}
+
+bool Process::waits_until_err(const std::string& text, double seconds) {
+    const auto is_there = [&] { return err().find(text) != std::string::npos; };
+    return comes_true([&] { return is_there() || has_ended(); }, seconds) && is_there();
+}
+
+bool Process::waits_until_there(const fs::path& file, double seconds) {
+    return comes_true([&] { return fs::exists(file) || has_ended(); }, seconds) && fs::exists(file);
+}
+
+Ended Process::wait(double seconds) {
+    Ended ended;
+    ended.in_time = comes_true([&] { return has_ended(); }, seconds);
+    if (!ended.in_time) {
+        ::kill(pid_, SIGKILL);
+        ended_ = ::waitpid(pid_, &status_, 0) == pid_;
+    }
+    if (WIFEXITED(status_)) ended.code = WEXITSTATUS(status_);
+    if (WIFSIGNALED(status_)) ended.killed_by = WTERMSIG(status_);
+    ended.out = out();
+    ended.err = err();
+    EXPECT_TRUE(ended.in_time) << ended.err;
+    return ended;
+}
+
+Ended run(const Arguments& arguments, const Surroundings& surroundings) {
+    return Process(arguments, surroundings).wait();
+}
+
+std::string bytes_in(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream bytes;
+    bytes << stream.rdbuf();
+    return bytes.str();
+}
+
+void put(const fs::path& file, const std::string& bytes) {
+    std::ofstream stream(file, std::ios::binary);
+    stream << bytes;
+    if (!stream.flush()) throw std::runtime_error(file.string() + " cannot be written");
+}
+
+Contents contents(const fs::path& folder) {
+    Contents found;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        const std::string name = entry.path().lexically_relative(folder).string();
+        found[name] = entry.is_regular_file() ? bytes_in(entry.path()) : "a folder";
+    }
+    return found;
+}
+
+std::string difference(const Contents& before, const Contents& after) {
+    std::string names;
+    for (const auto& [name, bytes] : before) {
+        const auto there = after.find(name);
+        if (there == after.end()) names += " -" + name;
+        if (there != after.end() && there->second != bytes) names += " !" + name;
+    }
+    for (const auto& [name, bytes] : after) {
+        if (!before.contains(name)) names += " +" + name;
+    }
+    return names;
+}
+
+fs::path foam_cell() {
+    return fs::path(QCHOPPER_SOURCE_DIR) / "cells" / "foam-1.toml";
+}
+
+Arguments prepare_arguments(const std::string& scan) {
+    return {"prepare", scan, "--units", "mm", "--cell", foam_cell().string(), "--min-cuts", "2"};
+}
+
+const fs::path& prepared() {
+    static const Folder folder;
+    static const bool is_made = [] {
+        const Ended sampled = run({"sample", "vertebra", "--faces", "3000", "-o", "scan.ply"}, {folder.path});
+        EXPECT_EQ(sampled.code, 0) << sampled.err;
+        Arguments arguments = prepare_arguments("scan.ply");
+        arguments.insert(arguments.end(), {"-o", "scan.qch"});
+        const Ended made = run(arguments, {folder.path});
+        EXPECT_EQ(made.code, 0) << made.err;
+        return made.code == 0;
+    }();
+    EXPECT_TRUE(is_made);
+    return folder.path;
+}
+
+}  // namespace qchopper::program

@@ -1,0 +1,128 @@
+// The same scan and settings give the same bytes: twice, elsewhere, on one core or all, and after an interruption.
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include "app/cli/exit_code.h"
+#include "app/project/project.h"
+#include "tests/app/cli/program.h"
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+using program::Arguments;
+using program::Contents;
+using program::Ended;
+using program::Process;
+
+// With the path of the scan, the one thing that may differ, taken out of project.json.
+Contents project_in(const fs::path& folder) {
+    Contents all = program::contents(folder / "scan.qch");
+    std::string& json = all["project.json"];
+    const std::string path = (folder / "scan.ply").string();
+    const std::size_t at = json.find(path);
+    EXPECT_NE(at, std::string::npos) << path;
+    if (at != std::string::npos) json.replace(at, path.size(), "SCAN");
+    return all;
+}
+
+void expect_same(const Contents& one, const Contents& other) {
+    EXPECT_EQ(program::difference(one, other), "");
+    EXPECT_TRUE(one.contains("jobs/C.qjob") && one.contains("pieces/C.ply") && one.contains("pictures/exploded.png"));
+}
+
+struct SameBytes : ::testing::Test {
+    program::Folder folder;
+    const Arguments go_on{"prepare", "scan.qch"};
+    void SetUp() override { fs::copy(program::prepared() / "scan.ply", folder.path / "scan.ply"); }
+    Arguments start() const {
+        Arguments arguments = program::prepare_arguments("scan.ply");
+        arguments.insert(arguments.end(), {"-o", "scan.qch"});
+        return arguments;
+    }
+    void expect_as_prepared() const { expect_same(project_in(folder.path), project_in(program::prepared())); }
+    // The cuts that are kept of a project that was broken off.
+    std::size_t cuts_kept() const {
+        const Project project = load_project(folder.path / "scan.qch");
+        EXPECT_NE(project.stage, Stage::done) << "it was broken off too late for this test";
+        return project.cuts.size();
+    }
+};
+
+TEST_F(SameBytes, ElsewhereAndOnOneCore) {
+    const Ended ended = program::run(start(), {folder.path, "", true});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    expect_as_prepared();
+}
+
+TEST_F(SameBytes, FromAFinishedProjectOnceMore) {
+    EXPECT_EQ(program::run(start(), {folder.path}).code, 0);
+    const Ended again = program::run(go_on, {folder.path});
+    EXPECT_EQ(again.code, 0) << again.err;
+    expect_as_prepared();
+}
+
+TEST_F(SameBytes, OfABeamThatIsKilledAfterTheFirstCut) {
+    Arguments beam = start();
+    beam.insert(beam.end(), {"--beam", "3"});
+    ASSERT_EQ(program::run(beam, {folder.path}).code, 0);
+    const Contents whole = program::contents(folder.path / "scan.qch");
+    fs::remove_all(folder.path / "scan.qch");
+    Process process(beam, {folder.path});
+    ASSERT_TRUE(process.waits_until_err("cut 1 on piece A")) << process.err();
+    process.signal(SIGKILL);
+    EXPECT_EQ(process.wait().killed_by, SIGKILL);
+    EXPECT_GE(cuts_kept(), 1U);
+    const Ended ended = program::run(go_on, {folder.path});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(program::difference(whole, program::contents(folder.path / "scan.qch")), "");
+}
+
+TEST_F(SameBytes, KilledAfterTheFirstCut) {
+    Process process(start(), {folder.path});
+    ASSERT_TRUE(process.waits_until_err("cut 1 on piece A")) << process.err();
+    process.signal(SIGKILL);
+    EXPECT_EQ(process.wait().killed_by, SIGKILL);
+    EXPECT_GE(cuts_kept(), 1U);
+    const Ended ended = program::run(go_on, {folder.path});
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    expect_as_prepared();
+}
+
+TEST_F(SameBytes, KilledWhileJobsAreWritten) {
+    Process process(start(), {folder.path});
+    ASSERT_TRUE(process.waits_until_there(folder.path / "scan.qch" / "jobs" / "C.qjob")) << process.err();
+    process.signal(SIGKILL);
+    EXPECT_EQ(process.wait().killed_by, SIGKILL);
+    EXPECT_EQ(cuts_kept(), 2U);
+    // What a program that was killed while it wrote leaves behind is cleared away.
+    program::put(folder.path / "scan.qch" / "jobs" / "D.qjob.tmp.1", "half");
+    EXPECT_EQ(program::run(go_on, {folder.path}).code, 0);
+    expect_as_prepared();
+}
+
+TEST_F(SameBytes, StoppedByCtrlC) {
+    Process process(start(), {folder.path});
+    ASSERT_TRUE(process.waits_until_err("cut 1 on piece A")) << process.err();
+    process.signal(SIGINT);
+    const Ended stopped = process.wait();
+    EXPECT_EQ(stopped.code, exit_interrupted) << stopped.err;
+    EXPECT_NE(stopped.err.find("cuts made so far are kept in scan.qch; go on with: qchopper prepare scan.qch"),
+              std::string::npos)
+        << stopped.err;
+    EXPECT_GE(cuts_kept(), 1U);
+    EXPECT_EQ(program::run(go_on, {folder.path}).code, 0);
+    expect_as_prepared();
+}
+
+TEST_F(SameBytes, StoppedByTheSystem) {
+    Process process(start(), {folder.path});
+    ASSERT_TRUE(process.waits_until_err("cut 1 on piece A")) << process.err();
+    process.signal(SIGTERM);
+    EXPECT_EQ(process.wait().code, exit_terminated);
+    EXPECT_GE(cuts_kept(), 1U);
+}
+
+}  // namespace
+}  // namespace qchopper

@@ -1,0 +1,68 @@
+#include "app/project/decisions.h"
+
+#include <gtest/gtest.h>
+
+namespace qchopper {
+namespace {
+
+Cut cut(std::int32_t number, const std::string& piece) {
+    Cut c;
+    c.number = number;
+    c.piece = piece;
+    return c;
+}
+
+TEST(Decisions, AreNamedInWords) {
+    EXPECT_EQ(words(cut(3, "B")), "cut 3 on piece B");
+    EXPECT_EQ(words(WeightsChange{}), "change of weights");
+    EXPECT_EQ(words(Reset{}), "reset");
+}
+
+TEST(Decisions, WhatStandsFollowsFromThoseInForce) {
+    History h;
+    h.weights_at_start = {1, 1, 1, 1};
+    decide(h, cut(1, "A"));
+    decide(h, WeightsChange{{2, 2, 2, 2}});
+    decide(h, cut(2, "B"));
+    decide(h, Reset{});
+    decide(h, cut(1, "A"));
+    EXPECT_EQ(standing_cuts(h), (std::vector<Cut>{cut(1, "A")}));
+    EXPECT_EQ(standing_weights(h), (Weights{2, 2, 2, 2})) << "a reset keeps the weights";
+    h.standing = 3;
+    EXPECT_EQ(standing_cuts(h), (std::vector<Cut>{cut(1, "A"), cut(2, "B")}));
+    h.standing = 1;
+    EXPECT_EQ(standing_weights(h), (Weights{1, 1, 1, 1}));
+    EXPECT_EQ(words(*to_undo(h)), "cut 1 on piece A");
+    EXPECT_EQ(words(*to_redo(h)), "change of weights");
+    h.standing = 0;
+    EXPECT_EQ(to_undo(h), nullptr);
+    EXPECT_TRUE(standing_cuts(h).empty());
+}
+
+TEST(Decisions, ThoseUndoneAreKeptUntilSomethingNewIsDecided) {
+    History h;
+    decide(h, cut(1, "A"));
+    decide(h, cut(2, "B"));
+    h.standing = 1;
+    EXPECT_EQ(h.decisions.size(), 2U);
+    decide(h, cut(2, "C"));
+    EXPECT_EQ(h.decisions.size(), 2U);
+    EXPECT_EQ(to_redo(h), nullptr);
+    EXPECT_EQ(words(*to_undo(h)), "cut 2 on piece C");
+}
+
+TEST(Decisions, FollowASearchThatTurnsToAnotherBranch) {
+    History h;
+    decide(h, cut(1, "A"));
+    decide(h, WeightsChange{{2, 2, 2, 2}});
+    follow(h, {cut(1, "A"), cut(2, "B")});
+    follow(h, {cut(1, "A"), cut(2, "C"), cut(3, "D")});
+    EXPECT_EQ(standing_cuts(h), (std::vector<Cut>{cut(1, "A"), cut(2, "C"), cut(3, "D")}));
+    EXPECT_EQ(h.decisions.size(), 4U) << "the branch that was given up is gone";
+    const History before = h;
+    follow(h, standing_cuts(h));
+    EXPECT_EQ(h, before) << "nothing new, nothing decided";
+}
+
+}  // namespace
+}  // namespace qchopper

@@ -1,0 +1,107 @@
+#include "app/project/project.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "app/project/project_json.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "segment/mesh/measure.h"
+#include "tests/shapes.h"
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ProjectFolder : ::testing::Test {
+    fs::path folder = fs::path(testing::TempDir()) / ("project" + std::to_string(::getpid()));
+    void SetUp() override { fs::create_directories(folder); }
+    void TearDown() override { fs::remove_all(folder); }
+};
+
+Project searched_project(const TriangleMesh& mesh, Segmentation& segmentation) {
+    Project project;
+    project.scan = {"/scans/a bone.ply", std::string(64, 'a'), Unit::cm, 0.5, {1, 2.5, 1.0 / 3}, 12,
+                    volume_mm3(mesh),    {"scaled by 0.5"}};
+    project.preset = "bunny";
+    project.settings.candidates.offsets_per_normal = 5;
+    project.settings.objectives.fragility_form = FragilityForm::thesis;
+    project.settings.objectives.crumb_volume_mm3 = 1e-5 * volume_mm3(mesh);
+    project.settings.stop.min_cuts = 3;
+    project.settings.stop.max_obb = Vec3{1, 2, 3};
+    project.settings.stop.combine = Stop::any;
+    segmentation = uncut(mesh, project.settings.objectives.crumb_volume_mm3);
+    PieceBook book(project.settings.objectives, project.settings.candidates);
+    search(segmentation, project.settings, book, {}, [](const Segmentation&) {}, {});
+    project.history.weights_at_start = project.settings.objectives.weights;
+    record(project, segmentation);
+    return project;
+}
+
+TEST_F(ProjectFolder, WhatIsSavedIsLoadedToTheLastBit) {
+    Segmentation segmentation;
+    const Project project = searched_project(shapes::nested(), segmentation);
+    save_project(folder, project);
+    EXPECT_EQ(load_project(folder), project);
+    EXPECT_EQ(project.warnings, project.scan.warnings);
+    Project decided = project;
+    decide(decided.history, Reset{});
+    decide(decided.history, WeightsChange{{1, 2, 3, 0.1}});
+    decided.history.standing = 1;
+    decided.cuts = standing_cuts(decided.history);
+    decided.settings.beam = 7;
+    decided.settings.near = 1.0 / 3;
+    save_project(folder, decided);
+    EXPECT_EQ(load_project(folder), decided);
+}
+
+TEST_F(ProjectFolder, ReplayGivesTheSamePiecesBitForBit) {
+    const TriangleMesh mesh = shapes::linked_tori();
+    Segmentation segmentation;
+    const Project project = searched_project(mesh, segmentation);
+    save_project(folder, project);
+    const Segmentation again = replay(load_project(folder), mesh);
+    ASSERT_EQ(again.pieces.size(), segmentation.pieces.size());
+    EXPECT_EQ(again.cuts, segmentation.cuts);
+    for (std::size_t i = 0; i < again.pieces.size(); ++i) {
+        EXPECT_EQ(again.pieces[i].name, segmentation.pieces[i].name);
+        EXPECT_EQ(*again.pieces[i].mesh, *segmentation.pieces[i].mesh);
+    }
+}
+
+TEST_F(ProjectFolder, APlanThatDoesNotApplyIsRefused) {
+    Segmentation segmentation;
+    const Project project = searched_project(shapes::linked_tori(), segmentation);
+    EXPECT_THROW(replay(project, shapes::ball({900, 0, 0}, 1)), InputError);
+}
+
+TEST_F(ProjectFolder, EveryBrokenProjectFileIsOneClearError) {
+    Segmentation segmentation;
+    const std::string text = to_json(searched_project(shapes::torus({0, 0, 0}, 40, 12), segmentation));
+    for (std::size_t length = 0; length + 2 < text.size(); length += 97) {
+        write_file(folder / "project.json", std::string_view(text).substr(0, length));
+        EXPECT_THROW(load_project(folder), InputError) << length;
+    }
+    write_file(folder / "project.json", std::string_view("{\"schema\": \"other\"}"));
+    EXPECT_THROW(load_project(folder), InputError);
+    std::string too_many = text;
+    too_many.replace(too_many.find("\"standing\": "), 12, "\"standing\": 9");
+    write_file(folder / "project.json", too_many);
+    EXPECT_THROW(load_project(folder), InputError) << "more decisions stand than there are";
+    fs::remove(folder / "project.json");
+    EXPECT_THROW(load_project(folder), InputError);
+}
+
+TEST_F(ProjectFolder, TheLockKeepsASecondWriterOut) {
+    {
+        const ProjectLock first(folder);
+        EXPECT_THROW(ProjectLock second(folder), InputError);
+    }
+    EXPECT_NO_THROW(ProjectLock third(folder));
+}
+
+}  // namespace
+}  // namespace qchopper

@@ -1,0 +1,208 @@
+"""The dependency rule: a file includes its own module and the modules before it, in the order of data flow.
+
+    base -> segment -> cam -> devices -> sim -> app
+
+A compilation unit is a header together with the source of the same name; units do not include each other in a circle.
+faults(root) lists every violation, one line each, in the tree at `root`. The tables below are the rule; README.md and
+docs/architecture.md describe it.
+"""
+
+import re
+from pathlib import Path
+
+MODULES = ["base", "segment", "cam", "devices", "sim", "app"]
+
+# Inside these modules the sub-modules are ordered as well.
+SUB_MODULES = {
+    "segment": ["mesh", "io", "repair", "import", "cut", "simplify", "sample", "picture", "score", "search"],
+    "cam": ["cell", "setup", "job", "export"],
+    "app": ["project", "report", "cli"],
+}
+
+# Values without any geometry to be computed.
+MESH_VALUES = {"segment/mesh/triangle_mesh.h", "segment/mesh/measure.h"}
+
+# What a module may include of the modules before it, where that is less than everything. A name that ends in / is a
+# folder.
+VIEW = {
+    "devices": {"base/", "cam/job/ticket.h"} | MESH_VALUES,
+    "sim": {"base/", "segment/mesh/", "segment/io/", "segment/import/", "cam/cell/"}
+    | {f"devices/{name}.h" for name in ("registers", "codec", "bus", "words", "packml")},
+}
+
+# Modules in which no included header may belong to a source that includes CGAL.
+FREE_OF_CGAL = ["devices", "sim"]
+
+# Heavy headers: included by sources only, and by no more of them than this.
+HEAVY = {
+    "CGAL": (r"CGAL/", 7),
+    "OpenMesh": (r"OpenMesh/", 2),
+    "Embree": (r"embree3/", 1),
+    "tinygltf": (r"(.*/)?tiny_gltf\.h$", 2),
+    "TBB": (r"tbb/", 1),
+    "libmodbus": (r"(modbus/)?modbus(-.*)?\.h$", 0),  # only the tests use it, as a client that is not ours
+    "toml++": (r"toml\+\+/", 2),
+    "JSON": (r"nlohmann/(?!json_fwd\.hpp)", 16),
+    "CLI11": (r"CLI/", 1),
+    "libzip": (r"zip\.h$", 3),
+    "expat": (r"expat\.h$", 1),
+    "libpng": (r"png\.h$", 1),
+}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+
+def includes(path):
+    """Every (line number, quote or bracket, name) that a file includes."""
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        match = INCLUDE.match(line)
+        if match:
+            yield number, match.group(1), match.group(2)
+
+
+def module_of(name):
+    return name.split("/")[0]
+
+
+def sub_module_of(name):
+    parts = name.split("/")
+    return parts[1] if len(parts) > 2 else None
+
+
+def unit_of(name):
+    return name.rpartition(".")[0]
+
+
+def is_seen(name, view):
+    return any(name.startswith(entry) if entry.endswith("/") else name == entry for entry in view)
+
+
+def why_not(source, target):
+    """Why the file `source` must not include the header `target`, or nothing."""
+    module, other = module_of(source), module_of(target)
+    if MODULES.index(other) > MODULES.index(module):
+        return f"{other} comes after {module}"
+    if other != module:
+        if module in VIEW and not is_seen(target, VIEW[module]):
+            return f"{module} sees only a part of {other}, and this is not in it"
+        return None
+    order = SUB_MODULES.get(module)
+    if order is None:
+        return None
+    here, there = sub_module_of(source), sub_module_of(target)
+    for sub in (here, there):
+        if sub not in order:
+            return f"{sub or 'the root'} has no place in the order of the sub-modules of {module}"
+    if order.index(there) > order.index(here):
+        return f"{module}/{there} comes after {module}/{here}"
+    return None
+
+
+class Tree:
+    def __init__(self, root):
+        self.root = Path(root)
+        self.files = {}
+        for module in MODULES:
+            for path in sorted((self.root / module).rglob("*")):
+                if path.suffix in (".h", ".cpp"):
+                    self.files[path.relative_to(self.root).as_posix()] = list(includes(path))
+
+    def sees_cgal(self, name):
+        return any(re.match(HEAVY["CGAL"][0], target) for _, _, target in self.files.get(name, []))
+
+    def reached_from(self, name):
+        """Every header of the project that a file includes, itself or through others."""
+        reached, to_do = set(), [name]
+        while to_do:
+            for _, how, target in self.files.get(to_do.pop(), []):
+                if how == '"' and target not in reached:
+                    reached.add(target)
+                    to_do.append(target)
+        return sorted(reached)
+
+    def units(self):
+        """Per compilation unit the other units that it includes."""
+        result = {}
+        for name, lines in self.files.items():
+            seen = result.setdefault(unit_of(name), set())
+            seen |= {unit_of(target) for _, how, target in lines if how == '"'} - {unit_of(name)}
+        return result
+
+
+def direction_faults(tree):
+    for name, lines in tree.files.items():
+        for number, how, target in lines:
+            at = f"{name}:{number}: "
+            if how == "<":
+                if module_of(target) in MODULES and "/" in target:
+                    yield f"{at}<{target}> is of this project: write it in quotes"
+                continue
+            if target not in tree.files:
+                yield f'{at}"{target}" is not in any module (includes are written from the root)'
+                continue
+            why = why_not(name, target)
+            if why:
+                yield f'{at}must not include "{target}": {why}'
+
+
+def circles(graph):
+    """The strongly connected components of more than one unit (R. Tarjan, Depth-first search and linear graph
+    algorithms, SIAM J. Comput. 1, 1972), each as a sorted list."""
+    index, low, stack, on_stack, result = {}, {}, [], set(), []
+
+    def visit(unit):
+        index[unit] = low[unit] = len(index)
+        stack.append(unit)
+        on_stack.add(unit)
+        for other in sorted(graph.get(unit, ())):
+            if other not in index:
+                visit(other)
+                low[unit] = min(low[unit], low[other])
+            elif other in on_stack:
+                low[unit] = min(low[unit], index[other])
+        if low[unit] == index[unit]:
+            component = []
+            while not component or component[-1] != unit:
+                component.append(stack.pop())
+                on_stack.discard(component[-1])
+            if len(component) > 1:
+                result.append(sorted(component))
+
+    for unit in sorted(graph):
+        if unit not in index:
+            visit(unit)
+    return sorted(result)
+
+
+def circle_faults(tree):
+    for circle in circles(tree.units()):
+        yield f"these units include each other in a circle: {', '.join(circle)}"
+
+
+def reach_faults(tree):
+    """What a module with a narrow view must not get through the headers of others either."""
+    for name in tree.files:
+        if module_of(name) not in FREE_OF_CGAL:
+            continue
+        for target in tree.reached_from(name):
+            if tree.sees_cgal(target) or tree.sees_cgal(target.removesuffix(".h") + ".cpp"):
+                yield f'{name}: reaches "{target}", whose source sees CGAL'
+
+
+def heavy_faults(tree):
+    for library, (pattern, most) in HEAVY.items():
+        users = []
+        for name, lines in tree.files.items():
+            hits = [number for number, _, target in lines if re.match(pattern, target)]
+            if not hits:
+                continue
+            users.append(name)
+            if name.endswith(".h"):
+                yield f"{name}:{hits[0]}: a header must not include {library}: whoever includes it would pay for it"
+        if len(users) > most:
+            yield f"{library} is seen by {len(users)} files, {most} are allowed: {', '.join(users)}"
+
+
+def faults(root):
+    tree = Tree(root)
+    return [*direction_faults(tree), *circle_faults(tree), *reach_faults(tree), *heavy_faults(tree)]

@@ -1,0 +1,82 @@
+"""Holds the #include lines of the modules to the rule in includes.py, and the rule to planted violations."""
+
+import shutil
+import tempfile
+import unittest
+from pathlib import Path
+
+from includes import MODULES, Tree, faults
+
+ROOT = Path(__file__).resolve().parents[2]
+
+# A line added to a file of a sound tree, and words of the fault that must then be found. A file that is not there is
+# made.
+PLANTED = {
+    "base sees mesh": ("base/error.h", '#include "segment/mesh/edges.h"', "segment comes after base"),
+    "segment sees cam": ("segment/cut/cut.h", '#include "cam/cell/cell.h"', "cam comes after segment"),
+    "mesh sees cut": ("segment/mesh/shells.cpp", '#include "segment/cut/cut.h"', "segment/cut comes after"),
+    "import sees search": ("segment/import/import_scan.cpp", '#include "segment/search/search.h"', "comes after"),
+    "a sub-module without a place": ("segment/more/more.h", '#include "segment/cut/cut.h"', "has no place"),
+    "cell sees job": ("cam/cell/cell.cpp", '#include "cam/job/job.h"', "cam/job comes after cam/cell"),
+    "devices sees the job file": ("devices/codec.cpp", '#include "cam/job/job.h"', "sees only a part of cam"),
+    "devices sees the cell file": ("devices/dispatch.cpp", '#include "cam/cell/cell.h"', "sees only a part of cam"),
+    "devices sees geometry": ("devices/codec.h", '#include "segment/mesh/shells.h"', "sees only a part of segment"),
+    "devices sees sim": ("devices/dispatch.cpp", '#include "sim/machine.h"', "sim comes after devices"),
+    "sim sees the hand-off": ("sim/machine.cpp", '#include "devices/hand_off.h"', "sees only a part of devices"),
+    "sim sees dispatch": ("sim/cell_sim.h", '#include "devices/dispatch.h"', "sees only a part of devices"),
+    "sim sees setup": ("sim/machine.cpp", '#include "cam/setup/setup.h"', "sees only a part of cam"),
+    "sim sees cut": ("sim/machine.cpp", '#include "segment/cut/cut.h"', "sees only a part of segment"),
+    "sim reaches CGAL": ("sim/machine.h", '#include "segment/mesh/oriented_box.h"', "whose source sees CGAL"),
+    "devices reaches CGAL through a header": (
+        "segment/mesh/measure.h",
+        '#include "segment/mesh/oriented_box.h"',
+        'devices/codec.cpp: reaches "segment/mesh/oriented_box.h"',
+    ),
+    "sim sees app": ("sim/cell_sim.cpp", '#include "app/cli/terminal.h"', "app comes after sim"),
+    "project sees report": ("app/project/project.cpp", '#include "app/report/columns.h"', "app/report comes after"),
+    "report sees cli": ("app/report/columns.cpp", '#include "app/cli/commands.h"', "app/cli comes after"),
+    "two units see each other": (
+        "segment/mesh/measure.cpp",
+        '#include "segment/mesh/rays.h"',
+        "in a circle: segment/mesh/measure, segment/mesh/rays",
+    ),
+    "CGAL in a header": ("segment/cut/cap.h", "#include <CGAL/Surface_mesh.h>", "a header must not include CGAL"),
+    "CGAL in one more source": ("segment/cut/cut.cpp", "#  include <CGAL/Surface_mesh.h>", "8 files, 7 are allowed"),
+    "Embree in one more source": ("segment/picture/light.cpp", "#include <embree3/rtcore.h>", "seen by 2 files"),
+    "JSON in a header": ("app/report/columns.h", "#include <nlohmann/json.hpp>", "a header must not include JSON"),
+    "the option parser in a header": ("app/cli/arguments.h", "#include <CLI/CLI.hpp>", "must not include CLI11"),
+    "libmodbus in sim": ("sim/modbus_pdu.cpp", "#include <modbus/modbus.h>", "libmodbus is seen by 1 files"),
+    "a path from elsewhere": ("segment/cut/cut.cpp", '#include "../mesh/shells.h"', "written from the root"),
+    "a module in angle brackets": ("sim/machine.cpp", "#include <devices/hand_off.h>", "write it in quotes"),
+}
+
+class Includes(unittest.TestCase):
+    def test_modules_include_only_what_comes_before_them(self):
+        self.assertEqual(faults(ROOT), [])
+
+    def test_every_module_was_looked_at(self):
+        seen = {name.split("/")[0] for name in Tree(ROOT).files}
+        self.assertEqual(seen, set(MODULES))
+
+    def test_a_planted_fault_is_found(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = Path(folder)
+            for module in MODULES:
+                shutil.copytree(ROOT / module, root / module)
+            already = set(faults(root))  # the first test tells of these
+            for what, (name, line, words) in PLANTED.items():
+                with self.subTest(what):
+                    path = root / name
+                    before = path.read_text(encoding="utf-8") if path.exists() else None
+                    path.parent.mkdir(exist_ok=True)
+                    path.write_text(line + "\n" + (before or ""), encoding="utf-8")
+                    found = set(faults(root)) - already
+                    self.assertTrue(any(words in fault for fault in found), f"{words!r} not in {found}")
+                    if before is None:
+                        path.unlink()
+                    else:
+                        path.write_text(before, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,36 @@
+"""One name, one thing: no two types of the project share a name.
+
+All modules share one namespace. Two types of one name in two files would compile and link, and then the destructor of one
+is called for the other. faults(root) lists such names; types in an unnamed namespace do not count.
+"""
+
+import re
+from collections import defaultdict
+from pathlib import Path
+
+from includes import MODULES
+
+DEFINITION = re.compile(r"^(?:struct|class|enum class|enum|union)\s+(\w+)(?!\w|::)[^;]*$|^using\s+(\w+)\s*=")
+
+
+def types_in(path):
+    """Names of the types that a file defines for the whole program."""
+    unnamed = False
+    for line in path.read_text(encoding="utf-8").splitlines():
+        if line == "namespace {":
+            unnamed = True
+        elif line == "}  // namespace":
+            unnamed = False
+        match = DEFINITION.match(line)
+        if match and not unnamed and not (path.suffix == ".cpp" and match.group(2)):
+            yield match.group(1) or match.group(2)
+
+
+def faults(root):
+    where = defaultdict(list)
+    for module in MODULES:
+        for path in sorted((Path(root) / module).rglob("*")):
+            if path.suffix in (".h", ".cpp"):
+                for name in types_in(path):
+                    where[name].append(path.relative_to(root).as_posix())
+    return [f"{name} is defined in {' and in '.join(files)}" for name, files in sorted(where.items()) if len(files) > 1]

@@ -1,0 +1,220 @@
+#include "segment/import/inspect.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "segment/io/write_stl.h"
+#include "segment/repair/weld.h"
+#include "tests/segment/io/help.h"
+#include "tests/shapes.h"
+
+namespace qchopper {
+namespace {
+
+RawMesh raw(const TriangleMesh& mesh) {
+    RawMesh scan;
+    scan.mesh = mesh;
+    scan.faces_in_file = mesh.triangles.size();
+    return scan;
+}
+
+TEST(Inspect, FindsNothingWrongWithClosedShapes) {
+    for (const shapes::Named& shape : shapes::all_closed()) {
+        for (const RawMesh& scan : {raw(shape.mesh), parse_mesh(to_stl(shape.mesh), shape.name)}) {
+            const Inspection found = inspect(scan);
+            EXPECT_TRUE(found.is_closed()) << shape.name;
+            EXPECT_EQ(found.triangles, shape.mesh.triangles.size()) << shape.name;
+            EXPECT_EQ(found.vertices, shape.mesh.points.size()) << shape.name;
+            EXPECT_EQ(found.inside_out, 0U) << shape.name;
+            EXPECT_EQ(found.holes.size(), 0U) << shape.name;
+            EXPECT_NEAR(found.volume / volume_mm3(shape.mesh), 1, 1e-3) << shape.name;
+            EXPECT_NEAR(found.area / area_mm2(shape.mesh), 1, 1e-3) << shape.name;
+        }
+    }
+}
+
+TEST(Inspect, CountsEveryFault) {
+    TriangleMesh mesh = shapes::box({0, 0, 0}, {2, 2, 2}, 2);
+    mesh.triangles.pop_back();
+    EXPECT_EQ(inspect(raw(mesh)).open_edges, 3U);
+    ASSERT_EQ(inspect(raw(mesh)).holes.size(), 1U);
+    EXPECT_EQ(inspect(raw(mesh)).holes[0].edges, 3U);
+
+    mesh.points.push_back({50, 50, 50});
+    mesh.triangles.push_back({0, 0, 1});
+    const Inspection found = inspect(raw(mesh));
+    EXPECT_EQ(found.unreferenced, 1U);
+    EXPECT_EQ(found.collapsed, 1U);
+    EXPECT_EQ(found.box, (Box{{0, 0, 0}, {2, 2, 2}}));
+    EXPECT_EQ(found.triangles_in_file, 48U);
+    EXPECT_EQ(found.triangles, 47U);
+
+    TriangleMesh turned = shapes::box({0, 0, 0}, {2, 2, 2}, 2);
+    std::swap(turned.triangles[0][0], turned.triangles[0][1]);
+    EXPECT_EQ(inspect(raw(turned)).inconsistent, 3U);
+    EXPECT_EQ(inspect(raw(turned)).shells, 1U);
+
+    TriangleMesh twice = shapes::box({0, 0, 0}, {2, 2, 2}, 2);
+    twice.triangles.push_back(twice.triangles[0]);
+    EXPECT_EQ(inspect(raw(twice)).non_manifold, 3U);
+
+    EXPECT_EQ(
+        inspect(raw(shapes::joined({shapes::box({0, 0, 0}, {1, 1, 1}), shapes::box({1, 1, 1}, {2, 2, 2})}))).pinched,
+        1U);
+
+    TriangleMesh flat;
+    flat.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+    flat.triangles = {{0, 1, 2}};
+    EXPECT_EQ(inspect(raw(flat)).no_area, 1U);
+}
+
+TEST(Inspect, CallsSolidsThatOnlyTouchReady) {
+    const TriangleMesh at_an_edge =
+        shapes::joined({shapes::box({0, 0, 0}, {1, 1, 1}), shapes::box({1, 1, 0}, {2, 2, 1})});
+    const Inspection found = inspect(raw(at_an_edge));
+    EXPECT_EQ(found.non_manifold, 1U);
+    EXPECT_EQ(found.touching, 1U);
+    EXPECT_EQ(judge(found).verdict, Verdict::ready);
+    EXPECT_EQ(judge(found).reasons.size(), 1U);  // that the edge is parted
+
+    TriangleMesh with_fin = shapes::box({0, 0, 0}, {1, 1, 1});
+    with_fin.points.push_back({2, 2, 0.5});
+    const Triangle first = with_fin.triangles[0];
+    with_fin.triangles.push_back({first[0], first[1], static_cast<std::uint32_t>(with_fin.points.size() - 1)});
+    EXPECT_EQ(inspect(raw(with_fin)).touching, 0U);
+    EXPECT_EQ(judge(inspect(raw(with_fin))).verdict, Verdict::to_repair);
+}
+
+TEST(Inspect, TellsCavitiesFromShellsThatAreInsideOut) {
+    const TriangleMesh ball = shapes::turned_inside_out(shapes::ball({5, 5, 5}, 2));
+    EXPECT_EQ(inspect(raw(ball)).inside_out, 1U);
+    const Inspection hollow = inspect(raw(shapes::joined({shapes::box({0, 0, 0}, {10, 10, 10}), ball})));
+    EXPECT_EQ(hollow.inside_out, 0U);
+    EXPECT_EQ(hollow.cavities, 1U);
+    EXPECT_EQ(hollow.shells, 2U);
+}
+
+TEST(Inspect, TellsTheLongestHoleAndWhereItIs) {
+    TriangleMesh mesh = shapes::box({0, 0, 0}, {8, 8, 8}, 8);
+    EXPECT_EQ(inspect(raw(mesh)).longest_hole(), nullptr);
+    const auto lies_in = [&](const Triangle& t, double low, double high) {
+        return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
+            const Vec3 p = mesh.points[v];
+            return p.z == 8 && p.x >= low && p.x <= high && p.y >= low && p.y <= high;
+        });
+    };
+    std::erase_if(mesh.triangles, [&](const Triangle& t) { return lies_in(t, 1, 2) || lies_in(t, 4, 6); });
+    const Inspection found = inspect(raw(mesh));
+    EXPECT_EQ(found.holes.size(), 2U);
+    ASSERT_NE(found.longest_hole(), nullptr);
+    EXPECT_EQ(found.longest_hole()->edges, 8U);
+    EXPECT_DOUBLE_EQ(found.longest_hole()->length, 8);
+    EXPECT_EQ(found.longest_hole()->centre, (Vec3{5, 5, 8}));
+    EXPECT_EQ(found.sheets, 0U);
+}
+
+TEST(Inspect, CountsCrumbsWithTheirCavities) {
+    const TriangleMesh large = shapes::box({0, 0, 0}, {100, 100, 100});
+    const TriangleMesh crumb = shapes::box({200, 0, 0}, {202, 2, 2});
+    const TriangleMesh piece = shapes::box({300, 0, 0}, {303, 3, 3});
+    const TriangleMesh thin = shapes::joined(  // 27 mm3 in all, but only 7 of them are solid
+        {shapes::box({400, 0, 0}, {403, 3, 3}),
+         shapes::turned_inside_out(shapes::box({400.15, 0.15, 0.15}, {402.85, 2.85, 2.85}))});
+    const Inspection found = inspect(raw(shapes::joined({large, crumb, piece, thin})));
+    EXPECT_EQ(found.crumbs, 2U);
+    const double area = 24 + 54 + 6 * 2.7 * 2.7;
+    EXPECT_NEAR(found.crumb_area_share, (area - 0) / (60'000 + 24 + 54 + 54 + 6 * 2.7 * 2.7), 1e-12);
+    EXPECT_EQ(judge(found).verdict, Verdict::ready);
+}
+
+TEST(Inspect, DeepFindsSelfIntersections) {
+    const TriangleMesh crossed = shapes::joined({shapes::box({0, 0, 0}, {4, 4, 4}), shapes::box({3, 1, 1}, {6, 3, 3})});
+    EXPECT_FALSE(inspect(raw(crossed)).self_intersected);
+    InspectOptions deep;
+    deep.deep = true;
+    const Inspection found = inspect(raw(crossed), deep);
+    ASSERT_TRUE(found.self_intersected);
+    EXPECT_GT(found.self_intersected->pairs, 0U);
+    EXPECT_FALSE(found.self_intersected->places.empty());
+    EXPECT_LE(found.self_intersected->places.size(), 10U);
+    EXPECT_EQ(judge(found).verdict, Verdict::to_repair);
+    // Surfaces that touch in a point are no fault of that kind.
+    const TriangleMesh touching =
+        shapes::joined({shapes::box({0, 0, 0}, {1, 1, 1}), shapes::box({1, 1, 1}, {2, 2, 2})});
+    EXPECT_EQ(inspect(raw(touching), deep).self_intersected->pairs, 0U);
+}
+
+TEST(Inspect, JudgesWhatItSees) {
+    for (const shapes::Named& shape : shapes::all_closed()) {
+        const Judgement judged = judge(inspect(raw(shape.mesh)));
+        EXPECT_EQ(judged.verdict, Verdict::ready) << shape.name;
+        EXPECT_TRUE(judged.reasons.empty()) << shape.name;
+    }
+    TriangleMesh mesh = shapes::box({0, 0, 0}, {2, 2, 2}, 2);
+    mesh.triangles.pop_back();
+    EXPECT_EQ(judge(inspect(raw(mesh))).verdict, Verdict::to_repair);
+    EXPECT_EQ(judge(inspect(raw(mesh))).reasons, (std::vector<std::string>{"1 hole is closed."}));
+    EXPECT_EQ(judge(inspect(raw(shapes::turned_inside_out(shapes::box({0, 0, 0}, {1, 1, 1}))))).verdict,
+              Verdict::to_repair);
+    mesh.triangles.resize(1);
+    EXPECT_EQ(judge(inspect(raw(mesh))).verdict, Verdict::hopeless);
+    TriangleMesh line;
+    line.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+    line.triangles = {{0, 1, 2}};
+    EXPECT_EQ(judge(inspect(raw(line))).verdict, Verdict::hopeless);
+    line.triangles = {{0, 0, 1}};
+    const Inspection nothing = inspect(raw(line));
+    EXPECT_EQ(nothing.triangles, 0U);
+    EXPECT_EQ(judge(nothing).verdict, Verdict::hopeless);
+}
+
+// Reading and welding in one gives what reading, then welding gives.
+TEST(Inspect, SaysTheSameOfAnStlFileThatIsWeldedWhileItIsRead) {
+    for (const shapes::Named& shape : shapes::all_closed()) {
+        TriangleMesh mesh = shape.mesh;
+        for (std::size_t v = 0; v < mesh.points.size(); v += 3) mesh.points[v].x *= -0.0;
+        const Bytes bytes = to_stl(mesh);
+        RawMesh apart = parse_mesh(bytes, shape.name);
+        RawMesh together = parse_mesh(bytes, shape.name, {}, {.weld = true});
+        EXPECT_EQ(together.mesh.points.size() + together.welded, apart.mesh.points.size()) << shape.name;
+        const Inspection a = inspect(apart);
+        const Inspection b = inspect(together);
+        EXPECT_EQ(a.points_in_file, b.points_in_file) << shape.name;
+        EXPECT_EQ(a.welded, b.welded) << shape.name;
+        EXPECT_EQ(a.collapsed, b.collapsed) << shape.name;
+        weld(apart.mesh);
+        weld(together.mesh);
+        EXPECT_EQ(apart.mesh, together.mesh) << shape.name;
+    }
+}
+
+TEST(Inspect, DescribesTheRealScansWithoutAWord) {
+    NEEDS_MESH("nasty");
+    const Inspection bunny = inspect(read_mesh(real_mesh("bunny_bun_zipper.ply")));
+    EXPECT_EQ(bunny.holes.size(), 5U);
+    EXPECT_EQ(bunny.open_edges, 223U);
+    EXPECT_EQ(bunny.unreferenced, 1113U);
+    const Inspection head = inspect(read_mesh(real_mesh("ct_head_371k.ply")));
+    EXPECT_EQ(head.shells, 222U);
+    EXPECT_EQ(head.cavities, 39U);
+    EXPECT_EQ(head.collapsed, 6U);
+    const Inspection router = inspect(read_mesh(real_mesh("nasty/ocl_stl_mount_rush.stl")));
+    EXPECT_EQ(router.non_manifold, 1645U);
+    EXPECT_EQ(router.inconsistent, 686U);
+    EXPECT_EQ(router.open_edges, 862U);
+    EXPECT_EQ(inspect(read_mesh(real_mesh("nasty/made_inside_out.stl"))).open_edges, 223U);
+}
+
+TEST(Inspect, SaysSizesInWords) {
+    EXPECT_EQ(size_in_words({1820, 940, 710}), "1.82 m x 0.94 m x 0.71 m");
+    EXPECT_EQ(size_in_words({999.4, 15, 345}), "99.9 cm x 1.5 cm x 34.5 cm");
+    EXPECT_EQ(size_in_words({12, 3.456, 99.9}), "12.0 mm x 3.5 mm x 99.9 mm");
+    EXPECT_EQ(size_in_words({999.6, 1, 1}), "1.00 m x 0.00 m x 0.00 m");
+    EXPECT_EQ(size_in_words({25000, 18000, 3000}), "25.0 m x 18.0 m x 3.0 m");
+    EXPECT_EQ(size_in_words({0, 0, 0}), "0.00 mm x 0.00 mm x 0.00 mm");
+    EXPECT_FALSE(size_in_words({1e308, 1e308, 1e308}).empty());
+}
+
+}  // namespace
+}  // namespace qchopper

@@ -1,0 +1,102 @@
+// What one unit of a scan is: the file knows, or the operator says so; nobody guesses, and they must not disagree.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "segment/import/import_scan.h"
+#include "segment/io/write_ply.h"
+#include "segment/mesh/measure.h"
+#include "tests/segment/io/help.h"
+#include "tests/segment/io/wrappings.h"
+#include "tests/shapes.h"
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+
+const TriangleMesh box = shapes::box({0, 0, 0}, {1, 2, 3});
+
+class Units : public testing::Test {
+ protected:
+    void SetUp() override { fs::create_directories(folder); }
+    void TearDown() override { fs::remove_all(folder); }
+
+    // The size of the scan in mm.
+    Vec3 size(const Bytes& bytes, std::optional<double> mm_per_unit) {
+        write_file(folder / "scan", bytes);
+        IntakeOptions options;
+        options.mm_per_unit = mm_per_unit;
+        return bounds(take_in(folder / "scan", options).mesh).size();
+    }
+
+    // What is said where it is refused as wrong use.
+    std::string refused(const Bytes& bytes, std::optional<double> mm_per_unit) {
+        try {
+            size(bytes, mm_per_unit);
+        } catch (const InputError& error) {
+            EXPECT_EQ(error.fault, InputFault::use) << error.what();
+            return error.what() + std::string(". To do: ") + error.to_do;
+        }
+        ADD_FAILURE() << "nothing was refused";
+        return {};
+    }
+
+    const fs::path folder = fs::temp_directory_path() / ("units_test." + std::to_string(::getpid()));
+    const Bytes ply = to_ply(box);
+    const Bytes gltf = bytes_of(gltf_of(box));  // metres
+    const Bytes inches =
+        package_3mf({{"3D/a.model", model_3mf(object_3mf(box, 1), "<item objectid=\"1\"/>", "unit=\"inch\"")}});
+    const Bytes no_word = package_3mf({{"3D/a.model", model_3mf(object_3mf(box, 1), "<item objectid=\"1\"/>")}});
+};
+
+TEST_F(Units, AScanWithoutOneNeedsToBeTold) {
+    EXPECT_EQ(size(ply, 10), (Vec3{10, 20, 30}));
+    const std::string what = refused(ply, {});
+    EXPECT_NE(what.find("PLY, binary little-endian, which has no unit. To do: say --units mm, cm, m or in"),
+              std::string::npos)
+        << what;
+    EXPECT_NE(refused(bytes_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), {}).find("OBJ, which has no unit"),
+              std::string::npos);
+}
+
+TEST_F(Units, TheFilesOwnIsTaken) {
+    EXPECT_EQ(size(gltf, {}), (Vec3{1000, 3000, 2000}));
+    EXPECT_EQ(size(inches, {}), (Vec3{25.4, 50.8, 3 * 25.4}));
+    EXPECT_EQ(size(no_word, {}), (Vec3{1, 2, 3}));  // 3MF: millimetres unless it says otherwise
+}
+
+TEST_F(Units, ToSayTheSameAsTheFileIsFine) {
+    EXPECT_EQ(size(gltf, 1000), size(gltf, {}));
+    EXPECT_EQ(size(inches, 25.4), size(inches, {}));
+}
+
+TEST_F(Units, ToSayAnotherThanTheFileIsRefused) {
+    EXPECT_NE(refused(gltf, 1).find("says itself that its unit is m, but --units says mm"), std::string::npos);
+    EXPECT_NE(refused(inches, 1000).find("its unit is in, but --units says m"), std::string::npos);
+    EXPECT_NE(refused(no_word, 25.4).find("its unit is mm, but --units says in"), std::string::npos);
+}
+
+// A project knows its scan by this hash, so it must tell of every file that the scan lies in.
+TEST_F(Units, TheHashOfAScanCoversTheFilesBesideIt) {
+    std::string json = gltf_of(box);
+    const std::size_t begin = json.find("data:");
+    json.replace(begin, json.find('"', begin) - begin, "bone.bin");
+    Bytes numbers = float_points(box.points);
+    for (const Triangle& t : box.triangles) {
+        for (const std::uint32_t corner : t)
+            numbers.insert(numbers.end(), {static_cast<std::uint8_t>(corner), 0, 0, 0});
+    }
+    write_file(folder / "bone.gltf", json);
+    write_file(folder / "bone.bin", numbers);
+    const Sha256 before = take_in(folder / "bone.gltf", {}).sha256;
+    EXPECT_EQ(take_in(folder / "bone.gltf", {}).sha256, before);
+    numbers[95] ^= 0x80;  // the sign of a coordinate that is not zero, or of one that is
+    write_file(folder / "bone.bin", numbers);
+    EXPECT_NE(take_in(folder / "bone.gltf", {}).sha256, before);
+}
+
+}  // namespace
+}  // namespace qchopper

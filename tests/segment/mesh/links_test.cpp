@@ -1,0 +1,97 @@
+#include "segment/mesh/links.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+#include "segment/mesh/manifold.h"
+#include "segment/repair/weld.h"
+#include "tests/shapes.h"
+
+namespace qchopper {
+namespace {
+
+void expect_as_before(const TriangleMesh& mesh, const std::string& name) {
+    const Edges found = edges(mesh);
+    const Unpaired expected = unpaired(mesh, found);
+    const Links links = qchopper::links(mesh);
+    EXPECT_EQ(links.faults, found.faults) << name;
+    EXPECT_EQ(links.open, expected.open) << name;
+    EXPECT_EQ(links.faulty, expected.faulty) << name;
+    EXPECT_EQ(links.extra_fans.size(), count_pinched(mesh, found)) << name;
+    if (found.faults.non_manifold + found.faults.inconsistent > 0) return;
+    TriangleMesh ours = mesh;
+    split_fans(ours, links.extra_fans);
+    TriangleMesh theirs = mesh;
+    split_pinched(theirs, found);
+    EXPECT_EQ(count_pinched(ours, edges(ours)), 0U) << name;
+    EXPECT_EQ(edges(ours).faults.open, found.faults.open) << name;
+    // The same copies, perhaps in another order.
+    ASSERT_EQ(ours.points.size(), theirs.points.size()) << name;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            EXPECT_EQ(ours.points[ours.triangles[t][k]], theirs.points[theirs.triangles[t][k]]);
+            EXPECT_EQ(ours.triangles[t][k] < mesh.points.size(), theirs.triangles[t][k] < mesh.points.size()) << name;
+        }
+    }
+}
+
+TEST(Links, SayWhatEdgesAndPinchedPointsSay) {
+    for (const shapes::Named& shape : shapes::all_closed()) {
+        expect_as_before(shape.mesh, shape.name);
+        for (unsigned seed = 0; seed < 12; ++seed) {
+            std::mt19937 random(seed);
+            TriangleMesh torn = shape.mesh;
+            const auto any = [&] { return random() % torn.triangles.size(); };
+            for (int i = 0; i < 8 && torn.triangles.size() > 8; ++i) {
+                torn.triangles.erase(torn.triangles.begin() + static_cast<std::ptrdiff_t>(any()));
+            }
+            expect_as_before(torn, shape.name + " torn");
+            for (int i = 0; i < 4; ++i) {
+                Triangle& t = torn.triangles[any()];
+                std::swap(t[0], t[1]);
+                torn.triangles.push_back(torn.triangles[any()]);
+                const std::size_t p = random() % torn.points.size();
+                torn.points[p] = torn.points[random() % torn.points.size()];
+            }
+            weld(torn);
+            expect_as_before(torn, shape.name + " in disorder");
+        }
+    }
+}
+
+TEST(Links, SeePointsWithVeryManyTriangles) {
+    TriangleMesh poles = shapes::ball({0, 0, 0}, 5, 100);
+    expect_as_before(poles, "poles");
+    poles.triangles.erase(poles.triangles.begin());
+    expect_as_before(poles, "open pole");
+    std::vector<TriangleMesh> many;
+    for (int i = 0; i < 40; ++i)
+        many.push_back(shapes::rotated(shapes::pyramid({-0.1, -0.1, -5}, 0.2, 5), {1, 0, 0}, 0.1 * i));
+    TriangleMesh star = shapes::joined(many);
+    for (Vec3& p : star.points) {
+        if (norm(p) < 1e-9) p = {};
+    }
+    weld(star);
+    expect_as_before(star, "star");
+    EXPECT_EQ(links(star).extra_fans.size(), 39U);
+}
+
+TEST(Links, CountRepeatedTriangles) {
+    TriangleMesh mesh = shapes::box({0, 0, 0}, {2, 2, 2}, 2);
+    EXPECT_EQ(links(mesh).repeated, 0U);
+    mesh.triangles.push_back(mesh.triangles[3]);
+    mesh.triangles.push_back({mesh.triangles[3][1], mesh.triangles[3][0], mesh.triangles[3][2]});
+    mesh.triangles.push_back(mesh.triangles[9]);
+    EXPECT_EQ(links(mesh).repeated, 3U);
+    TriangleMesh pillow;
+    pillow.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    pillow.triangles = {{0, 1, 2}, {0, 2, 1}};
+    EXPECT_EQ(links(pillow).repeated, 1U);
+    EXPECT_TRUE(links(pillow).faults.is_closed());
+    EXPECT_EQ(links({}).repeated, 0U);
+}
+
+}  // namespace
+}  // namespace qchopper
