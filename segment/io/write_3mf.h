@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/file.h"
-#include "segment/mesh/pose.h"
+#include "base/pose.h"
 
 namespace qchopper {
 
