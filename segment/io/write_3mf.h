@@ -12,6 +12,7 @@
 
 #include "base/file.h"
 #include "base/pose.h"
+#include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {
 
