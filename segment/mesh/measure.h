@@ -2,6 +2,8 @@
 
 #pragma once
 
+#include <algorithm>
+
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {
@@ -13,6 +15,11 @@ struct Box {
     Vec3 size() const { return max - min; }
     Vec3 centre() const { return 0.5 * (min + max); }
 };
+
+inline void extend(Box& box, Vec3 p) {
+    box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y), std::min(box.min.z, p.z)};
+    box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y), std::max(box.max.z, p.z)};
+}
 
 // Axis-parallel box of all points; {0,0} for none.
 Box bounds(const TriangleMesh& mesh);
