@@ -4,7 +4,7 @@
 #include <cassert>
 
 #include "base/error.h"
-#include "segment/mesh/inside.h"
+#include "segment/mesh/containment.h"
 
 namespace qchopper {
 namespace {
@@ -23,7 +23,7 @@ const Piece& piece_named(const Segmentation& segmentation, const std::string& na
 }
 
 PlanPiece plan_piece(const Piece& piece, Vec3 centre) {
-    const std::optional<Vec3> inside = deep_point(*piece.mesh);
+    const std::optional<Vec3> inside = interior_point(*piece.mesh);
     if (!inside) throw InputError(InputFault::mesh, "piece " + piece.name + " has no inside", "check the scan");
     return {piece.name, path_of(piece), *inside + centre, volume_mm3(*piece.mesh)};
 }

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "segment/cut/nudge.h"
-#include "segment/mesh/inside.h"
+#include "segment/mesh/containment.h"
 
 namespace qchopper {
 namespace {
@@ -128,7 +128,7 @@ class Replay {
             const bool is_there =
                 std::equal(piece.bounds.begin(), piece.bounds.end(), planned.path.begin(), planned.path.end(),
                            [](const Bound& b, const PathSide& s) { return b.cut == s.cut && b.above == s.above; });
-            if (!is_there || !contains(*piece.mesh, inside)) continue;
+            if (!is_there || !is_inside(*piece.mesh, inside)) continue;
             const double off = share_off(volume_mm3(*piece.mesh), planned.volume_mm3);
             if (off <= fit_.most_volume_off) return p;
             why = "piece " + piece.name + " lies there, but its volume differs by " + percent(off);

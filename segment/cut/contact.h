@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "segment/mesh/polygon_nesting.h"
+#include "segment/mesh/polygon.h"
 
 namespace qchopper {
 

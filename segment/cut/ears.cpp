@@ -10,10 +10,6 @@
 namespace qchopper {
 namespace {
 
-double turn(Point2 a, Point2 b, Point2 c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
 double distance2(Point2 a, Point2 b) {
     return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
 }
@@ -24,7 +20,8 @@ std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
 
 // Does the open segment p-q properly cross a-b?
 bool crosses(Point2 p, Point2 q, Point2 a, Point2 b) {
-    return (turn(p, q, a) > 0) != (turn(p, q, b) > 0) && (turn(a, b, p) > 0) != (turn(a, b, q) > 0);
+    return (orientation(p, q, a) > 0) != (orientation(p, q, b) > 0) &&
+           (orientation(a, b, p) > 0) != (orientation(a, b, q) > 0);
 }
 
 // Is the direction from a ring corner towards q inside the material there? A corner that a bridge has doubled stands
@@ -33,9 +30,9 @@ bool opens_towards(std::span<const Point2> points, const Loop& ring, std::size_t
     const Point2 a = points[ring[(at + ring.size() - 1) % ring.size()]];
     const Point2 b = points[ring[at]];
     const Point2 c = points[ring[(at + 1) % ring.size()]];
-    const bool is_left_of_first = turn(a, b, q) > 0;
-    const bool is_left_of_second = turn(b, c, q) > 0;
-    return turn(a, b, c) > 0 ? is_left_of_first && is_left_of_second : is_left_of_first || is_left_of_second;
+    const bool is_left_of_first = orientation(a, b, q) > 0;
+    const bool is_left_of_second = orientation(b, c, q) > 0;
+    return orientation(a, b, c) > 0 ? is_left_of_first && is_left_of_second : is_left_of_first || is_left_of_second;
 }
 
 bool is_clear_of(std::span<const Point2> points, const Loop& loop, Point2 p, Point2 q) {
@@ -134,11 +131,11 @@ class EarCutter {
         const Point2 a = point(previous_[at]);
         const Point2 b = point(at);
         const Point2 c = point(next_[at]);
-        if (!is_allowed(at) || turn(a, b, c) <= 0) return false;
+        if (!is_allowed(at) || orientation(a, b, c) <= 0) return false;
         for (std::size_t i = next_[next_[at]]; i != previous_[at]; i = next_[i]) {
             const Point2 p = point(i);
             if (p == a || p == b || p == c) continue;
-            if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return false;
+            if (orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 && orientation(c, a, p) >= 0) return false;
         }
         return true;
     }
@@ -150,7 +147,7 @@ class EarCutter {
         std::size_t at = start;
         for (std::size_t i = 0; i < left; ++i, at = next_[at]) {
             if (ring_[previous_[at]] == ring_[next_[at]]) continue;
-            const double area = turn(point(previous_[at]), point(at), point(next_[at]));
+            const double area = orientation(point(previous_[at]), point(at), point(next_[at]));
             double badness = area >= 0 ? area : -1e6 * area;
             if (!is_allowed(at)) badness = std::numeric_limits<double>::max();
             if (badness < best_badness) {

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "segment/cut/cap.h"
+#include "segment/mesh/polygon.h"
 
 namespace qchopper {
 

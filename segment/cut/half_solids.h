@@ -6,12 +6,12 @@
 #pragma once
 
 #include "segment/cut/cut.h"
-#include "segment/mesh/shells.h"
+#include "segment/mesh/solids.h"
 
 namespace qchopper {
 
-// The line of a tether runs at one height: of the triangle that it meets, this corner is on its side of any plane.
-std::uint32_t far_corner(const TriangleMesh& mesh, const Tether& tether, Vec3 normal, bool above);
+// The line of a cavity link runs at one height: of the triangle that it meets, this corner is on its side of any plane.
+std::uint32_t far_corner(const TriangleMesh& mesh, const CavityLink& link, Vec3 normal, bool above);
 
 struct HalfSolids {
     Shells shells;

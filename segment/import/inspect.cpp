@@ -7,9 +7,9 @@
 #include <map>
 
 #include "base/text.h"
+#include "segment/mesh/containment.h"
 #include "segment/mesh/links.h"
 #include "segment/mesh/manifold.h"
-#include "segment/mesh/nesting.h"
 #include "segment/mesh/shells.h"
 #include "segment/repair/crumbs.h"
 #include "segment/repair/loose_sheets.h"
@@ -89,7 +89,7 @@ class Inspecting {
         if (result_.non_manifold + result_.inconsistent == 0) split_fans(mesh_, links_.extra_fans);
         links_.extra_fans = {};
         loops_ = border_loops(mesh_, links_.open);
-        for (const std::vector<std::uint32_t>& loop : loops_) {
+        for (const std::span<const std::uint32_t> loop : loops_) {
             BorderLoop hole{centre_of(mesh_, loop), loop.size(), 0};
             for (const std::uint32_t h : loop) {
                 hole.length += norm(mesh_.points[end_of(mesh_, h)] - mesh_.points[start_of(mesh_, h)]);
@@ -118,10 +118,8 @@ class Inspecting {
         result_.box = shells_.box[0];
         for (std::size_t s = 0; s < shells_.count(); ++s) {
             result_.volume += shells_.volume[s];
-            for (int axis = 0; axis < 3; ++axis) {
-                result_.box.min[axis] = std::min(result_.box.min[axis], shells_.box[s].min[axis]);
-                result_.box.max[axis] = std::max(result_.box.max[axis], shells_.box[s].max[axis]);
-            }
+            extend(result_.box, shells_.box[s].min);
+            extend(result_.box, shells_.box[s].max);
         }
         area_.assign(shells_.count(), 0);
         for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -151,10 +149,7 @@ class Inspecting {
         std::vector<double> area_of_solid = area_;
         std::vector<bool> is_solid = is_open_;
         is_solid.flip();
-        std::vector<std::vector<std::uint32_t>> around(shells_.count());
-        if (std::find(is_negative.begin(), is_negative.end(), true) != is_negative.end()) {
-            around = shells_around(mesh_, shells_, is_negative);
-        }
+        const IndexLists around = shells_around(mesh_, shells_, is_negative);
         for (std::size_t s = 0; s < shells_.count(); ++s) {
             if (!is_negative[s]) continue;
             if (around[s].empty()) {
@@ -183,7 +178,7 @@ class Inspecting {
     // A flat lid on each hole is the least that closes it; its area is that of the loop seen along its mean normal.
     void look_for_sheets() {
         std::vector<double> lids(shells_.count());
-        for (const std::vector<std::uint32_t>& loop : loops_) {
+        for (const std::span<const std::uint32_t> loop : loops_) {
             const Vec3 origin = mesh_.points[start_of(mesh_, loop[0])];
             Vec3 sum;
             for (const std::uint32_t h : loop) {
@@ -206,7 +201,7 @@ class Inspecting {
     TriangleMesh mesh_;
     Inspection result_;
     Links links_;
-    std::vector<std::vector<std::uint32_t>> loops_;
+    IndexLists loops_;
     Shells shells_;
     std::vector<double> area_;   // per shell
     std::vector<bool> is_open_;  // per shell: it has an open or faulty edge

@@ -5,6 +5,7 @@
 
 #include "base/huge_pages.h"
 #include "segment/mesh/disjoint_sets.h"
+#include "segment/mesh/manifold.h"
 
 namespace qchopper {
 namespace {
@@ -136,23 +137,22 @@ class Closely {
     }
 
     void tell_fans(DisjointSets& fans, const std::uint32_t* corner, std::uint32_t count) {
-        number_.resize(count);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const std::uint32_t root = fans.root(i);
-            if (root == 0) continue;
-            if (root == i) {
-                number_[i] = links_.extra_fans.size();
-                links_.extra_fans.emplace_back();
-            }
-            links_.extra_fans[number_[root]].push_back(corner[i]);
+        fan_and_place_.clear();
+        for (std::uint32_t i = 0; i < count; ++i) fan_and_place_.push_back({fans.root(i), i});
+        std::sort(fan_and_place_.begin(), fan_and_place_.end());
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto [fan, place] = fan_and_place_[i];
+            if (fan == 0) continue;
+            links_.extra_fans.values.push_back(corner[place]);
+            if (i + 1 == count || fan_and_place_[i + 1][0] != fan) links_.extra_fans.end_list();
         }
     }
 
     const TriangleMesh& mesh_;
     const CornersByPoint& corners_;
     Links& links_;
-    std::vector<Neighbour> neighbours_;  // of the point in hand
-    std::vector<std::size_t> number_;    // of the fan that begins at each of its corners
+    std::vector<Neighbour> neighbours_;                        // of the point in hand
+    std::vector<std::array<std::uint32_t, 2>> fan_and_place_;  // of its corners
     std::vector<bool> is_looked_at_;
     std::vector<std::uint32_t> looked_at_;
 };
@@ -174,10 +174,10 @@ Links links(const TriangleMesh& mesh) {
     return result;
 }
 
-void split_fans(TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& extra_fans) {
-    for (const std::vector<std::uint32_t>& fan : extra_fans) {
+void split_fans(TriangleMesh& mesh, const IndexLists& extra_fans) {
+    for (const std::span<const std::uint32_t> fan : extra_fans) {
         const auto copy = static_cast<std::uint32_t>(mesh.points.size());
-        mesh.points.push_back(Vec3(mesh.points[mesh.triangles[fan[0] / 3][fan[0] % 3]]));
+        mesh.points.push_back(Vec3(mesh.points[start_of(mesh, fan[0])]));
         for (const std::uint32_t corner : fan) mesh.triangles[corner / 3][corner % 3] = copy;
     }
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "segment/mesh/edges.h"
+#include "segment/mesh/index_lists.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {
@@ -20,7 +21,7 @@ struct Links {
     std::vector<std::uint32_t> faulty;  // those at edges that are inconsistent or non-manifold; ascending
     // At points where surfaces only touch, every fan but the one of the first triangle, by its corners (a corner has
     // the number of the half-edge that starts there). Points at faulty edges are left out: there fans are not known.
-    std::vector<std::vector<std::uint32_t>> extra_fans;
+    IndexLists extra_fans;
     std::size_t repeated = 0;  // triangles with the same three corners as an earlier one, whichever way they turn
 };
 
@@ -28,6 +29,6 @@ struct Links {
 Links links(const TriangleMesh& mesh);
 
 // Gives every extra fan a copy of its point, as split_pinched does.
-void split_fans(TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& extra_fans);
+void split_fans(TriangleMesh& mesh, const IndexLists& extra_fans);
 
 }  // namespace qchopper

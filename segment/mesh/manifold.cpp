@@ -100,24 +100,23 @@ Unpaired unpaired(const TriangleMesh& mesh, const Edges& edges) {
     return result;
 }
 
-std::vector<std::vector<std::uint32_t>> border_loops(const TriangleMesh& mesh, const std::vector<std::uint32_t>& open) {
+IndexLists border_loops(const TriangleMesh& mesh, std::span<const std::uint32_t> open) {
     std::vector<std::uint32_t> ends_at(mesh.points.size(), nobody);  // the open half-edge that ends at a point
     for (const std::uint32_t h : open) ends_at[end_of(mesh, h)] = h;
-    std::vector<std::vector<std::uint32_t>> loops;
+    IndexLists loops;
     std::vector<bool> done(3 * mesh.triangles.size());
     for (const std::uint32_t first : open) {
         if (done[first]) continue;
-        std::vector<std::uint32_t> loop;
         for (std::uint32_t h = first; h != nobody && !done[h]; h = ends_at[start_of(mesh, h)]) {
             done[h] = true;
-            loop.push_back(h);
+            loops.values.push_back(h);
         }
-        loops.push_back(std::move(loop));
+        loops.end_list();
     }
     return loops;
 }
 
-Vec3 centre_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& loop) {
+Vec3 centre_of(const TriangleMesh& mesh, std::span<const std::uint32_t> loop) {
     Vec3 sum;
     for (const std::uint32_t h : loop) sum = sum + mesh.points[start_of(mesh, h)];
     return (1.0 / static_cast<double>(loop.size())) * sum;

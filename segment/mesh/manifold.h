@@ -8,9 +8,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "segment/mesh/edges.h"
+#include "segment/mesh/index_lists.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {
@@ -33,10 +35,10 @@ Unpaired unpaired(const TriangleMesh& mesh, const Edges& edges);
 // The open border as loops of half-edges, each loop in the order in which triangles that fill it would run backwards
 // along them: the start of one is the end of the next. Meant for a mesh without pinched points and faulty edges; with
 // them a loop ends where the way is not clear.
-std::vector<std::vector<std::uint32_t>> border_loops(const TriangleMesh& mesh, const std::vector<std::uint32_t>& open);
+IndexLists border_loops(const TriangleMesh& mesh, std::span<const std::uint32_t> open);
 
 // Mean of the points of a loop.
-Vec3 centre_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& loop);
+Vec3 centre_of(const TriangleMesh& mesh, std::span<const std::uint32_t> loop);
 
 inline std::uint32_t start_of(const TriangleMesh& mesh, std::uint32_t half_edge) {
     return mesh.triangles[half_edge / 3][half_edge % 3];

@@ -4,8 +4,8 @@
 #include <numeric>
 #include <vector>
 
-#include "segment/mesh/shells.h"
-#include "segment/repair/faces.h"
+#include "segment/mesh/solids.h"
+#include "segment/mesh/submesh.h"
 
 namespace qchopper {
 namespace {

@@ -10,6 +10,7 @@
 #include "segment/mesh/edges.h"
 #include "segment/mesh/manifold.h"
 #include "segment/mesh/measure.h"
+#include "segment/mesh/submesh.h"
 
 namespace qchopper {
 namespace {
@@ -63,9 +64,9 @@ class DoubleSheets {
  public:
     DoubleSheets(const TriangleMesh& mesh, const std::vector<std::uint32_t>& opposite)
         : mesh_(mesh), opposite_(opposite), sheet_(mesh.triangles.size()), balance_(mesh.triangles.size()) {
-        const EdgeGroups groups = edge_groups(mesh);
-        for (std::size_t g = 0; g < groups.count(); ++g) join(groups[g]);
-        for (std::size_t g = 0; g < groups.count(); ++g) weigh(groups[g]);
+        const IndexLists groups = edge_groups(mesh);
+        for (std::size_t g = 0; g < groups.size(); ++g) join(groups[g]);
+        for (std::size_t g = 0; g < groups.size(); ++g) weigh(groups[g]);
         measure();
     }
 
@@ -142,18 +143,6 @@ class DoubleSheets {
 };
 
 }  // namespace
-
-void keep_triangles(TriangleMesh& mesh, const std::vector<bool>& is_kept) {
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (!is_kept[t]) continue;
-        mesh.triangles[kept] = mesh.triangles[t];
-        if (!mesh.cap_of.empty()) mesh.cap_of[kept] = mesh.cap_of[t];
-        ++kept;
-    }
-    mesh.triangles.resize(kept);
-    if (!mesh.cap_of.empty()) mesh.cap_of.resize(kept);
-}
 
 std::vector<bool> without_opposite_faces(const TriangleMesh& mesh) {
     const std::vector<Corners> all = sorted_by_corners(mesh);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "segment/mesh/shells.h"
-#include "segment/repair/faces.h"
+#include "segment/mesh/submesh.h"
 
 namespace qchopper {
 

@@ -6,7 +6,7 @@
 
 #include "segment/mesh/edges.h"
 #include "segment/mesh/manifold.h"
-#include "segment/repair/faces.h"
+#include "segment/mesh/submesh.h"
 
 namespace qchopper {
 namespace {

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <vector>
 
-#include "segment/mesh/nesting.h"
+#include "segment/mesh/containment.h"
 #include "segment/mesh/shells.h"
 #include "segment/repair/weld.h"
 
@@ -52,10 +53,10 @@ Groups touching(const TriangleMesh& mesh, const Shells& found) {
 }
 
 // Which shells are to turn, when those of a group turn together.
-std::vector<bool> inside_out(const Shells& found, const Groups& groups,
-                             const std::vector<std::vector<std::uint32_t>>& around) {
+std::vector<bool> inside_out(const Shells& found, const Groups& groups, const IndexLists& around) {
     const auto around_group = [&](std::uint32_t g) {
-        std::vector<std::uint32_t> others = around[groups.largest[g]];
+        const std::span<const std::uint32_t> all = around[groups.largest[g]];
+        std::vector<std::uint32_t> others(all.begin(), all.end());
         std::erase_if(others, [&](std::uint32_t s) { return groups.group_of[s] == g; });
         return others;
     };
@@ -87,7 +88,7 @@ bool is_much_left(const Shells& found, const std::vector<bool>& is_turned) {
 
 Outwards turned(TriangleMesh& mesh, bool turn, bool by_groups) {
     const Shells found = shells(mesh);
-    const std::vector<std::vector<std::uint32_t>> around = shells_around(mesh, found);
+    const IndexLists around = shells_around(mesh, found);
     std::vector<bool> is_turned(found.count());
     const bool is_any = std::any_of(found.volume.begin(), found.volume.end(), [](double v) { return v < 0; });
     if (turn && is_any) {

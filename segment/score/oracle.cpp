@@ -74,10 +74,7 @@ std::vector<SolidPrice> measure_half(const Half& half, const HalfSolids& solids,
                                      const Bound& bound) {
     std::vector<Bound> bounds = piece.bounds;
     bounds.push_back(bound);
-    std::vector<std::uint32_t> solid_of(half.mesh.triangles.size());
-    for (std::size_t t = 0; t < solid_of.size(); ++t) {
-        solid_of[t] = solids.solids.solid_of_shell[solids.shells.shell_of[t]];
-    }
+    const std::vector<std::uint32_t> solid_of = solid_of_triangle(solids.shells, solids.solids);
     const std::vector<Vec3> normals = triangle_normals(half.mesh, bounds, &half.parent, piece.mesh.get());
     std::vector<SolidPrice> prices = measure_solids(half.mesh, normals, solid_of, solids.solids.count, bounds);
     for (SolidPrice& price : prices) price.above = bound.above;

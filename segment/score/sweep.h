@@ -3,7 +3,7 @@
 // Equal to price_by_cutting (oracle.h) on every closed mesh: pieces, face counts and bases exactly, sums to 1e-9
 // (tests/segment/score/sweep_test.cpp, touching_test.cpp). How: the offsets divide the mesh into slabs; what hangs
 // together in a slab is a node; parts above and below a plane are merges of nodes, joined across it by the cap regions
-// of its loops. A planar cut makes no new cavity, so surfaces of one solid are joined by a cap region or by the tether
+// of its loops. A planar cut makes no new cavity, so surfaces of one solid are joined by a cap region or by the link
 // of an uncut cavity.
 
 #pragma once

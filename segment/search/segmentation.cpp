@@ -7,7 +7,7 @@
 #include "segment/cut/cut_piece.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/order.h"
-#include "segment/mesh/shells.h"
+#include "segment/mesh/solids.h"
 
 namespace qchopper {
 namespace {

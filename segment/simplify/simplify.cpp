@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/error.h"
+#include "segment/mesh/distance.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/manifold.h"
-#include "segment/mesh/sampled_distance.h"
 #include "segment/simplify/collapse.h"
 
 namespace qchopper {

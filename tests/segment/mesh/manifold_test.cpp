@@ -49,7 +49,7 @@ TEST(Manifold, JoinsHolesThatTouchInAPoint) {
     });
     EXPECT_EQ(split_pinched(box, edges(box)), 1U);
     const Edges found = edges(box);
-    const std::vector<std::vector<std::uint32_t>> loops = border_loops(box, unpaired(box, found).open);
+    const IndexLists loops = border_loops(box, unpaired(box, found).open);
     ASSERT_EQ(loops.size(), 1U);
     EXPECT_EQ(loops[0].size(), 8U);
 }
@@ -63,7 +63,7 @@ TEST(Manifold, BorderLoopsRunAroundTheHole) {
     const Unpaired open = unpaired(ball, found);
     EXPECT_EQ(open.open.size(), found.faults.open);
     EXPECT_TRUE(open.faulty.empty());
-    const std::vector<std::vector<std::uint32_t>> loops = border_loops(ball, open.open);
+    const IndexLists loops = border_loops(ball, open.open);
     ASSERT_EQ(loops.size(), 1U);
     EXPECT_EQ(loops[0].size(), found.faults.open);
     for (std::size_t i = 0; i < loops[0].size(); ++i) {

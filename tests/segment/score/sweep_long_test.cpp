@@ -9,7 +9,7 @@
 #include "segment/cut/cut_piece.h"
 #include "segment/import/import_scan.h"
 #include "segment/mesh/order.h"
-#include "segment/mesh/shells.h"
+#include "segment/mesh/solids.h"
 #include "segment/sample/sample.h"
 #include "segment/score/candidates.h"
 #include "segment/score/pricing.h"

@@ -9,9 +9,9 @@
 
 #include "base/error.h"
 #include "segment/cut/cut.h"
+#include "segment/mesh/distance.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
-#include "segment/mesh/sampled_distance.h"
 #include "segment/sample/sample.h"
 #include "tests/shapes.h"
 

@@ -1,8 +1,6 @@
-#include "segment/mesh/shells.h"
+#include "segment/mesh/solids.h"
 
 #include <gtest/gtest.h>
-
-#include <numeric>
 
 #include "segment/mesh/edges.h"
 #include "tests/shapes.h"
@@ -54,17 +52,6 @@ TEST(Shells, AShellInsideOutBesideAnotherIsLooseAndKept) {
         EXPECT_EQ(s.count, 2U);
         EXPECT_EQ(s.loose_cavities, 1U);
     }
-}
-
-TEST(Shells, ExtractKeepsTrianglesPointsAndCaps) {
-    TriangleMesh mesh = shapes::joined({shapes::box({0, 0, 0}, {1, 1, 1}), shapes::box({2, 0, 0}, {3, 1, 1})});
-    mesh.cap_of.resize(mesh.triangles.size());
-    std::iota(mesh.cap_of.begin(), mesh.cap_of.end(), 0);
-    const TriangleMesh second = extract(mesh, shells(mesh).shell_of, 1);
-    EXPECT_EQ(second.points.size(), 8U);
-    EXPECT_EQ(second.triangles.size(), 12U);
-    EXPECT_EQ(second.cap_of.front(), 12);
-    EXPECT_NEAR(volume_mm3(second), 1, 1e-12);
 }
 
 }  // namespace
