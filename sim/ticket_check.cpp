@@ -1,4 +1,5 @@
 #include "sim/ticket_check.h"
+#include "base/portable_name.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +37,7 @@ bool has_hidden_text(const std::string& text, const Field& field, std::span<cons
 }
 
 // At most what the largest tool of the rack has.
-std::optional<TicketFault> wrong_tool_value(const TicketWords& t, const std::vector<CellTool>& tools) {
+std::optional<TicketFault> wrong_tool_value(const WireTicket& t, const std::vector<CellTool>& tools) {
     CellTool largest{0, 0, 0, 0};
     for (const CellTool& tool : tools) {
         largest.diameter = std::max(largest.diameter, tool.diameter);
@@ -54,7 +55,7 @@ std::optional<TicketFault> wrong_tool_value(const TicketWords& t, const std::vec
 
 }  // namespace
 
-std::optional<TicketFault> wrong_field(const TicketWords& t, std::span<const std::uint16_t> block,
+std::optional<TicketFault> wrong_field(const WireTicket& t, std::span<const std::uint16_t> block,
                                        const CellLimits& limits) {
     const auto fault_at = [](std::uint16_t address) { return TicketFault{AckResult::ticket_field, address}; };
     const auto field = [&](const char* name) { return fault_at(address_of(ticket_block, name)); };
@@ -62,7 +63,8 @@ std::optional<TicketFault> wrong_field(const TicketWords& t, std::span<const std
     if (t.job_id == Uuid{}) return field("JOB_ID");
     if (t.file_size == 0) return field("FILE_SIZE");
     if (t.transfer != Transfer::drop_folder && t.transfer != Transfer::chunks) return field("TRANSFER");
-    if (!is_file_name(t.file_name) || has_hidden_text(t.file_name, *field_named(ticket_block, "FILE_NAME"), block)) {
+    if (!is_portable_name(t.file_name) ||
+        has_hidden_text(t.file_name, *field_named(ticket_block, "FILE_NAME"), block)) {
         return field("FILE_NAME");
     }
     if (t.unit != 1) return field("UNIT");
@@ -83,7 +85,7 @@ std::optional<TicketFault> wrong_field(const TicketWords& t, std::span<const std
     return std::nullopt;
 }
 
-std::optional<TicketFault> does_not_fit(const TicketWords& t, const CellLimits& limits) {
+std::optional<TicketFault> does_not_fit(const WireTicket& t, const CellLimits& limits) {
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         if (t.box_min[a] < 100 * limits.reach.min[axis])

@@ -9,7 +9,7 @@
 #include "app/project/project.h"
 #include "app/report/columns.h"
 #include "app/report/shell_word.h"
-#include "cam/job/job.h"
+#include "cam/job/job_file.h"
 
 namespace qchopper {
 namespace {
@@ -100,11 +100,11 @@ int report(const std::vector<HandedOver>& handed, std::size_t wanted, const std:
     for (const auto& [piece, o] : handed) {
         is_complete = is_complete && o.is_complete();
         is_cancelled = is_cancelled || o.cancelled;
-        rows.push_back({piece, hex(o.job_id), words(o.verdict), o.starts_known ? std::to_string(o.starts) : "?",
+        rows.push_back({piece, hex(o.job_id), describe(o.verdict), o.starts_known ? std::to_string(o.starts) : "?",
                         ending(o), fixed(o.took_s, 1)});
         list.push_back({{"piece", piece},
                         {"job_id", hex(o.job_id)},
-                        {"verdict", words(o.verdict)},
+                        {"verdict", describe(o.verdict)},
                         {"job_state", static_cast<int>(o.job_state)},
                         {"job_result", static_cast<int>(o.job_result)},
                         {"ended_complete", o.is_complete()},

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "cam/job/json.h"
+#include "base/json.h"
 
 namespace qchopper {
 namespace {
@@ -23,10 +23,10 @@ Json from_setup(const Setup& setup) {
             {"piece_in_setup", {{"rows", rows}, {"shift", from_vector(setup.piece_in_setup.shift)}}},
             {"box", from_box(setup.box)},
             {"undercut", setup.undercut},
-            {"inaccessible", setup.inaccessible},
+            {"occluded_area_ratio", setup.occluded_area_ratio},
             {"base_mm2", setup.base_mm2},
-            {"shadow_mm2", setup.shadow_mm2},
-            {"base_carries", setup.base_carries},
+            {"projected_area_mm2", setup.projected_area_mm2},
+            {"base_is_stable", setup.base_is_stable},
             {"warnings", setup.warnings}};
 }
 
@@ -95,10 +95,10 @@ Setup to_setup(const Json& json, const Json& stock) {
     setup.piece_in_setup = to_pose(member(json, "piece_in_setup"));
     setup.box = box(json, "box");
     setup.undercut = real(json, "undercut");
-    setup.inaccessible = real(json, "inaccessible");
+    setup.occluded_area_ratio = real(json, "occluded_area_ratio");
     setup.base_mm2 = real(json, "base_mm2");
-    setup.shadow_mm2 = real(json, "shadow_mm2");
-    setup.base_carries = truth(json, "base_carries");
+    setup.projected_area_mm2 = real(json, "projected_area_mm2");
+    setup.base_is_stable = truth(json, "base_is_stable");
     setup.warnings = texts(json, "warnings");
     setup.stock = whole<std::uint16_t>(stock, "number");
     setup.block = vector(stock, "size");
@@ -167,7 +167,7 @@ ReadJob to_job(const Json& json) {
 std::string to_manifest(const JobInput& input, const std::vector<JobEntry>& entries) {
     Json files = Json::array();
     for (const JobEntry& entry : entries) {
-        files.push_back({{"name", entry.name}, {"size", entry.size}, {"sha256", json_values::to_hex(entry.sha256)}});
+        files.push_back({{"name", entry.name}, {"size", entry.size}, {"sha256", to_hex(entry.sha256)}});
     }
     const Json json = {
         {"format", format_name},
@@ -180,8 +180,8 @@ std::string to_manifest(const JobInput& input, const std::vector<JobEntry>& entr
           {"count", input.piece_count},
           {"faces", input.piece.mesh->triangles.size()},
           {"volume_mm3", volume_mm3(*input.piece.mesh)}}},
-        {"project_id", json_values::to_hex(input.project_id)},
-        {"scan_sha256", json_values::to_hex(input.scan_sha256)},
+        {"project_id", to_hex(input.project_id)},
+        {"scan_sha256", to_hex(input.scan_sha256)},
         {"cell", {{"name", input.cell.name}, {"id", input.cell.id}}},
         {"bounds", from_bounds(input.piece.bounds)},
         {"setup", from_setup(input.setup)},

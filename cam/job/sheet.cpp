@@ -4,8 +4,9 @@
 #include <string>
 
 #include "base/text.h"
-#include "cam/job/job.h"
-#include "cam/job/json.h"
+#include "cam/job/sheet.h"
+
+#include "base/json.h"
 
 namespace qchopper {
 namespace {
@@ -40,8 +41,8 @@ std::string piece_step(const JobInput& input) {
     text += ".\n   Up is (" + fixed(setup.up.x, 4) + ", " + fixed(setup.up.y, 4) + ", " + fixed(setup.up.z, 4) +
             ") of the scan.\n";
     text += "   Undercut " + fixed(100 * setup.undercut, 1) + " %. ";
-    if (setup.inaccessible < 0.0005) return text + "The tool sees all of the surface.\n";
-    text += fixed(100 * setup.inaccessible, 1) +
+    if (setup.occluded_area_ratio < 0.0005) return text + "The tool sees all of the surface.\n";
+    text += fixed(100 * setup.occluded_area_ratio, 1) +
             " % of the surface is out of the tool's sight:\n   foam stays there, to be taken off by hand.\n";
     return text;
 }
@@ -78,8 +79,8 @@ std::string warning_step(const JobInput& input) {
 std::string setup_sheet(const JobInput& input) {
     return title(input) + block_step(input) + piece_step(input) +
            tool_step(input, ticket_template(input).estimated_time_s) + margin_step(input) + warning_step(input) +
-           "\nproject " + json_values::to_hex(input.project_id) + "\nscan    " +
-           json_values::to_hex(input.scan_sha256) + "\nqchopper " + input.program_version + "\n";
+           "\nproject " + to_hex(input.project_id) + "\nscan    " + to_hex(input.scan_sha256) + "\nqchopper " +
+           input.program_version + "\n";
 }
 
 }  // namespace qchopper

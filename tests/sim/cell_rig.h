@@ -11,18 +11,11 @@
 #include "devices/dispatch.h"
 #include "devices/modbus_tcp.h"
 #include "sim/cell_sim.h"
+#include "tests/folder.h"
 
 namespace qchopper::rig {
 
-// A folder of its own, removed at the end.
-class Folder {
- public:
-    Folder();
-    ~Folder();
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    const std::filesystem::path path;
-};
+using qchopper::Folder;
 
 struct Job {
     Bytes file;
@@ -56,6 +49,6 @@ class RawSocket {
 // MBAP header and PDU.
 Bytes frame(std::uint16_t transaction, const Bytes& pdu, std::uint8_t unit = 1);
 Bytes read_request(std::uint8_t function, std::uint16_t address, std::uint16_t count);
-Bytes write_request(std::uint16_t address, const Words& words);
+Bytes write_request(std::uint16_t address, const Registers& registers);
 
 }  // namespace qchopper::rig
