@@ -1,6 +1,7 @@
 #include "segment/repair/faces.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -141,18 +142,22 @@ class DoubleSheets {
     std::vector<Balance> balance_;
 };
 
+template <class Value>
+void keep_marked(std::vector<Value>& values, const std::vector<bool>& is_kept) {
+    assert(values.size() == is_kept.size());
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (is_kept[i]) values[kept++] = values[i];
+    }
+    values.resize(kept);
+}
+
 }  // namespace
 
-void keep_triangles(TriangleMesh& mesh, const std::vector<bool>& is_kept) {
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (!is_kept[t]) continue;
-        mesh.triangles[kept] = mesh.triangles[t];
-        if (!mesh.cap_of.empty()) mesh.cap_of[kept] = mesh.cap_of[t];
-        ++kept;
-    }
-    mesh.triangles.resize(kept);
-    if (!mesh.cap_of.empty()) mesh.cap_of.resize(kept);
+void keep_triangles(TriangleMesh& mesh, const std::vector<bool>& is_kept, SourceFaces* sources) {
+    keep_marked(mesh.triangles, is_kept);
+    if (!mesh.cap_of.empty()) keep_marked(mesh.cap_of, is_kept);
+    if (sources != nullptr) keep_marked(sources->of, is_kept);
 }
 
 std::vector<bool> without_opposite_faces(const TriangleMesh& mesh) {
@@ -176,7 +181,7 @@ RepeatedFaces drop_repeated_faces(TriangleMesh& mesh) {
     return drop_repeated_faces(mesh, edges(mesh));
 }
 
-RepeatedFaces drop_repeated_faces(TriangleMesh& mesh, const Edges& found) {
+RepeatedFaces drop_repeated_faces(TriangleMesh& mesh, const Edges& found, SourceFaces* sources) {
     RepeatedFaces counts;
     if (!may_repeat(mesh, found)) return counts;
     const std::vector<Corners> all = sorted_by_corners(mesh);
@@ -192,7 +197,7 @@ RepeatedFaces drop_repeated_faces(TriangleMesh& mesh, const Edges& found) {
     }
     std::vector<std::uint32_t> place(mesh.triangles.size());  // after the repeated ones are gone
     for (std::uint32_t t = 0, kept = 0; t < place.size(); ++t) place[t] = is_kept[t] ? kept++ : nobody;
-    keep_triangles(mesh, is_kept);
+    keep_triangles(mesh, is_kept, sources);
 
     std::vector<std::uint32_t> opposite(mesh.triangles.size(), nobody);
     bool is_any = false;
@@ -216,7 +221,7 @@ RepeatedFaces drop_repeated_faces(TriangleMesh& mesh, const Edges& found) {
         counts.repeated += is_needed && !is_kept[t];
         counts.of_sheets += !is_needed;
     }
-    keep_triangles(mesh, is_kept);
+    keep_triangles(mesh, is_kept, sources);
     return counts;
 }
 
