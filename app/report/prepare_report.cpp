@@ -17,10 +17,6 @@ Json to_json(Vec3 v) {
     return Json::array({v.x, v.y, v.z});
 }
 
-std::string counted(std::size_t count, const std::string& thing) {
-    return with_commas(count) + " " + thing + (count == 1 ? "" : "s");
-}
-
 std::string lengths(Vec3 v) {
     return fixed(v.x, 0) + " x " + fixed(v.y, 0) + " x " + fixed(v.z, 0);
 }
