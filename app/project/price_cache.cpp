@@ -165,7 +165,7 @@ std::string name_of_file(const std::string& settings, const Piece& piece) {
 
 }  // namespace
 
-PriceStore price_cache(fs::path folder, const Objectives& objectives, const CandidateOptions& options) {
+PriceStore price_cache(const fs::path& folder, const Objectives& objectives, const CandidateOptions& options) {
     Writer w;
     w.put(version_of_prices);
     w.put(static_cast<int>(objectives.fragility_form));

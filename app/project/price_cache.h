@@ -13,6 +13,6 @@
 namespace qchopper {
 
 // `folder` is made when needed; if it cannot be written, nothing is kept and nobody is troubled.
-PriceStore price_cache(std::filesystem::path folder, const Objectives& objectives, const CandidateOptions& options);
+PriceStore price_cache(const std::filesystem::path& folder, const Objectives& objectives, const CandidateOptions& options);
 
 }  // namespace qchopper

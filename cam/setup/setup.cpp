@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 
 #include "cam/setup/footprint.h"
@@ -17,7 +18,7 @@ constexpr double rounding = 1e-6;           // mm
 constexpr double least_stable_share = 0.1;  // of the projected area
 
 std::string percent(double share) {
-    return std::to_string(static_cast<int>(100 * share + 0.5)) + " %";
+    return std::to_string(std::lround(100 * share)) + " %";
 }
 
 struct Candidate {

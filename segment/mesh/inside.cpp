@@ -85,14 +85,17 @@ std::optional<Vec3> longest_middle(const TriangleMesh& mesh, int lines) {
         const double size = box.size()[axis];
         return size > 0 ? std::clamp(static_cast<int>((at - box.min[axis]) / size * lines) - 2, 0, lines) : 0;
     };
-    std::vector<std::vector<Crossing>> crossings(static_cast<std::size_t>(lines * lines));
+    const auto line_at = [lines](int i, int j) {
+        return static_cast<std::size_t>(i) * static_cast<std::size_t>(lines) + static_cast<std::size_t>(j);
+    };
+    std::vector<std::vector<Crossing>> crossings(line_at(lines, 0));
     for (const Triangle& t : mesh.triangles) {
         const auto [u_low, u_high] = std::minmax({mesh.points[t[0]].x, mesh.points[t[1]].x, mesh.points[t[2]].x});
         const auto [v_low, v_high] = std::minmax({mesh.points[t[0]].y, mesh.points[t[1]].y, mesh.points[t[2]].y});
         for (int i = first_line(0, u_low); i < lines && place(0, i) <= u_high; ++i) {
             for (int j = first_line(1, v_low); j < lines && place(1, j) <= v_high; ++j) {
                 const auto c = view.crossing(t, place(0, i), place(1, j));
-                if (c) crossings[static_cast<std::size_t>(i * lines + j)].push_back(*c);
+                if (c) crossings[line_at(i, j)].push_back(*c);
             }
         }
     }
@@ -100,7 +103,7 @@ std::optional<Vec3> longest_middle(const TriangleMesh& mesh, int lines) {
     double longest = 0;
     for (int i = 0; i < lines; ++i) {
         for (int j = 0; j < lines; ++j) {
-            for (const Stretch& s : stretches(std::move(crossings[static_cast<std::size_t>(i * lines + j)]))) {
+            for (const Stretch& s : stretches(std::move(crossings[line_at(i, j)]))) {
                 if (s.length() <= longest) continue;
                 longest = s.length();
                 best = Vec3{place(0, i), place(1, j), s.middle()};

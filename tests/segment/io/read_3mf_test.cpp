@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/zip.h"
+#include "segment/io/read_mesh.h"
 #include "segment/io/write_3mf.h"
 #include "segment/mesh/measure.h"
 #include "tests/segment/io/help.h"

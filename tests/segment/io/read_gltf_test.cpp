@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "segment/io/read_mesh.h"
 #include "segment/io/write_glb.h"
 #include "segment/mesh/measure.h"
 #include "tests/segment/io/help.h"

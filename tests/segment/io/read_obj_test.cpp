@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "segment/io/read_mesh.h"
 #include "segment/mesh/measure.h"
 #include "tests/segment/io/help.h"
 #include "tests/segment/io/wrappings.h"

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "segment/io/read_mesh.h"
 #include "segment/io/write_ply.h"
 #include "tests/segment/io/help.h"
 #include "tests/shapes.h"

@@ -10,6 +10,7 @@
 #include "segment/io/read_mesh.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
+#include "segment/mesh/transform.h"
 #include "segment/repair/weld.h"
 #include "tests/shapes.h"
 
