@@ -7,16 +7,8 @@
 namespace qchopper {
 
 void keep_triangles(TriangleMesh& mesh, const std::vector<bool>& is_kept) {
-    assert(is_kept.size() == mesh.triangles.size());
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (!is_kept[t]) continue;
-        mesh.triangles[kept] = mesh.triangles[t];
-        if (!mesh.cap_of.empty()) mesh.cap_of[kept] = mesh.cap_of[t];
-        ++kept;
-    }
-    mesh.triangles.resize(kept);
-    if (!mesh.cap_of.empty()) mesh.cap_of.resize(kept);
+    keep_marked(mesh.triangles, is_kept);
+    if (!mesh.cap_of.empty()) keep_marked(mesh.cap_of, is_kept);
 }
 
 std::vector<TriangleMesh> submeshes(const TriangleMesh& mesh, std::span<const std::uint32_t> group_of,

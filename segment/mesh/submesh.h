@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -13,6 +14,17 @@
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {
+
+// Keeps the values that are marked, in their order.
+template <class Value>
+void keep_marked(std::vector<Value>& values, const std::vector<bool>& is_kept) {
+    assert(values.size() == is_kept.size());
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (is_kept[i]) values[kept++] = values[i];
+    }
+    values.resize(kept);
+}
 
 // Keeps the triangles that are marked. All points stay.
 void keep_triangles(TriangleMesh& mesh, const std::vector<bool>& is_kept);

@@ -195,12 +195,12 @@ bool is_balanced(const TriangleMesh& mesh, const Edges& found) {
     return found.faults.open + found.faults.inconsistent == 0 && is_balanced(mesh, edge_groups(mesh));
 }
 
-std::optional<ShellCounts> close_balanced(TriangleMesh& mesh) {
+std::optional<ShellCounts> close_balanced(TriangleMesh& mesh, SourceFaces* sources) {
     const std::vector<bool> is_kept = without_opposite_faces(mesh);
     const std::size_t before = mesh.triangles.size();
     const auto kept = static_cast<std::size_t>(std::count(is_kept.begin(), is_kept.end(), true));
     if (kept == 0) return std::nullopt;
-    if (kept < before) keep_triangles(mesh, is_kept);
+    if (kept < before) keep_triangles(mesh, is_kept, sources);
     ShellCounts counts = Pairing(mesh).run();
     counts.cancelled = before - kept;
     return counts;

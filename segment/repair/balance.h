@@ -11,6 +11,7 @@
 
 #include "segment/mesh/edges.h"
 #include "segment/mesh/triangle_mesh.h"
+#include "segment/repair/source_faces.h"
 
 namespace qchopper {
 
@@ -28,6 +29,6 @@ struct ShellCounts {
 // Needs a balanced mesh without collapsed faces. After it every edge has exactly two faces, which run along it in
 // opposite directions, and every point one fan of faces. Where every face has an opposite one, which encloses nothing,
 // the answer is nothing and the mesh stays.
-std::optional<ShellCounts> close_balanced(TriangleMesh& mesh);
+std::optional<ShellCounts> close_balanced(TriangleMesh& mesh, SourceFaces* sources = nullptr);
 
 }  // namespace qchopper

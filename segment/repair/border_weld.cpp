@@ -88,7 +88,7 @@ class Clusters {
 
 }  // namespace
 
-BorderWeld weld_borders(TriangleMesh& mesh, double tolerance) {
+BorderWeld weld_borders(TriangleMesh& mesh, double tolerance, SourceFaces* sources) {
     BorderWeld result;
     if (!(tolerance > 0) || edges(mesh).faults.open == 0) return result;
     std::vector<Vec3> moved = mesh.points;
@@ -100,7 +100,7 @@ BorderWeld weld_borders(TriangleMesh& mesh, double tolerance) {
         }
     }
     mesh.points = std::move(moved);
-    result.welded = weld(mesh).welded;
+    result.welded = weld(mesh, sources).welded;
     return result;
 }
 

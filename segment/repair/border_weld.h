@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "segment/mesh/triangle_mesh.h"
+#include "segment/repair/source_faces.h"
 
 namespace qchopper {
 
@@ -17,6 +18,6 @@ struct BorderWeld {
 };
 
 // Equal points must have been welded. The tolerance is in units of the mesh.
-BorderWeld weld_borders(TriangleMesh& mesh, double tolerance);
+BorderWeld weld_borders(TriangleMesh& mesh, double tolerance, SourceFaces* sources = nullptr);
 
 }  // namespace qchopper

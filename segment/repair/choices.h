@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "segment/repair/repair.h"
+#include "segment/repair/options.h"
 
 namespace qchopper {
 

@@ -43,10 +43,10 @@ CrumbCounts count_crumbs(const TriangleMesh& mesh, double volume_share) {
     return find(mesh, volume_share, is_kept);
 }
 
-CrumbCounts drop_crumbs(TriangleMesh& mesh, double volume_share) {
+CrumbCounts drop_crumbs(TriangleMesh& mesh, double volume_share, SourceFaces* sources) {
     std::vector<bool> is_kept;
     const CrumbCounts counts = find(mesh, volume_share, is_kept);
-    if (counts.crumbs > 0) keep_triangles(mesh, is_kept);
+    if (counts.crumbs > 0) keep_triangles(mesh, is_kept, sources);
     return counts;
 }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "segment/mesh/triangle_mesh.h"
+#include "segment/repair/source_faces.h"
 
 namespace qchopper {
 
@@ -22,6 +23,6 @@ struct CrumbCounts {
 CrumbCounts count_crumbs(const TriangleMesh& mesh, double volume_share);
 
 // The same counts, and the crumbs are gone.
-CrumbCounts drop_crumbs(TriangleMesh& mesh, double volume_share);
+CrumbCounts drop_crumbs(TriangleMesh& mesh, double volume_share, SourceFaces* sources = nullptr);
 
 }  // namespace qchopper

@@ -165,7 +165,7 @@ RepeatedFaces drop_repeated_faces(TriangleMesh& mesh) {
     return drop_repeated_faces(mesh, edges(mesh));
 }
 
-RepeatedFaces drop_repeated_faces(TriangleMesh& mesh, const Edges& found) {
+RepeatedFaces drop_repeated_faces(TriangleMesh& mesh, const Edges& found, SourceFaces* sources) {
     RepeatedFaces counts;
     if (!may_repeat(mesh, found)) return counts;
     const std::vector<Corners> all = sorted_by_corners(mesh);
@@ -181,7 +181,7 @@ RepeatedFaces drop_repeated_faces(TriangleMesh& mesh, const Edges& found) {
     }
     std::vector<std::uint32_t> place(mesh.triangles.size());  // after the repeated ones are gone
     for (std::uint32_t t = 0, kept = 0; t < place.size(); ++t) place[t] = is_kept[t] ? kept++ : nobody;
-    keep_triangles(mesh, is_kept);
+    keep_triangles(mesh, is_kept, sources);
 
     std::vector<std::uint32_t> opposite(mesh.triangles.size(), nobody);
     bool is_any = false;
@@ -205,7 +205,7 @@ RepeatedFaces drop_repeated_faces(TriangleMesh& mesh, const Edges& found) {
         counts.repeated += is_needed && !is_kept[t];
         counts.of_sheets += !is_needed;
     }
-    keep_triangles(mesh, is_kept);
+    keep_triangles(mesh, is_kept, sources);
     return counts;
 }
 

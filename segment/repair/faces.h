@@ -10,6 +10,7 @@
 
 #include "segment/mesh/edges.h"
 #include "segment/mesh/triangle_mesh.h"
+#include "segment/repair/source_faces.h"
 
 namespace qchopper {
 
@@ -22,7 +23,8 @@ struct RepeatedFaces {
 // Equal points must have been welded. Of faces that turn the same way the first stays. Two that turn opposite ways both
 // go where the surface around them closes without them, and one of them stays where it needs one.
 RepeatedFaces drop_repeated_faces(TriangleMesh& mesh);
-RepeatedFaces drop_repeated_faces(TriangleMesh& mesh, const Edges& found);  // the edges of the mesh
+// `found` are the edges of the mesh.
+RepeatedFaces drop_repeated_faces(TriangleMesh& mesh, const Edges& found, SourceFaces* sources = nullptr);
 
 // Marks what stays when of faces with the same corners as many go that turn one way as turn the other; of the rest the
 // first stay. So each directed edge still occurs as often more than its reverse as it did.

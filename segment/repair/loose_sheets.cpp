@@ -1,5 +1,6 @@
 #include "segment/repair/loose_sheets.h"
 
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -8,7 +9,8 @@
 
 namespace qchopper {
 
-Sheets judge_sheets(TriangleMesh& mesh, double drop_share) {
+Sheets judge_sheets(TriangleMesh& mesh, SourceFaces& sources, double drop_share) {
+    assert(sources.of.size() == mesh.triangles.size());
     Sheets result;
     const Shells found = shells(mesh);
     std::vector<double> scanned(found.count());
@@ -17,7 +19,7 @@ Sheets judge_sheets(TriangleMesh& mesh, double drop_share) {
     double all_added = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const double area = norm(area_vector(mesh, t));
-        const bool is_added = cap_of(mesh, t) == no_cap;
+        const bool is_added = sources.of[t] == new_face;
         (is_added ? added : scanned)[found.shell_of[t]] += area;
         (is_added ? all_added : all_scanned) += area;
     }
@@ -36,10 +38,10 @@ Sheets judge_sheets(TriangleMesh& mesh, double drop_share) {
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
             is_kept[t] = !is_sheet[found.shell_of[t]];
             if (is_kept[t]) continue;
-            result.dropped_faces += cap_of(mesh, t) != no_cap;
-            if (cap_of(mesh, t) == no_cap) all_added -= norm(area_vector(mesh, t));
+            result.dropped_faces += sources.of[t] != new_face;
+            if (sources.of[t] == new_face) all_added -= norm(area_vector(mesh, t));
         }
-        keep_triangles(mesh, is_kept);
+        keep_triangles(mesh, is_kept, &sources);
         result.dropped = result.left;
         result.left = 0;
     }

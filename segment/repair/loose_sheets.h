@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "segment/mesh/triangle_mesh.h"
+#include "segment/repair/source_faces.h"
 
 namespace qchopper {
 
@@ -22,8 +23,8 @@ struct Sheets {
     double added_area_share = 0;
 };
 
-// Triangles that were added are no_cap in cap_of. Sheets go when all together have at most `drop_share` of the scanned
+// Sheets go when all together have at most `drop_share` of the scanned
 // surface and something else is left.
-Sheets judge_sheets(TriangleMesh& mesh, double drop_share);
+Sheets judge_sheets(TriangleMesh& mesh, SourceFaces& sources, double drop_share);
 
 }  // namespace qchopper

@@ -1,6 +1,7 @@
 #include "segment/repair/no_area.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -30,8 +31,8 @@ bool is_on_a_line(Vec3 a, Vec3 b, Vec3 c) {
 
 class Removal {
  public:
-    explicit Removal(TriangleMesh& mesh)
-        : mesh_(mesh), twin_(edges(mesh).twin), is_kept_(mesh.triangles.size(), true) {}
+    Removal(TriangleMesh& mesh, SourceFaces* sources)
+        : mesh_(mesh), sources_(sources), twin_(edges(mesh).twin), is_kept_(mesh.triangles.size(), true) {}
 
     NoArea run(std::vector<std::uint32_t> flat) {
         for (int round = 0; round < most_rounds && !flat.empty(); ++round) {
@@ -59,7 +60,7 @@ class Removal {
             if (!is_any) break;
         }
         counts_.left = flat.size();
-        if (counts_.dropped > 0) keep_triangles(mesh_, is_kept_);
+        if (counts_.dropped > 0) keep_triangles(mesh_, is_kept_, sources_);
         return counts_;
     }
 
@@ -136,12 +137,13 @@ class Removal {
         join(first + 2, da);
         join(second, bc);
         join(second + 1, cd);
-        if (!mesh_.cap_of.empty()) mesh_.cap_of[h / 3] = mesh_.cap_of[g / 3] = no_cap;
+        if (sources_ != nullptr) sources_->of[h / 3] = sources_->of[g / 3] = new_face;
         ++counts_.flipped;
         return true;
     }
 
     TriangleMesh& mesh_;
+    SourceFaces* sources_;
     std::vector<std::uint32_t> twin_;
     std::vector<bool> is_kept_;
     NoArea counts_;
@@ -154,13 +156,14 @@ bool has_no_area(const TriangleMesh& mesh, std::size_t triangle) {
     return is_on_a_line(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
 }
 
-NoArea remove_no_area(TriangleMesh& mesh) {
+NoArea remove_no_area(TriangleMesh& mesh, SourceFaces* sources) {
+    assert(mesh.cap_of.empty());
     std::vector<std::uint32_t> flat;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         if (has_no_area(mesh, t)) flat.push_back(t);
     }
     if (flat.empty()) return {};
-    return Removal(mesh).run(std::move(flat));
+    return Removal(mesh, sources).run(std::move(flat));
 }
 
 }  // namespace qchopper

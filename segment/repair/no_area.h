@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "segment/mesh/triangle_mesh.h"
+#include "segment/repair/source_faces.h"
 
 namespace qchopper {
 
@@ -20,7 +21,7 @@ struct NoArea {
     std::size_t left = 0;     // the surface around them allows neither
 };
 
-// The mesh must be manifold apart from its borders (sheets.h). Triangles that changed become no_cap in cap_of.
-NoArea remove_no_area(TriangleMesh& mesh);
+// The mesh must be manifold apart from its borders (sheets.h) and have no caps. Triangles that changed are new.
+NoArea remove_no_area(TriangleMesh& mesh, SourceFaces* sources = nullptr);
 
 }  // namespace qchopper

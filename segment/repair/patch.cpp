@@ -104,7 +104,7 @@ bool SurfacePatch::takes_pinched() {
     return has_taken;
 }
 
-std::optional<std::vector<std::vector<std::uint32_t>>> SurfacePatch::loops() const {
+std::optional<std::vector<PatchLoop>> SurfacePatch::loops() const {
     std::vector<std::uint32_t> ascending = triangles_;
     std::sort(ascending.begin(), ascending.end());
     const auto place = [&](std::uint32_t t) {
@@ -124,7 +124,7 @@ std::optional<std::vector<std::vector<std::uint32_t>>> SurfacePatch::loops() con
     }
     std::size_t count = 0;
     for (std::uint32_t i = 0; i < ascending.size(); ++i) count += parts.root(i) == i;
-    std::vector<std::vector<std::uint32_t>> found;
+    std::vector<PatchLoop> found;
     std::unordered_set<std::uint32_t> has_loop;
     while (!from.empty()) {
         std::vector<std::uint32_t> loop;
@@ -134,7 +134,7 @@ std::optional<std::vector<std::vector<std::uint32_t>>> SurfacePatch::loops() con
         }
         if (end_of(around_.mesh, loop.back()) != start_of(around_.mesh, loop.front())) return std::nullopt;
         if (!has_loop.insert(parts.root(place(loop.front() / 3))).second) return std::nullopt;
-        found.push_back(std::move(loop));
+        found.push_back({std::move(loop)});
     }
     if (found.size() != count) return std::nullopt;
     return found;

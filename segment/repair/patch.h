@@ -28,6 +28,11 @@ struct PatchSurroundings {
     }
 };
 
+// A closed border of a patch: the end of one half-edge of the patch is the start of the next.
+struct PatchLoop {
+    std::vector<std::uint32_t> half_edges;
+};
+
 class SurfacePatch {
  public:
     SurfacePatch(const PatchSurroundings& surroundings, const std::vector<std::uint32_t>& triangles);
@@ -41,10 +46,9 @@ class SurfacePatch {
     // more than once, until there are none.
     void tidy();
 
-    // One border for every connected part, as half-edges of the patch: the end of one is the start of the next. Nothing
-    // if the patch reaches an open or faulty edge, or if a part has no border or several: closing those would join what
-    // is apart.
-    std::optional<std::vector<std::vector<std::uint32_t>>> loops() const;
+    // One border for every connected part. Nothing if the patch reaches an open or faulty edge, or if a part has no
+    // border or several: closing those would join what is apart.
+    std::optional<std::vector<PatchLoop>> loops() const;
 
  private:
     void take(std::uint32_t triangle);

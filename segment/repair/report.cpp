@@ -1,22 +1,16 @@
 #include "segment/repair/report.h"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "base/text.h"
 
 namespace qchopper {
 namespace {
 
 constexpr double warn_added_share = 0.05;
 
-std::string counted(std::size_t count, const std::string& one, const std::string& many) {
-    return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
 std::string in_digits(double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.3g", value);
-    return text.data();
+    return significant(value, 3);
 }
 
 // "2 holes closed, 5 faces dropped": what did not happen is left out.
@@ -68,6 +62,61 @@ std::string smoothing(const RepairReport& r) {
            in_digits(r.marks->most_depth) + " mm deep";
 }
 
+// The sentences of warnings(), of what there is.
+class Sentences {
+ public:
+    void add(std::size_t count, const std::string& one, const std::string& many, const std::string& rest) {
+        if (count > 0) all.push_back(counted(count, one, many) + rest);
+    }
+    std::vector<std::string> all;
+};
+
+void tell_of_surface(const RepairReport& r, Sentences& say) {
+    say.add(r.border_welded, "border point", "border points",
+            " moved up to " + in_digits(r.border_moved_mm) + " mm onto another one.");
+    say.add(r.edges_split, "edge belonged", "edges belonged", " to three faces or more; the surface was parted there.");
+    say.add(r.edges_cut, "edge was", "edges were", " cut open, because the faces there cannot be made to agree.");
+    say.add(r.faces_turned, "face was", "faces were", " turned to agree with the neighbours.");
+    say.add(r.repeated + r.of_double_sheets, "face", "faces", " that lay on another one dropped.");
+    say.add(r.holes_filled, "hole", "holes", " closed with " + counted(r.faces_added, "face") + ".");
+    if (r.added_area_share > warn_added_share) {
+        say.all.push_back("What closes the holes makes up " + in_digits(std::round(100 * r.added_area_share)) +
+                          " % of the surface: compare the picture with the bone.");
+    }
+    say.add(r.loose_sheets, "small loose sheet was", "small loose sheets were",
+            " taken away (" + counted(r.loose_sheet_faces, "face") + ").");
+}
+
+void tell_of_shells(const RepairReport& r, Sentences& say) {
+    say.add(r.shells_turned, "shell was", "shells were", " inside out and turned.");
+    say.add(r.overlapping, "shell lies", "shells lie",
+            " inside another one that faces the same way: the scan overlaps itself there.");
+    say.add(r.left_inside_out, "shell is", "shells are",
+            " inside out and left so, because they touch others that are not: the surface is folded there.");
+    say.add(r.crumbs_dropped ? r.crumbs : 0, "crumb was", "crumbs were", " dropped.");
+}
+
+void tell_of_what_was_asked_for(const RepairReport& r, Sentences& say) {
+    if (r.resolving_undone) {
+        say.all.emplace_back(
+            "The places where the scan runs through itself are left: mending them would have opened it.");
+    } else if (r.resolved && r.resolved->left > 0) {
+        say.all.push_back("The scan still runs through itself: " +
+                          counted(r.resolved->left, "pair of faces", "pairs of faces") + ".");
+    }
+    if (r.marks) {
+        say.add(r.marks->marks, "mark was", "marks were",
+                " lifted by up to " + in_digits(r.marks->most_depth) + " mm.");
+    }
+    if (r.marks && r.marks->is_too_coarse) {
+        say.all.emplace_back("The faces are too large to tell a marker's line: no mark was looked for.");
+    }
+    if (r.wrapped) {
+        say.all.push_back("The scan was wrapped: no point of it is in the result, and gaps narrower than " +
+                          in_digits(2 * r.wrapped->alpha_mm) + " mm are closed.");
+    }
+}
+
 }  // namespace
 
 std::vector<RepairStep> steps(const RepairReport& r) {
@@ -117,69 +166,11 @@ std::vector<RepairStep> steps(const RepairReport& r) {
 }
 
 std::vector<std::string> warnings(const RepairReport& r) {
-    std::vector<std::string> all;
-    if (r.border_welded > 0) {
-        all.push_back(counted(r.border_welded, "border point", "border points") + " moved up to " +
-                      in_digits(r.border_moved_mm) + " mm onto another one.");
-    }
-    if (r.edges_split > 0) {
-        all.push_back(counted(r.edges_split, "edge belonged", "edges belonged") +
-                      " to three faces or more; the surface was parted there.");
-    }
-    if (r.edges_cut > 0) {
-        all.push_back(counted(r.edges_cut, "edge was", "edges were") +
-                      " cut open, because the faces there cannot be made to agree.");
-    }
-    if (r.faces_turned > 0) {
-        all.push_back(counted(r.faces_turned, "face was", "faces were") + " turned to agree with the neighbours.");
-    }
-    if (r.repeated + r.of_double_sheets > 0) {
-        all.push_back(counted(r.repeated + r.of_double_sheets, "face", "faces") + " that lay on another one dropped.");
-    }
-    if (r.holes_filled > 0) {
-        all.push_back(counted(r.holes_filled, "hole", "holes") + " closed with " +
-                      counted(r.faces_added, "face", "faces") + ".");
-    }
-    if (r.added_area_share > warn_added_share) {
-        all.push_back("What closes the holes makes up " + in_digits(std::round(100 * r.added_area_share)) +
-                      " % of the surface: compare the picture with the bone.");
-    }
-    if (r.loose_sheets > 0) {
-        all.push_back(counted(r.loose_sheets, "small loose sheet was", "small loose sheets were") + " taken away (" +
-                      counted(r.loose_sheet_faces, "face", "faces") + ").");
-    }
-    if (r.shells_turned > 0) {
-        all.push_back(counted(r.shells_turned, "shell was", "shells were") + " inside out and turned.");
-    }
-    if (r.overlapping > 0) {
-        all.push_back(counted(r.overlapping, "shell lies", "shells lie") +
-                      " inside another one that faces the same way: the scan overlaps itself there.");
-    }
-    if (r.left_inside_out > 0) {
-        all.push_back(counted(r.left_inside_out, "shell is", "shells are") +
-                      " inside out and left so, because they touch others that are not: the surface is folded there.");
-    }
-    if (r.crumbs_dropped && r.crumbs > 0) {
-        all.push_back(counted(r.crumbs, "crumb was", "crumbs were") + " dropped.");
-    }
-    if (r.resolving_undone) {
-        all.push_back("The places where the scan runs through itself are left: mending them would have opened it.");
-    } else if (r.resolved && r.resolved->left > 0) {
-        all.push_back("The scan still runs through itself: " +
-                      counted(r.resolved->left, "pair of faces", "pairs of faces") + ".");
-    }
-    if (r.marks && r.marks->marks > 0) {
-        all.push_back(counted(r.marks->marks, "mark was", "marks were") + " lifted by up to " +
-                      in_digits(r.marks->most_depth) + " mm.");
-    }
-    if (r.marks && r.marks->is_too_coarse) {
-        all.emplace_back("The faces are too large to tell a marker's line: no mark was looked for.");
-    }
-    if (r.wrapped) {
-        all.push_back("The scan was wrapped: no point of it is in the result, and gaps narrower than " +
-                      in_digits(2 * r.wrapped->alpha_mm) + " mm are closed.");
-    }
-    return all;
+    Sentences say;
+    tell_of_surface(r, say);
+    tell_of_shells(r, say);
+    tell_of_what_was_asked_for(r, say);
+    return std::move(say.all);
 }
 
 }  // namespace qchopper

@@ -4,6 +4,7 @@
 #include "segment/repair/resolve.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -13,6 +14,7 @@
 #include "segment/mesh/measure.h"
 #include "segment/mesh/triangle_tree.h"
 #include "segment/repair/exact_pair.h"
+#include "segment/repair/faces.h"
 #include "segment/repair/fill_loop.h"
 #include "segment/repair/patch.h"
 #include "segment/repair/self_intersections.h"
@@ -40,8 +42,13 @@ bool do_meet(const Box& a, const Box& b) {
            b.min.z <= a.max.z;
 }
 
-// Triangles that hang together through pairs that meet or through shared points: one place each, by first triangle.
-std::vector<std::vector<std::uint32_t>> places_of(const TriangleMesh& mesh, const SelfIntersections& found) {
+// Triangles that hang together through pairs that meet or through shared points.
+struct Place {
+    std::vector<std::uint32_t> triangles;  // ascending
+};
+
+// In the order of their first triangles.
+std::vector<Place> places_of(const TriangleMesh& mesh, const SelfIntersections& found) {
     std::vector<std::uint32_t> triangles = found.without_area;
     for (const auto& [a, b] : found.pairs) {
         triangles.push_back(a);
@@ -62,7 +69,7 @@ std::vector<std::vector<std::uint32_t>> places_of(const TriangleMesh& mesh, cons
     for (std::size_t i = 1; i < corners.size(); ++i) {
         if (corners[i].first == corners[i - 1].first) sets.unite(corners[i].second, corners[i - 1].second);
     }
-    std::vector<std::vector<std::uint32_t>> places;
+    std::vector<Place> places;
     std::vector<std::size_t> place_of(triangles.size());
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         const std::uint32_t root = sets.root(i);
@@ -70,7 +77,7 @@ std::vector<std::vector<std::uint32_t>> places_of(const TriangleMesh& mesh, cons
             place_of[i] = places.size();
             places.emplace_back();
         }
-        places[place_of[root]].push_back(triangles[i]);
+        places[place_of[root]].triangles.push_back(triangles[i]);
     }
     return places;
 }
@@ -79,13 +86,13 @@ std::vector<std::vector<std::uint32_t>> places_of(const TriangleMesh& mesh, cons
 class Pass {
  public:
     Pass(const TriangleMesh& mesh, const ResolveOptions& options)
-        : mesh_(mesh), options_(options), around_(mesh), tree_(mesh), is_removed_(mesh.triangles.size()) {
+        : mesh_(mesh), options_(options), around_(mesh), tree_(mesh), is_kept_(mesh.triangles.size(), true) {
         most_extent_ = options.most_extent * norm(bounds(mesh).size());
     }
 
     // Whether the place came right.
-    bool mend(const std::vector<std::uint32_t>& place) {
-        SurfacePatch patch(around_, place);
+    bool mend(const Place& place) {
+        SurfacePatch patch(around_, place.triangles);
         for (int round = 0; round < options_.rounds; ++round) {
             if (round > 0) patch.grow();
             patch.tidy();
@@ -95,7 +102,7 @@ class Pass {
                 return false;
             const std::optional<std::vector<Triangle>> filling = filling_of(patch);
             if (!filling) continue;
-            for (const std::uint32_t t : patch.triangles()) is_removed_[t] = true;
+            for (const std::uint32_t t : patch.triangles()) is_kept_[t] = false;
             removed += patch.triangles().size();
             added_.insert(added_.end(), filling->begin(), filling->end());
             mended_.push_back(box);
@@ -104,17 +111,11 @@ class Pass {
         return false;
     }
 
-    TriangleMesh result() const {
-        TriangleMesh mesh;
-        mesh.points = mesh_.points;
-        for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-            if (is_removed_[t]) continue;
-            mesh.triangles.push_back(mesh_.triangles[t]);
-            if (!mesh_.cap_of.empty()) mesh.cap_of.push_back(mesh_.cap_of[t]);
-        }
+    // Into the mesh of this pass, which is over with that.
+    void apply(TriangleMesh& mesh, SourceFaces* sources) const {
+        keep_triangles(mesh, is_kept_, sources);
         mesh.triangles.insert(mesh.triangles.end(), added_.begin(), added_.end());
-        if (!mesh_.cap_of.empty()) mesh.cap_of.resize(mesh.triangles.size(), no_cap);
-        return mesh;
+        if (sources != nullptr) sources->of.resize(mesh.triangles.size(), new_face);
     }
 
     std::size_t removed = 0;
@@ -135,7 +136,7 @@ class Pass {
         const auto loops = patch.loops();
         if (!loops) return std::nullopt;
         std::vector<Triangle> filling;
-        for (const std::vector<std::uint32_t>& loop : *loops) {
+        for (const auto& [loop] : *loops) {
             if (loop.size() > most_edges_of_loop) return std::nullopt;
             std::vector<Vec3> points;
             std::vector<Vec3> beyond;
@@ -194,7 +195,7 @@ class Pass {
             }
             bool is_met = false;
             tree_.for_each_near(boxes[i], [&](std::uint32_t t) {
-                if (is_met || is_removed_[t] || patch.has(t)) return;
+                if (is_met || !is_kept_[t] || patch.has(t)) return;
                 const Corners other = corners_of(mesh_, t);
                 is_met = has_area(other) && qchopper::do_meet(corners[i], other);
             });
@@ -207,7 +208,7 @@ class Pass {
     const ResolveOptions& options_;
     const PatchSurroundings around_;
     const TriangleTree tree_;
-    std::vector<bool> is_removed_;
+    std::vector<bool> is_kept_;
     double most_extent_ = 0;
     std::vector<Box> mended_;  // around what was mended
     std::vector<Triangle> added_;
@@ -236,19 +237,21 @@ std::size_t drop_unused(TriangleMesh& mesh, const std::vector<bool>& was_used) {
 
 std::vector<Vec3> some_places(const TriangleMesh& mesh, const SelfIntersections& found) {
     std::vector<Vec3> some;
-    for (const std::vector<std::uint32_t>& place : places_of(mesh, found)) {
+    for (const Place& place : places_of(mesh, found)) {
         if (some.size() == most_places_told) break;
+        const std::uint32_t first = place.triangles.front();
         const auto pair = std::find_if(found.pairs.begin(), found.pairs.end(),
-                                       [&](const auto& p) { return p[0] == place[0] || p[1] == place[0]; });
-        some.push_back(pair != found.pairs.end() ? meeting_place(mesh, *pair)
-                                                 : mesh.points[mesh.triangles[place[0]][0]]);
+                                       [&](const auto& p) { return p[0] == first || p[1] == first; });
+        some.push_back(pair != found.pairs.end() ? meeting_place(mesh, *pair) : mesh.points[mesh.triangles[first][0]]);
     }
     return some;
 }
 
 }  // namespace
 
-Resolved resolve_self_intersections(TriangleMesh& mesh, const ResolveOptions& options, const Context& context) {
+Resolved resolve_self_intersections(TriangleMesh& mesh, const ResolveOptions& options, const Context& context,
+                                    SourceFaces* sources) {
+    assert(mesh.cap_of.empty());
     Resolved result;
     const SelfIntersectionOptions limits{options.most_pairs};
     SelfIntersections found = self_intersections(mesh, limits, context);
@@ -260,7 +263,7 @@ Resolved resolve_self_intersections(TriangleMesh& mesh, const ResolveOptions& op
     }
     for (std::size_t pass = 0; pass < options.passes && found.is_complete && result.left > 0; ++pass) {
         Pass mending(mesh, options);
-        const auto places = places_of(mesh, found);
+        const std::vector<Place> places = places_of(mesh, found);
         std::size_t mended = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
             context.check_cancelled();
@@ -268,7 +271,7 @@ Resolved resolve_self_intersections(TriangleMesh& mesh, const ResolveOptions& op
             context.progress("self-intersecting places looked at", i + 1, places.size());
         }
         if (mended == 0) break;
-        mesh = mending.result();
+        mending.apply(mesh, sources);
         result.places += mended;
         result.removed += mending.removed;
         result.added += mending.added();

@@ -11,6 +11,7 @@
 
 #include "base/context.h"
 #include "segment/mesh/triangle_mesh.h"
+#include "segment/repair/source_faces.h"
 
 namespace qchopper {
 
@@ -31,8 +32,8 @@ struct Resolved {
     std::vector<Vec3> where_left;  // places that were not mended, at most 10
 };
 
-// The mesh should be manifold (manifold.h); a place at a faulty edge or at an open border is left.
-Resolved resolve_self_intersections(TriangleMesh& mesh, const ResolveOptions& options = {},
-                                    const Context& context = {});
+// The mesh should be manifold (manifold.h) and has no caps; a place at a faulty edge or at an open border is left.
+Resolved resolve_self_intersections(TriangleMesh& mesh, const ResolveOptions& options = {}, const Context& context = {},
+                                    SourceFaces* sources = nullptr);
 
 }  // namespace qchopper

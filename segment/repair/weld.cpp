@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -40,7 +41,7 @@ std::vector<std::uint32_t> first_equal(const std::vector<Vec3>& points) {
 
 // Names the first of equal points everywhere, drops the triangles that this collapses and marks the points in use.
 std::size_t drop_collapsed(TriangleMesh& mesh, const std::vector<std::uint32_t>& first,
-                           std::vector<std::uint8_t>& is_used) {
+                           std::vector<std::uint8_t>& is_used, SourceFaces* sources) {
     std::size_t kept = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const Triangle& old = mesh.triangles[t];
@@ -49,11 +50,13 @@ std::size_t drop_collapsed(TriangleMesh& mesh, const std::vector<std::uint32_t>&
         for (const std::uint32_t corner : triangle) is_used[corner] = 1;
         mesh.triangles[kept] = triangle;
         if (!mesh.cap_of.empty()) mesh.cap_of[kept] = mesh.cap_of[t];
+        if (sources != nullptr) sources->of[kept] = sources->of[t];
         ++kept;
     }
     const std::size_t collapsed = mesh.triangles.size() - kept;
     mesh.triangles.resize(kept);
     if (!mesh.cap_of.empty()) mesh.cap_of.resize(kept);
+    if (sources != nullptr) sources->of.resize(kept);
     return collapsed;
 }
 
@@ -74,14 +77,15 @@ void drop_unused(TriangleMesh& mesh, const std::vector<std::uint8_t>& is_used, s
 
 }  // namespace
 
-WeldCounts weld(TriangleMesh& mesh) {
+WeldCounts weld(TriangleMesh& mesh, SourceFaces* sources) {
+    assert(sources == nullptr || sources->of.size() == mesh.triangles.size());
     for (Vec3& p : mesh.points) p = positive_zeros(p);
     WeldCounts counts;
     std::vector<std::uint32_t> first = first_equal(mesh.points);
     for (std::size_t v = 0; v < first.size(); ++v) counts.welded += first[v] != v;
     const std::size_t different = mesh.points.size() - counts.welded;
     std::vector<std::uint8_t> is_used(mesh.points.size());
-    counts.collapsed = drop_collapsed(mesh, first, is_used);
+    counts.collapsed = drop_collapsed(mesh, first, is_used, sources);
     drop_unused(mesh, is_used, first);
     counts.unreferenced = different - mesh.points.size();
     return counts;

@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "segment/mesh/triangle_mesh.h"
+#include "segment/repair/source_faces.h"
 
 namespace qchopper {
 
@@ -18,6 +19,6 @@ struct WeldCounts {
     bool operator==(const WeldCounts&) const = default;
 };
 
-WeldCounts weld(TriangleMesh& mesh);
+WeldCounts weld(TriangleMesh& mesh, SourceFaces* sources = nullptr);
 
 }  // namespace qchopper

@@ -5,11 +5,12 @@
 #include <string>
 
 #include "base/error.h"
+#include "segment/repair/self_intersections.h"
 #include "segment/sample/bones.h"
 #include "segment/sample/punch.h"
 #include "segment/sample/refine.h"
 #include "segment/sample/surface.h"
-#include "segment/sample/thin_out.h"
+#include "segment/simplify/collapse.h"
 
 namespace qchopper {
 namespace {
@@ -71,6 +72,15 @@ TriangleMesh dense(const Bone& bone, std::size_t faces, std::size_t base_faces, 
     return mesh;
 }
 
+// Coarser than the base lattice: its surface with edges collapsed. A collapse does not look at what lies near by, so
+// the result is checked. False where it is no such surface of so many faces.
+bool make_coarse(TriangleMesh& mesh, std::size_t faces, const Context& context) {
+    CollapseLimits limits;
+    limits.most_faces = faces;
+    return collapse_edges(mesh, {}, limits, context) && mesh.triangles.size() == faces &&
+           self_intersections(mesh, {}, context).is_free();
+}
+
 }  // namespace
 
 std::optional<Specimen> specimen_named(std::string_view name) {
@@ -85,12 +95,9 @@ TriangleMesh sample(Specimen specimen, const SampleOptions& options, const Conte
     const std::size_t faces = options.faces - options.faces % 2;
     const Bone bone = bone_of(specimen);
     TriangleMesh mesh = surface(bone.field, bone.box, bone.base_spacing, context);
-    if (faces < mesh.triangles.size()) {
-        thin_out(mesh, faces, context);
-    } else if (faces > mesh.triangles.size()) {
+    if (faces > mesh.triangles.size()) {
         mesh = dense(bone, faces, mesh.triangles.size(), context);
-    }
-    if (mesh.triangles.size() != faces) {
+    } else if (faces < mesh.triangles.size() && !make_coarse(mesh, faces, context)) {
         throw InputError(InputFault::use, "this specimen cannot be told with " + std::to_string(faces) + " faces",
                          "ask for more");
     }

@@ -24,8 +24,9 @@ struct CollapseLimits {
     std::size_t most_faces = 0;  // stop there
 };
 
-// Faces that are left keep their order, corners and caps; points their order. False, and nothing changes, where the
-// surface folds onto itself in a way that half-edges cannot tell.
+// `is_locked` has a flag for every point, or is empty: then none is. Faces that are left keep their order, corners and
+// caps; points their order. False, and nothing changes, where the surface folds onto itself in a way that half-edges
+// cannot tell.
 bool collapse_edges(TriangleMesh& mesh, const std::vector<std::uint8_t>& is_locked, const CollapseLimits& limits,
                     const Context& context = {});
 

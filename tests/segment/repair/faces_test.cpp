@@ -83,12 +83,14 @@ TEST(Faces, ASolidWithBothSidesOfItsSurfaceKeepsOne) {
     }
 }
 
-TEST(Faces, KeepTheirCaps) {
+TEST(Faces, KeepTheirCapsAndSources) {
     TriangleMesh mesh = shapes::box({0, 0, 0}, {1, 1, 1});
     mesh.triangles.insert(mesh.triangles.begin() + 3, mesh.triangles[0]);
     for (std::int32_t i = 0; i < 13; ++i) mesh.cap_of.push_back(i);
-    drop_repeated_faces(mesh);
+    SourceFaces sources{{mesh.cap_of.begin(), mesh.cap_of.end()}};
+    drop_repeated_faces(mesh, edges(mesh), &sources);
     EXPECT_EQ(mesh.cap_of, (std::vector<std::int32_t>{0, 1, 2, 4, 5, 6, 7, 8, 9, 10, 11, 12}));
+    EXPECT_TRUE(std::equal(sources.of.begin(), sources.of.end(), mesh.cap_of.begin(), mesh.cap_of.end()));
 }
 
 }  // namespace

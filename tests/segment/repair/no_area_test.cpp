@@ -92,9 +92,9 @@ TEST(NoArea, AtABorderItJustGoes) {
 TEST(NoArea, IsMarkedAsNew) {
     TriangleMesh mesh = exact_shapes().front();
     loosen(mesh, 0);
-    mesh.cap_of.assign(mesh.triangles.size(), 5);
-    remove_no_area(mesh);
-    EXPECT_EQ(std::count(mesh.cap_of.begin(), mesh.cap_of.end(), no_cap), 2);
+    SourceFaces sources{std::vector<std::uint32_t>(mesh.triangles.size(), 5)};
+    remove_no_area(mesh, &sources);
+    EXPECT_EQ(count_new(sources), 2U);
 }
 
 }  // namespace

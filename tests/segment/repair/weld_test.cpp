@@ -41,14 +41,16 @@ TEST(Weld, KeepsTheOrderOfFirstAppearance) {
     EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
 }
 
-TEST(Weld, DropsCollapsedTrianglesAndKeepsCapsInStep) {
+TEST(Weld, DropsCollapsedTrianglesAndKeepsCapsAndSourcesInStep) {
     TriangleMesh mesh;
     mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}};
     mesh.triangles = {{0, 1, 3}, {0, 1, 2}, {2, 2, 1}};
     mesh.cap_of = {5, 6, 7};
-    EXPECT_EQ(weld(mesh), (WeldCounts{1, 2, 0}));
+    SourceFaces sources{{8, 9, new_face}};
+    EXPECT_EQ(weld(mesh, &sources), (WeldCounts{1, 2, 0}));
     EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
     EXPECT_EQ(mesh.cap_of, (std::vector<std::int32_t>{6}));
+    EXPECT_EQ(sources.of, (std::vector<std::uint32_t>{9}));
 }
 
 TEST(Weld, BothZerosAreOne) {

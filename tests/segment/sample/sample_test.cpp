@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 
 #include "base/error.h"
+#include "segment/sample/bones.h"
+#include "segment/sample/surface.h"
 #include "tests/segment/sample/laws.h"
 #include "tests/segment/sample/self_intersections.h"
 
@@ -29,10 +32,19 @@ TEST(Sample, IsOneValidSolidOfTheNumberOfFacesAskedFor) {
 
 TEST(Sample, NeverMeetsItself) {
     for (const Specimen specimen : all) {
-        for (const std::size_t faces : {std::size_t{2000}, std::size_t{30000}, std::size_t{120000}}) {
+        for (const std::size_t faces : {2000U, 6000U, 30000U, 60000U, 120000U}) {
             EXPECT_EQ(count_self_intersections(sample(specimen, {faces, 0})), 0U)
                 << static_cast<int>(specimen) << " with " << faces;
         }
+    }
+}
+
+TEST(Sample, CoarserThanTheBaseLatticeHasPointsOfItsSurface) {
+    const Bone bone = vertebra();
+    const TriangleMesh base = surface(bone.field, bone.box, bone.base_spacing, {});
+    EXPECT_EQ(sample(Specimen::vertebra, {base.triangles.size(), 0}), base);
+    for (const Vec3& p : sample(Specimen::vertebra, {3000, 0}).points) {
+        EXPECT_NE(std::find(base.points.begin(), base.points.end(), p), base.points.end());
     }
 }
 
