@@ -15,6 +15,7 @@
 
 #include "base/context.h"
 #include "segment/search/beam_state.h"
+#include "segment/search/end_reason.h"
 #include "segment/search/piece_book.h"
 #include "segment/search/rank.h"
 #include "segment/search/segmentation.h"
@@ -46,14 +47,12 @@ std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t p
 Cut cut_by(const Segmentation& segmentation, std::size_t piece, const std::vector<Ranked>& ranked, std::size_t k,
            std::size_t runners_up);
 
-// How the warning begins that stands in a project whose search ended too early.
-constexpr const char* rules_do_not_hold = "the stop rules do not hold: ";
-
 struct SearchEnd {
-    bool is_finished = false;     // the stop rules hold
-    std::string reason;           // in words
-    bool is_out_of_time = false;  // and could go on
+    EndReason reason = EndReason::rules_hold;
+    std::string sentence;  // describe(reason) with its figure
     double cost = 0;
+    bool is_finished() const { return qchopper::is_finished(reason); }
+    bool is_out_of_time() const { return reason == EndReason::time_limit; }
 };
 
 // Where a search with b > 1 stands. It goes on from `state` if that has branches; `root` is then the segmentation that

@@ -129,7 +129,7 @@ TEST_F(Discarding, IsSaidWithItsVolumeAndSurvivesTheSearch) {
         EXPECT_TRUE(project
                         .search(
                             {}, [](const Segmentation&) {}, {}, std::nullopt)
-                        .is_finished);
+                        .is_finished());
         const Project saved = load_project(folder);
         ASSERT_EQ(saved.discarded.size(), 1U);
         EXPECT_EQ(saved.discarded[0].name, name);

@@ -28,7 +28,7 @@ Segmentation searched(const TriangleMesh& mesh, const SearchSettings& settings) 
     Segmentation segmentation = uncut(mesh, settings.objectives.crumb_volume_mm3);
     PieceBook book(settings.objectives, settings.candidates);
     const SearchEnd end = search(segmentation, settings, book, {}, [](const Segmentation&) {}, {});
-    EXPECT_TRUE(end.is_finished) << end.reason;
+    EXPECT_TRUE(end.is_finished()) << end.sentence;
     return segmentation;
 }
 
@@ -94,8 +94,9 @@ TEST(Search, StopsInWordsWhenNoPlanePartsAnything) {
     Segmentation segmentation = uncut(mesh, 0);
     PieceBook book(settings.objectives, settings.candidates);
     const SearchEnd end = search(segmentation, settings, book, {}, [](const Segmentation&) {}, {});
-    EXPECT_FALSE(end.is_finished);
-    EXPECT_EQ(end.reason, "no plane parts any of the unfinished pieces");
+    EXPECT_FALSE(end.is_finished());
+    EXPECT_EQ(end.reason, EndReason::no_plane);
+    EXPECT_EQ(end.sentence, "no plane parts any of the unfinished pieces");
 }
 
 TEST(Search, WhenStoppedTheCutsMadeUntilThenStand) {
