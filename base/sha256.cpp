@@ -10,15 +10,4 @@ Sha256 sha256(std::span<const std::uint8_t> bytes) {
     return digest;
 }
 
-std::string to_hex(const Sha256& digest) {
-    constexpr const char* digits = "0123456789abcdef";
-    std::string text;
-    text.reserve(2 * digest.size());
-    for (const std::uint8_t byte : digest) {
-        text += digits[byte >> 4];
-        text += digits[byte & 15];
-    }
-    return text;
-}
-
 }  // namespace qchopper

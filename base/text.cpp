@@ -16,6 +16,16 @@ std::string fixed(double value, int decimals) {
     return digits;
 }
 
+std::string significant(double value, int digits) {
+    char text[64];  // enough for 40 digits, sign, point and exponent
+    const auto result = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits);
+    return result.ec == std::errc{} ? std::string(text, result.ptr) : "?";
+}
+
+std::string counted(std::size_t count, const std::string& one, const std::string& many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many.empty() ? one + "s" : many);
+}
+
 std::string with_commas(std::size_t number) {
     std::string text = std::to_string(number);
     for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");

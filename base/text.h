@@ -1,4 +1,4 @@
-// Numbers for people: the same letters under every locale (tests/cam/job/ticket_test.cpp).
+// Numbers for people: the same letters under every locale (tests/base/text_test.cpp).
 
 #pragma once
 
@@ -10,6 +10,12 @@ namespace qchopper {
 
 // A number with so many decimals; never "-0".
 std::string fixed(double value, int decimals);
+
+// So many significant digits, without trailing zeros: "0.00125", "1.2e+09".
+std::string significant(double value, int digits);
+
+// "1 hole", "5 holes"; `many` where an s is not enough.
+std::string counted(std::size_t count, const std::string& one, const std::string& many = {});
 
 // 1234567 -> "1,234,567"
 std::string with_commas(std::size_t number);

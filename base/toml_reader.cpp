@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
+#include "base/edit_distance.h"
 #include "base/error.h"
 
 namespace qchopper {
@@ -41,7 +41,7 @@ std::string words(double value) {
 
 std::string_view nearest(std::string_view key, Keys known) {
     return *std::min_element(known.begin(), known.end(), [&](std::string_view a, std::string_view b) {
-        return letters_apart(key, a) < letters_apart(key, b);
+        return edit_distance(key, a) < edit_distance(key, b);
     });
 }
 
@@ -72,20 +72,6 @@ const toml::node& need(const TomlReader& reader, const toml::table& table, std::
 }
 
 }  // namespace
-
-std::size_t letters_apart(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0]++;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
-        }
-    }
-    return row.back();
-}
 
 TomlReader::TomlReader(std::shared_ptr<const Table> table, std::string file, std::string prefix, Keys known)
     : table_(std::move(table)), file_(std::move(file)), prefix_(std::move(prefix)) {

@@ -17,10 +17,6 @@
 namespace qchopper {
 
 using Keys = std::span<const std::string_view>;
-
-// The smallest number of letters to change, add or drop from one word to the other.
-std::size_t letters_apart(std::string_view a, std::string_view b);
-
 class TomlReader {
  public:
     // The outermost table. Throws InputError (config) if the text is not TOML; `file` is for messages.

@@ -1,25 +1,11 @@
-// A program of its own: how long it took and how much memory it had at most. And a folder for its files.
+// A program of its own: how long it took and how much memory it had at most.
 
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace qchopper::bench {
-
-// Removed at the end.
-class TemporaryFolder {
- public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
- private:
-    std::filesystem::path path_;
-};
 
 struct Ended {
     int status = -1;

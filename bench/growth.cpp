@@ -2,6 +2,7 @@
 
 #include "app/project/project.h"
 #include "base/file.h"
+#include "base/temporary_folder.h"
 #include "bench/child.h"
 #include "bench/clock.h"
 #include "bench/measures.h"
@@ -22,7 +23,7 @@ void measure_growth(const Measured& small, const Base& small_base, std::size_t f
 
 void measure_memory(const fs::path& program, std::size_t faces, Figures& figures) {
     const std::string name = "skull " + number_text(static_cast<double>(faces));
-    const TemporaryFolder folder;
+    const TemporaryFolder folder("qchopper-bench-");
     const fs::path file = folder.path() / "skull.ply";
     {
         SampleOptions options;

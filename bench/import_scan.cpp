@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/parallel.h"
+#include "base/temporary_folder.h"
 #include "bench/child.h"
 #include "bench/clock.h"
 #include "bench/figures.h"
@@ -103,7 +104,7 @@ void measure_inspect(const Scan& scan, Figures& figures) {
 }
 
 void measure_stl(const Scan& scan, Figures& figures) {
-    const TemporaryFolder folder;
+    const TemporaryFolder folder("qchopper-bench-");
     const fs::path file = folder.path() / "scan.stl";
     write_file(file, to_stl(read_mesh(scan.file).mesh));
     const auto ours = [&] {
@@ -156,7 +157,7 @@ void measure_memory(const Choice& choice, const Scan& scan, Figures& figures) {
                         120);
     };
     measure(scan.name, scan.file, read_mesh(scan.file).mesh.triangles.size());
-    const TemporaryFolder folder;
+    const TemporaryFolder folder("qchopper-bench-");
     SampleOptions options;
     options.faces = choice.is_small ? 500'000 : 10'000'000;
     std::size_t faces = 0;
@@ -188,7 +189,7 @@ void measure_holes(const Choice& choice, Figures& figures) {
 }
 
 void measure(const Choice& choice, Figures& figures) {
-    const TemporaryFolder folder;
+    const TemporaryFolder folder("qchopper-bench-");
     Scan scan{"CT head", choice.data / "ct_head_1912k.ply"};
     if (choice.is_small || !fs::exists(scan.file)) {
         SampleOptions options;

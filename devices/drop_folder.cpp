@@ -8,6 +8,7 @@
 #include <system_error>
 #include <vector>
 
+#include "base/portable_name.h"
 #include "devices/codec.h"
 
 namespace qchopper {
@@ -27,7 +28,7 @@ bool is_on_its_way(std::string name) {
     if (aside != std::string::npos) name.resize(aside);
     if (name.size() < id_length + 3 || name.front() != '.') return false;
     const std::size_t dot = name.size() - id_length - 1;
-    return name[dot] == '.' && is_id(name.substr(dot + 1)) && is_file_name(name.substr(1, dot - 1));
+    return name[dot] == '.' && is_id(name.substr(dot + 1)) && is_portable_name(name.substr(1, dot - 1));
 }
 
 void remove_leftovers(const fs::path& folder) {

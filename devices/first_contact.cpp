@@ -5,7 +5,8 @@
 #include <iterator>
 #include <thread>
 
-#include "devices/dispatch.h"
+#include "devices/dispatch_options.h"
+#include "devices/registers.h"
 
 namespace qchopper {
 namespace {

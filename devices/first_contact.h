@@ -9,9 +9,8 @@
 
 #include "base/context.h"
 #include "devices/bus.h"
-#include "devices/codec.h"
 #include "devices/device_error.h"
-#include "devices/hand_off.h"
+#include "devices/hand_off_input.h"
 
 namespace qchopper {
 

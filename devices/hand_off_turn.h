@@ -5,8 +5,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "devices/hand_off.h"
+#include "devices/hand_off_input.h"
+#include "devices/hand_off_state.h"
 
 namespace qchopper::turning {
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <type_traits>
 
-#include "devices/codec.h"
-#include "devices/registers.h"
+#include "devices/blocks.h"
+#include "devices/field.h"
 #include "devices/words.h"
 
 namespace qchopper {

@@ -1,4 +1,4 @@
-// The register map of a cell, version 1.0: every block and every field, as tables, and the words used in them.
+// The register map of a cell, version 1.0: every block and every field, as tables.
 //
 // Addresses are 0-based PDU addresses; 32 and 64 bits high word first; text two characters a register, first in the
 // high byte. docs/registers.md is what print_registers() prints (tests/devices/registers_test.cpp).
@@ -9,137 +9,11 @@
 #include <span>
 #include <string>
 
+#include "devices/codes.h"
+#include "devices/field.h"
 #include "devices/packml.h"
 
 namespace qchopper {
-
-constexpr std::uint16_t cell_magic = 0x5143;
-constexpr std::uint16_t map_version = 0x0100;  // major.minor; the same major number is accepted
-constexpr std::uint16_t any_cell_id = 0xFFFF;  // what a simulated cell calls itself unless told
-
-enum class UnitMode : std::uint16_t { production = 1, maintenance = 2, manual = 3, rehearsal = 4 };
-
-enum class JobState : std::uint16_t {
-    none = 0,
-    stored = 1,    // NotAllowedToStart
-    prepared = 2,  // AllowedToStart
-    running = 3,
-    interrupted = 4,
-    ended = 5,
-    aborted = 6,
-    cancelled = 7
-};
-
-enum class JobResult : std::uint16_t {
-    none = 0,
-    complete = 1,
-    stopped = 2,
-    aborted = 3,
-    power_loss = 4,
-    tool = 5,
-    envelope = 6,
-    rehearsal_passed = 7,
-    rehearsal_failed = 8
-};
-
-enum class TransferState : std::uint16_t { idle = 0, open = 1, complete = 2, hash_mismatch = 3 };
-enum class Transfer : std::uint16_t { drop_folder = 1, chunks = 2 };
-enum class LinkLoss : std::uint16_t { go_on = 0, hold = 1 };  // what a running job does when the PC falls silent
-
-namespace flag {
-constexpr std::uint16_t ready_for_ticket = 1U << 0;
-constexpr std::uint16_t prepared = 1U << 1;
-constexpr std::uint16_t consent_present = 1U << 2;
-constexpr std::uint16_t job_active = 1U << 3;
-constexpr std::uint16_t result_waiting = 1U << 4;
-constexpr std::uint16_t warning = 1U << 5;
-constexpr std::uint16_t fault = 1U << 6;
-constexpr std::uint16_t safety_open = 1U << 7;
-constexpr std::uint16_t local_control = 1U << 8;
-constexpr std::uint16_t simulated = 1U << 9;
-constexpr std::uint16_t watchdog_expired = 1U << 10;
-constexpr std::uint16_t lease_held = 1U << 11;
-constexpr std::uint16_t store_full = 1U << 12;
-constexpr std::uint16_t block_loaded = 1U << 13;
-constexpr std::uint16_t rehearsal_running = 1U << 14;
-}  // namespace flag
-
-// ACK_RESULT, XFER_RESULT, BAD_REASON. From 0x100 on: refused, no effect.
-enum class AckResult : std::uint16_t {
-    none = 0,
-    ok = 1,
-    already = 2,
-    pending = 3,
-    bad_magic = 0x101,
-    bad_version = 0x102,
-    bad_crc = 0x103,
-    unknown_cmd = 0x104,
-    stale_seq = 0x105,
-    not_owner = 0x106,
-    stale_epoch = 0x107,
-    lease_busy = 0x108,
-    wrong_offset = 0x109,
-    chunk_crc = 0x10A,
-    epoch_jump = 0x10B,
-    wrong_state = 0x201,
-    wrong_mode = 0x202,
-    local_control = 0x203,
-    no_consent = 0x204,
-    safety_open = 0x205,
-    busy_other_job = 0x206,
-    wrong_job = 0x207,
-    no_ticket = 0x301,
-    ticket_crc = 0x302,
-    ticket_field = 0x303,
-    bad_signature = 0x304,
-    unknown_key = 0x305,
-    hash_mismatch = 0x306,
-    file_missing = 0x307,
-    file_size = 0x308,
-    envelope = 0x309,
-    tool = 0x30A,
-    store_full = 0x30B,
-    rehearsal_required = 0x30C,
-    job_id_reused = 0x30D,
-    stock_too_small = 0x30E,
-    token_bad = 0x401,
-    already_finished = 0x402,
-    unknown_job = 0x403,
-    cancelled = 0x404,
-    token_expired = 0x405,
-    internal = 0x501,
-    store_io = 0x502,
-    power_loss_recovered = 0x503
-};
-constexpr bool is_refusal(AckResult result) {
-    return static_cast<std::uint16_t>(result) >= 0x100;
-}
-
-enum class FieldType : std::uint8_t { u16, u32, u64, i32, text, bytes, words };
-
-// One field of a block. `address` counts from the start of the whole map, `count` is in registers.
-struct Field {
-    std::uint16_t address;
-    std::uint16_t count;
-    FieldType type;
-    const char* name;
-    const char* meaning;
-};
-
-enum class Side : std::uint8_t { input, holding };  // input: the cell publishes; holding: the PC writes
-
-struct Block {
-    const char* name;
-    Side side;
-    std::uint16_t base;
-    std::uint16_t count;
-    bool whole;  // written by exactly one request that covers it, or not at all
-    std::span<const Field> fields;
-    const char* meaning;
-    constexpr bool contains(std::uint32_t address, std::uint32_t words) const {
-        return address >= base && address + words <= static_cast<std::uint32_t>(base) + count;
-    }
-};
 
 constexpr std::uint16_t max_chunk_bytes = 232;
 constexpr std::uint16_t chunk_head = 5;  // registers of CHUNK before the data
@@ -157,12 +31,6 @@ std::span<const Block* const> all_blocks();
 const Field* field_named(const Block& block, const char* field_name);
 // Of a field that is there.
 std::uint16_t address_of(const Block& block, const char* field_name);
-
-// As in the map, "NO_CONSENT"; and in words for the operator, "the operator at the cell did not consent".
-const char* name(AckResult result);
-const char* words(AckResult result);
-const char* name(JobState state);
-const char* name(JobResult result);
 
 // The text of docs/registers.md.
 std::string print_registers();

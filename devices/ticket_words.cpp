@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/portable_name.h"
 #include "devices/codec.h"
 
 namespace qchopper {
@@ -39,28 +40,8 @@ std::uint32_t thousandths(const JobTicket& ticket, double length, const char* wh
 
 }  // namespace
 
-bool is_file_name(const std::string& file_name) {
-    const auto is_allowed = [](char c) {
-        return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' || c == '_' ||
-               c == '-';
-    };
-    return !file_name.empty() && file_name.size() <= 32 && file_name.front() != '.' &&
-           std::all_of(file_name.begin(), file_name.end(), is_allowed);
-}
-
-std::string to_text(const Uuid& id) {
-    std::string text;
-    for (std::size_t i = 0; i < id.size(); ++i) {
-        if (i == 4 || i == 6 || i == 8 || i == 10) text += '-';
-        char digits[3];
-        std::snprintf(digits, sizeof digits, "%02x", id[i]);
-        text += digits;
-    }
-    return text;
-}
-
 TicketWords ticket_words(const JobTicket& ticket, const TicketOrder& order) {
-    if (!is_file_name(ticket.file_name)) {
+    if (!is_portable_name(ticket.file_name)) {
         refuse(ticket, "'" + ticket.file_name +
                            "' is not a file name that a cell takes (1 to 32 of A-Z a-z 0-9 . _ -, no dot in front)");
     }

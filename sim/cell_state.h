@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "base/box.h"
 #include "base/file.h"
 #include "devices/codec.h"
-#include "segment/mesh/measure.h"
 
 namespace qchopper {
 

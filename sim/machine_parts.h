@@ -2,7 +2,8 @@
 
 #pragma once
 
-#include "sim/machine.h"
+#include "sim/cell_hooks.h"
+#include "sim/cell_state.h"
 
 namespace qchopper::cell {
 

@@ -14,28 +14,12 @@ using Json = nlohmann::json;
 
 constexpr int schema = 2;
 
-template <std::size_t N>
-std::string hex(const std::array<std::uint8_t, N>& bytes) {
-    constexpr const char* digits = "0123456789abcdef";
-    std::string text;
-    for (const std::uint8_t byte : bytes) {
-        text += digits[byte >> 4U];
-        text += digits[byte & 0xFU];
-    }
-    return text;
-}
-
 // Throws std::invalid_argument, caught below.
 template <std::size_t N>
-std::array<std::uint8_t, N> unhex(const std::string& text) {
-    std::array<std::uint8_t, N> bytes{};
-    if (text.size() != 2 * N || text.find_first_not_of("0123456789abcdef") != std::string::npos) {
-        throw std::invalid_argument("'" + text + "' is not an id");
-    }
-    for (std::size_t i = 0; i < N; ++i) {
-        bytes[i] = static_cast<std::uint8_t>(std::stoul(text.substr(2 * i, 2), nullptr, 16));
-    }
-    return bytes;
+std::array<std::uint8_t, N> id_from(const std::string& text) {
+    const auto id = from_hex<N>(text);
+    if (!id) throw std::invalid_argument("'" + text + "' is not an id");
+    return *id;
 }
 
 // A number of another kind, or one that the type does not hold, would be taken for some other number.
@@ -56,7 +40,7 @@ Json to_json(const JobRecord& record) {
             {"start_seq", record.start_seq},
             {"start_time_ms", record.start_time_ms},
             {"end_time_ms", record.end_time_ms},
-            {"file_sha256", hex(record.file_sha256)},
+            {"file_sha256", to_hex(record.file_sha256)},
             {"last_block", record.last_block}};
 }
 
@@ -69,7 +53,7 @@ JobRecord record_from(const Json& json) {
     record.start_seq = whole<std::uint32_t>(json, "start_seq");
     record.start_time_ms = whole<std::uint64_t>(json, "start_time_ms");
     record.end_time_ms = whole<std::uint64_t>(json, "end_time_ms");
-    record.file_sha256 = unhex<32>(json.at("file_sha256").get<std::string>());
+    record.file_sha256 = id_from<32>(json.at("file_sha256").get<std::string>());
     record.last_block = whole<std::uint32_t>(json, "last_block");
     if (record.state > JobState::cancelled || record.result > JobResult::rehearsal_failed) {
         throw std::invalid_argument("a job has a state or a result that there is not");
@@ -84,7 +68,7 @@ CellMemory from_text(std::string_view text) {
     memory.boot_count = whole<std::uint32_t>(json, "boot_count");
     memory.epoch_held = whole<std::uint32_t>(json, "epoch_held");
     memory.starts_total = whole<std::uint32_t>(json, "starts_total");
-    for (const auto& [id, record] : json.at("jobs").items()) memory.jobs[unhex<16>(id)] = record_from(record);
+    for (const auto& [id, record] : json.at("jobs").items()) memory.jobs[id_from<16>(id)] = record_from(record);
     // The checksum is part of it.
     if (to_json(memory) != text) throw std::invalid_argument("it is not, to the last byte, what a cell wrote");
     return memory;
@@ -94,7 +78,7 @@ CellMemory from_text(std::string_view text) {
 
 std::string to_json(const CellMemory& memory) {
     Json jobs = Json::object();
-    for (const auto& [id, record] : memory.jobs) jobs[hex(id)] = to_json(record);
+    for (const auto& [id, record] : memory.jobs) jobs[to_hex(id)] = to_json(record);
     Json all = {{"schema", schema},
                 {"boot_count", memory.boot_count},
                 {"epoch_held", memory.epoch_held},

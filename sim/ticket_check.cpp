@@ -1,4 +1,5 @@
 #include "sim/ticket_check.h"
+#include "base/portable_name.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +63,8 @@ std::optional<TicketFault> wrong_field(const TicketWords& t, std::span<const std
     if (t.job_id == Uuid{}) return field("JOB_ID");
     if (t.file_size == 0) return field("FILE_SIZE");
     if (t.transfer != Transfer::drop_folder && t.transfer != Transfer::chunks) return field("TRANSFER");
-    if (!is_file_name(t.file_name) || has_hidden_text(t.file_name, *field_named(ticket_block, "FILE_NAME"), block)) {
+    if (!is_portable_name(t.file_name) ||
+        has_hidden_text(t.file_name, *field_named(ticket_block, "FILE_NAME"), block)) {
         return field("FILE_NAME");
     }
     if (t.unit != 1) return field("UNIT");

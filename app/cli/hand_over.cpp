@@ -9,7 +9,7 @@
 #include "app/project/project.h"
 #include "app/report/columns.h"
 #include "app/report/shell_word.h"
-#include "cam/job/job.h"
+#include "cam/job/job_file.h"
 
 namespace qchopper {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "app/report/shell_word.h"
 #include "base/error.h"
-#include "cam/job/json.h"
+#include "base/json.h"
 
 namespace qchopper {
 namespace {
@@ -37,7 +37,7 @@ Uuid project_id(const Project& project) {
 }
 
 WrittenJob written_job(const std::string& piece, const Bytes& file, const Uuid& project_id) {
-    return {piece, to_hex(sha256(file)), json_values::to_hex(project_id)};
+    return {piece, to_hex(sha256(file)), to_hex(project_id)};
 }
 
 const WrittenJob* written_job_of(const Project& project, const std::string& piece) {
@@ -54,7 +54,7 @@ void check_ordered(const ReadJob& job, const JobOrder& order) {
         refuse(order.folder, file + " is the job of piece " + job.piece + ", not of piece " + order.piece);
     }
     // The decisions are asked too: a record that came with the jobs of another project would agree with them.
-    const std::string id = json_values::to_hex(job.project_id);
+    const std::string id = to_hex(job.project_id);
     if (id != written->project_id || job.project_id != project_id(order.project)) {
         refuse(order.folder, file + " is a job of another project, or of other cuts");
     }

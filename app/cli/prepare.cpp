@@ -14,7 +14,7 @@
 #include "app/report/prepare_report.h"
 #include "app/report/shell_word.h"
 #include "base/text.h"
-#include "cam/job/job.h"
+#include "cam/job/job_file.h"
 #include "segment/import/import_scan.h"
 #include "segment/import/inspect.h"
 #include "segment/picture/exploded.h"

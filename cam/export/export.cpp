@@ -9,6 +9,7 @@
 #include "segment/io/write_ply.h"
 #include "segment/io/write_stl.h"
 #include "segment/mesh/measure.h"
+#include "segment/mesh/transform.h"
 
 namespace qchopper {
 namespace {

@@ -14,8 +14,8 @@
 #include <string_view>
 
 #include "base/file.h"
+#include "base/pose.h"
 #include "segment/cut/piece.h"
-#include "segment/mesh/pose.h"
 
 namespace qchopper {
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "cam/job/json.h"
+#include "base/json.h"
 
 namespace qchopper {
 namespace {
@@ -167,7 +167,7 @@ ReadJob to_job(const Json& json) {
 std::string to_manifest(const JobInput& input, const std::vector<JobEntry>& entries) {
     Json files = Json::array();
     for (const JobEntry& entry : entries) {
-        files.push_back({{"name", entry.name}, {"size", entry.size}, {"sha256", json_values::to_hex(entry.sha256)}});
+        files.push_back({{"name", entry.name}, {"size", entry.size}, {"sha256", to_hex(entry.sha256)}});
     }
     const Json json = {
         {"format", format_name},
@@ -180,8 +180,8 @@ std::string to_manifest(const JobInput& input, const std::vector<JobEntry>& entr
           {"count", input.piece_count},
           {"faces", input.piece.mesh->triangles.size()},
           {"volume_mm3", volume_mm3(*input.piece.mesh)}}},
-        {"project_id", json_values::to_hex(input.project_id)},
-        {"scan_sha256", json_values::to_hex(input.scan_sha256)},
+        {"project_id", to_hex(input.project_id)},
+        {"scan_sha256", to_hex(input.scan_sha256)},
         {"cell", {{"name", input.cell.name}, {"id", input.cell.id}}},
         {"bounds", from_bounds(input.piece.bounds)},
         {"setup", from_setup(input.setup)},

@@ -1,6 +1,6 @@
 // The manifest of a job file: what the job is and the SHA-256 of every other file in it.
 //
-// Forth and back is identity (tests/cam/job/job_test.cpp). The grammar is in docs/job-folder.md.
+// Forth and back is identity (tests/cam/job/job_file_test.cpp). The grammar is in docs/job-folder.md.
 
 #pragma once
 

@@ -4,8 +4,9 @@
 #include <string>
 
 #include "base/text.h"
-#include "cam/job/job.h"
-#include "cam/job/json.h"
+#include "cam/job/sheet.h"
+
+#include "base/json.h"
 
 namespace qchopper {
 namespace {
@@ -78,8 +79,8 @@ std::string warning_step(const JobInput& input) {
 std::string setup_sheet(const JobInput& input) {
     return title(input) + block_step(input) + piece_step(input) +
            tool_step(input, ticket_template(input).estimated_time_s) + margin_step(input) + warning_step(input) +
-           "\nproject " + json_values::to_hex(input.project_id) + "\nscan    " +
-           json_values::to_hex(input.scan_sha256) + "\nqchopper " + input.program_version + "\n";
+           "\nproject " + to_hex(input.project_id) + "\nscan    " + to_hex(input.scan_sha256) + "\nqchopper " +
+           input.program_version + "\n";
 }
 
 }  // namespace qchopper

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "cam/job/json.h"
+#include "base/json.h"
 
 namespace qchopper {
 
@@ -33,7 +33,7 @@ std::string to_json(const TicketTemplate& about) {
                        {"piece", about.piece},
                        {"piece_no", about.piece_no},
                        {"piece_count", about.piece_count},
-                       {"project_id", json_values::to_hex(about.project_id)},
+                       {"project_id", to_hex(about.project_id)},
                        {"box", from_box(about.box)},
                        {"stock", from_vector(about.stock)},
                        {"material", to_word(about.material)},
@@ -72,14 +72,6 @@ TicketTemplate ticket_template_from_json(std::string_view text, const std::strin
     } catch (const std::runtime_error& error) {
         throw InputError(InputFault::mesh, source + ": ticket template: " + error.what(), "write the job again");
     }
-}
-
-bool is_job_file_name(std::string_view name) {
-    const auto allowed = [](char c) {
-        return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' || c == '_' ||
-               c == '-';
-    };
-    return !name.empty() && name.size() <= 32 && name.front() != '.' && std::all_of(name.begin(), name.end(), allowed);
 }
 
 std::uint32_t crude_time_s(double stock_mm3, double piece_mm3, double removal_mm3_per_s) {

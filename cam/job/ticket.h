@@ -5,20 +5,18 @@
 
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
+#include "base/box.h"
 #include "base/sha256.h"
+#include "base/uuid.h"
 #include "cam/cell/material.h"
-#include "segment/mesh/measure.h"
 
 namespace qchopper {
 
 constexpr std::uint16_t no_base_plane = 0xFFFF;
-
-using Uuid = std::array<std::uint8_t, 16>;
 
 // Known when the job is written. The same piece, setup and cell give the same template.
 struct TicketTemplate {
@@ -41,7 +39,7 @@ struct TicketTemplate {
 // A template bound to one job file.
 struct JobTicket {
     TicketTemplate about;
-    std::string file_name;  // 1 to 32 of A-Z a-z 0-9 . _ -, not beginning with a dot
+    std::string file_name;  // is_portable_name
     std::uint32_t file_size = 0;
     Sha256 file_sha256{};
     bool operator==(const JobTicket&) const = default;
@@ -51,9 +49,6 @@ struct JobTicket {
 // from_json throws InputError (mesh) that names `source` and the key.
 std::string to_json(const TicketTemplate& about);
 TicketTemplate ticket_template_from_json(std::string_view text, const std::string& source);
-
-// 1 to 32 of A-Z a-z 0-9 . _ -, not beginning with a dot.
-bool is_job_file_name(std::string_view name);
 
 // Foam to be taken away over the removal rate, in whole seconds, at least 1. Crude: it knows no finishing, no travel
 // and no acceleration.

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "base/error.h"
+#include "base/portable_name.h"
 #include "base/zip.h"
 #include "cam/job/ticket.h"
 
@@ -91,7 +92,7 @@ std::map<std::string, Bytes> unzip(const Bytes& bytes, const std::string& source
         zip_stat_init(&stat);
         if (zip_stat_index(archive.get(), index, 0, &stat) != 0) refuse(source, "an entry cannot be read");
         const std::string name = stat.name != nullptr ? stat.name : "";
-        if (!is_job_file_name(name)) refuse(source, "an entry has a name that no job file has");
+        if (!is_portable_name(name)) refuse(source, "an entry has a name that no job file has");
         if (entries.contains(name)) refuse(source, name + " is there twice");
         if (stat.comp_method != ZIP_CM_STORE || stat.encryption_method != ZIP_EM_NONE || stat.size != stat.comp_size) {
             refuse(source, name + " is compressed or encrypted, and job files never are");

@@ -16,7 +16,7 @@ namespace qchopper {
 Bytes zip(const std::map<std::string, Bytes>& files);
 
 // Takes only what zip() writes, to the last byte. Throws InputError (mesh) naming `source` if it is cut short, damaged,
-// compressed, in another order, followed by anything, or holds a name that is not plain (is_job_file_name).
+// compressed, in another order, followed by anything, or holds a name that is not plain (is_portable_name).
 std::map<std::string, Bytes> unzip(const Bytes& bytes, const std::string& source);
 
 }  // namespace qchopper

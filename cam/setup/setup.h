@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "base/pose.h"
 #include "cam/cell/cell.h"
 #include "segment/cut/piece.h"
 #include "segment/mesh/measure.h"
-#include "segment/mesh/pose.h"
 
 namespace qchopper {
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "segment/import/inspect.h"
 #include "segment/mesh/measure.h"
 
@@ -15,18 +16,8 @@ namespace {
 constexpr double largest_mm = 1e11;  // beyond this a double does not hold 0.0001 mm any more
 constexpr const char* repair_first = "repair the scan in the scanning software, then try again";
 
-std::string in_digits(double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.6g", value);
-    return text.data();
-}
-
 std::string place(Vec3 p) {
-    return in_digits(p.x) + ", " + in_digits(p.y) + ", " + in_digits(p.z);
-}
-
-std::string counted(std::size_t count, const std::string& one, const std::string& many) {
-    return std::to_string(count) + " " + (count == 1 ? one : many);
+    return significant(p.x, 6) + ", " + significant(p.y, 6) + ", " + significant(p.z, 6);
 }
 
 // What one unit of the file is; nothing where that may stay open.
@@ -71,7 +62,7 @@ void check_range(const Box& box, double mm_per_unit, const std::string& name) {
 }
 
 std::string scaled_in_words(double scale) {
-    return "The scan is scaled by " + in_digits(scale) + " (--scale): its pieces are not in true size.";
+    return "The scan is scaled by " + significant(scale, 6) + " (--scale): its pieces are not in true size.";
 }
 
 // Says what stands between the result and a solid.

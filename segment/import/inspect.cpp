@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <map>
 
+#include "base/text.h"
 #include "segment/mesh/links.h"
 #include "segment/mesh/manifold.h"
 #include "segment/mesh/nesting.h"
@@ -210,10 +211,6 @@ class Inspecting {
     std::vector<double> area_;   // per shell
     std::vector<bool> is_open_;  // per shell: it has an open or faulty edge
 };
-
-std::string counted(std::size_t count, const char* one, const char* many) {
-    return std::to_string(count) + " " + (count == 1 ? one : many);
-}
 
 // How lengths are told next to the longest of them.
 struct Wording {

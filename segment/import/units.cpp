@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "segment/import/import_scan.h"
 
 namespace qchopper {
@@ -14,17 +15,11 @@ struct UnitName {
 constexpr std::array<UnitName, 6> units{
     {{"mm", 1}, {"cm", 10}, {"m", 1000}, {"in", 25.4}, {"ft", 304.8}, {"um", 0.001}}};  // in the order of Unit
 
-std::string in_digits(double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.6g", value);
-    return text.data();
-}
-
 std::string unit_in_words(double mm) {
     for (const UnitName& unit : units) {
         if (unit.mm == mm) return std::string(unit.name);
     }
-    return in_digits(mm) + " mm";
+    return significant(mm, 6) + " mm";
 }
 
 }  // namespace
@@ -48,7 +43,8 @@ Unit unit_of(double mm) {
     for (std::size_t i = 0; i < units.size(); ++i) {
         if (units[i].mm == mm) return static_cast<Unit>(i);
     }
-    throw InputError(InputFault::use, "a unit of " + in_digits(mm) + " mm has no name", "say --units mm, cm, m or in");
+    throw InputError(InputFault::use, "a unit of " + significant(mm, 6) + " mm has no name",
+                     "say --units mm, cm, m or in");
 }
 
 std::optional<double> agreed_mm_per_unit(std::optional<double> in_file, std::optional<double> given,

@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "segment/io/read_mesh.h"
+#include "segment/io/raw_mesh.h"
 
 namespace qchopper {
 

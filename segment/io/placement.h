@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "segment/io/read_mesh.h"
+#include "segment/io/raw_mesh.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {

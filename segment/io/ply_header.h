@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "segment/io/read_mesh.h"
+#include "segment/io/raw_mesh.h"
 
 namespace qchopper {
 

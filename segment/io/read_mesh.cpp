@@ -51,32 +51,6 @@ RawMesh parse_packed(const Bytes& bytes, const std::string& name, const std::fil
 
 }  // namespace
 
-std::string name_of(MeshFormat format) {
-    switch (format) {
-        case MeshFormat::ply_ascii:
-            return "PLY, ASCII";
-        case MeshFormat::ply_little_endian:
-            return "PLY, binary little-endian";
-        case MeshFormat::ply_big_endian:
-            return "PLY, binary big-endian";
-        case MeshFormat::stl_ascii:
-            return "STL, ASCII";
-        case MeshFormat::obj:
-            return "OBJ";
-        case MeshFormat::off:
-            return "OFF";
-        case MeshFormat::gltf:
-            return "glTF";
-        case MeshFormat::glb:
-            return "GLB";
-        case MeshFormat::three_mf:
-            return "3MF";
-        case MeshFormat::stl_binary:
-            break;
-    }
-    return "STL, binary";
-}
-
 RawMesh parse_mesh(const Bytes& bytes, const std::string& name, const std::filesystem::path& folder,
                    const ReadOptions& options) {
     RawMesh scan = parse_packed(bytes, name, folder, options);

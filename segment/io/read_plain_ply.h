@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "segment/io/ply_header.h"
-#include "segment/io/read_mesh.h"
+#include "segment/io/raw_mesh.h"
 
 namespace qchopper {
 

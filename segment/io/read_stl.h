@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/file.h"
-#include "segment/io/read_mesh.h"
+#include "segment/io/raw_mesh.h"
 
 namespace qchopper {
 

@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "base/file.h"
-#include "segment/mesh/pose.h"
+#include "base/pose.h"
+#include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {
 

@@ -2,17 +2,10 @@
 
 #pragma once
 
+#include "base/box.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {
-
-struct Box {
-    Vec3 min;
-    Vec3 max;
-    bool operator==(const Box&) const = default;
-    Vec3 size() const { return max - min; }
-    Vec3 centre() const { return 0.5 * (min + max); }
-};
 
 // Axis-parallel box of all points; {0,0} for none.
 Box bounds(const TriangleMesh& mesh);

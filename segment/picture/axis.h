@@ -5,9 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "segment/picture/plot.h"
-
 namespace qchopper {
+
+struct PlotRange {
+    double low = 0;
+    double high = 1;
+    bool operator==(const PlotRange&) const = default;
+};
 
 struct Ticks {
     std::vector<double> values;  // ascending, inside the range

@@ -5,34 +5,13 @@
 
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <span>
 
 #include "base/context.h"
 #include "base/file.h"
-#include "segment/mesh/triangle_mesh.h"
+#include "segment/picture/coloured.h"
 
 namespace qchopper {
-
-struct Rgb {
-    std::uint8_t r = 0;
-    std::uint8_t g = 0;
-    std::uint8_t b = 0;
-    bool operator==(const Rgb&) const = default;
-};
-
-// Twelve colours that stay apart for colour-blind eyes too, then again from the first.
-Rgb piece_colour(std::size_t index);
-
-// The natural colour for a mesh that is not a segmentation.
-constexpr Rgb bone_colour{226, 214, 190};
-
-struct Coloured {
-    const TriangleMesh* mesh = nullptr;  // stays the caller's
-    Rgb colour = bone_colour;
-    Vec3 shift;  // mm, added to every point
-};
 
 struct PictureOptions {
     int width = 1200;  // pixels

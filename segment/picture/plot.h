@@ -9,7 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "segment/picture/picture.h"
+#include "segment/picture/axis.h"
+#include "segment/picture/colour.h"
 
 namespace qchopper {
 
@@ -17,12 +18,6 @@ struct PlotPoint {
     double x = 0;
     double y = 0;  // not finite: a gap in the curve
     bool operator==(const PlotPoint&) const = default;
-};
-
-struct PlotRange {
-    double low = 0;
-    double high = 1;
-    bool operator==(const PlotRange&) const = default;
 };
 
 // An upright line through all rows of a column, and a dot where it meets the curves.

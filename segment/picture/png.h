@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/file.h"
-#include "segment/picture/picture.h"
+#include "segment/picture/colour.h"
 
 namespace qchopper {
 

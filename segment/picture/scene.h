@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "segment/mesh/rays.h"
-#include "segment/picture/picture.h"
+#include "segment/picture/coloured.h"
 
 namespace qchopper {
 

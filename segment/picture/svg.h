@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "segment/picture/picture.h"
+#include "segment/picture/colour.h"
 
 namespace qchopper {
 

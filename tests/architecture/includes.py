@@ -19,15 +19,12 @@ SUB_MODULES = {
     "app": ["project", "report", "cli"],
 }
 
-# Values without any geometry to be computed.
-MESH_VALUES = {"segment/mesh/triangle_mesh.h", "segment/mesh/measure.h"}
-
 # What a module may include of the modules before it, where that is less than everything. A name that ends in / is a
 # folder.
 VIEW = {
-    "devices": {"base/", "cam/job/ticket.h"} | MESH_VALUES,
+    "devices": {"base/", "cam/job/ticket.h"},
     "sim": {"base/", "segment/mesh/", "segment/io/", "segment/import/", "cam/cell/"}
-    | {f"devices/{name}.h" for name in ("registers", "codec", "bus", "words", "packml")},
+    | {f"devices/{name}.h" for name in ("registers", "codes", "field", "blocks", "codec", "bus", "words", "packml")},
 }
 
 # Modules in which no included header may belong to a source that includes CGAL.

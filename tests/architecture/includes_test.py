@@ -28,7 +28,7 @@ PLANTED = {
     "sim sees cut": ("sim/machine.cpp", '#include "segment/cut/cut.h"', "sees only a part of segment"),
     "sim reaches CGAL": ("sim/machine.h", '#include "segment/mesh/oriented_box.h"', "whose source sees CGAL"),
     "devices reaches CGAL through a header": (
-        "segment/mesh/measure.h",
+        "cam/cell/material.h",
         '#include "segment/mesh/oriented_box.h"',
         'devices/codec.cpp: reaches "segment/mesh/oriented_box.h"',
     ),

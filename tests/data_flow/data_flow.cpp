@@ -21,12 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path fresh_folder() {
-    std::string pattern = (fs::temp_directory_path() / "qchopper-walk-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    return pattern;
-}
-
 void expect_closed(const TriangleMesh& mesh, const std::string& what) {
     EXPECT_TRUE(edges(mesh).faults.is_closed()) << what;
     EXPECT_GT(volume_mm3(mesh), 0) << what;
@@ -75,12 +69,6 @@ void expect_sound(const ReadJob& job, const fs::path& file) {
 }
 
 }  // namespace
-
-Folder::Folder() : path(fresh_folder()) {}
-Folder::~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-}
 
 Cell foam_cell() {
     return read_cell(fs::path(QCHOPPER_SOURCE_DIR) / "cells" / "foam-1.toml");

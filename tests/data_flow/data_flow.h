@@ -10,18 +10,11 @@
 #include "cam/job/job.h"
 #include "segment/import/import_scan.h"
 #include "segment/search/search.h"
+#include "tests/folder.h"
 
 namespace qchopper::walk {
 
-// A folder of its own, removed at the end.
-class Folder {
- public:
-    Folder();
-    ~Folder();
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    const std::filesystem::path path;
-};
+using qchopper::Folder;
 
 // The cell file that comes with the project.
 Cell foam_cell();

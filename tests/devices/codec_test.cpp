@@ -274,21 +274,12 @@ TEST(Ticket, WhatIsNotALengthIsRefused) {
 }
 
 TEST(Ticket, OnlyPlainFileNamesAreTaken) {
-    for (const char* good : {"a", "piece-1.qjob", "A_b.C-9", "12345678901234567890123456789012"}) {
-        EXPECT_TRUE(is_file_name(good)) << good;
-    }
     for (const char* bad :
          {"", ".", "..", ".a", "a/b", "../a", "a b", "\xC3\xA9", "a\\b", "123456789012345678901234567890123"}) {
-        EXPECT_FALSE(is_file_name(bad)) << bad;
         JobTicket ticket = a_ticket();
         ticket.file_name = bad;
         EXPECT_THROW(ticket_words(ticket, an_order()), InputError) << bad;
     }
-    EXPECT_FALSE(is_file_name(std::string("a\0b", 3)));
-}
-
-TEST(Ticket, AJobIdIsWrittenAsPeopleWriteIt) {
-    EXPECT_EQ(to_text(job), "00010203-0405-0607-0809-0a0b0c0d0e0f");
 }
 
 }  // namespace

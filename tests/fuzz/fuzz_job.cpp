@@ -3,7 +3,7 @@
 #include <set>
 
 #include "base/sha256.h"
-#include "cam/job/job.h"
+#include "cam/job/job_file.h"
 #include "cam/job/zip.h"
 #include "tests/fuzz/demand.h"
 

@@ -1,7 +1,7 @@
 #include <memory>
 
 #include "base/file.h"
-#include "cam/job/job.h"
+#include "cam/job/job_file.h"
 #include "cam/job/zip.h"
 #include "tests/fuzz/seeds.h"
 #include "tests/shapes.h"

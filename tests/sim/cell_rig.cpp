@@ -12,22 +12,6 @@
 #include "base/file.h"
 
 namespace qchopper::rig {
-namespace {
-
-std::filesystem::path fresh_folder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "qchopper-test-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    return pattern;
-}
-
-}  // namespace
-
-Folder::Folder() : path(fresh_folder()) {}
-Folder::~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-}
-
 Job make_job(std::size_t bytes, std::uint32_t seconds) {
     Job job;
     Bytes& content = job.file;

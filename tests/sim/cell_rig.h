@@ -11,18 +11,11 @@
 #include "devices/dispatch.h"
 #include "devices/modbus_tcp.h"
 #include "sim/cell_sim.h"
+#include "tests/folder.h"
 
 namespace qchopper::rig {
 
-// A folder of its own, removed at the end.
-class Folder {
- public:
-    Folder();
-    ~Folder();
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    const std::filesystem::path path;
-};
+using qchopper::Folder;
 
 struct Job {
     Bytes file;

@@ -19,12 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path fresh_folder() {
-    std::string pattern = (fs::temp_directory_path() / "qchopper-cli-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    return pattern;
-}
-
 void keep_to_one_core() {
     cpu_set_t allowed;
     CPU_ZERO(&allowed);
@@ -52,12 +46,6 @@ bool comes_true(const std::function<bool()>& condition, double seconds) {
 }
 
 }  // namespace
-
-Folder::Folder() : path(fresh_folder()) {}
-Folder::~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-}
 
 Process::Process(const Arguments& arguments, const Surroundings& surroundings) {
     put(streams_.path / "in", surroundings.input);

@@ -9,17 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "tests/folder.h"
+
 namespace qchopper::program {
 
-// A folder of its own, removed at the end.
-class Folder {
- public:
-    Folder();
-    ~Folder();
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    const std::filesystem::path path;
-};
+using qchopper::Folder;
 
 using Arguments = std::vector<std::string>;
 

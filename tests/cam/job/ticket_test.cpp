@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "base/error.h"
-#include "base/text.h"
 
 namespace qchopper {
 namespace {
@@ -57,38 +56,11 @@ TEST(Ticket, BadJsonIsRefusedWithSourceAndKey) {
     EXPECT_THROW(ticket_template_from_json(std::string(100000, '['), "t"), InputError);
 }
 
-TEST(Ticket, FileNamesAreThoseOfTheWire) {
-    for (const char* good : {"A.qjob", "a", "-", "_x.Y-9", "01234567890123456789012345678901"}) {
-        EXPECT_TRUE(is_job_file_name(good)) << good;
-    }
-    for (const char* bad :
-         {"", ".", "..", ".A", "a/b", "a b", "\xc3\xa4", "a\n", "012345678901234567890123456789012"}) {
-        EXPECT_FALSE(is_job_file_name(bad)) << bad;
-    }
-}
-
 TEST(Ticket, CrudeTimeStaysInBounds) {
     EXPECT_EQ(crude_time_s(1000, 400, 60), 10U);
     EXPECT_EQ(crude_time_s(1000, 400, 599), 2U);
     EXPECT_EQ(crude_time_s(1, 2, 60), 1U) << "a piece larger than its block still takes a second";
     EXPECT_EQ(crude_time_s(1e30, 0, 1), std::numeric_limits<std::uint32_t>::max());
-}
-
-TEST(Text, NumbersAreForPeople) {
-    EXPECT_EQ(fixed(12.345, 1), "12.3");
-    EXPECT_EQ(fixed(-0.01, 1), "0.0");
-    EXPECT_EQ(fixed(-1e-9, 0), "0");
-    EXPECT_EQ(fixed(1e300, 0).size(), 301U);
-    EXPECT_EQ(volume_in_words(1'234'567), "1.235 l");
-    EXPECT_EQ(volume_in_words(999'600), "1.000 l");
-    EXPECT_EQ(volume_in_words(320'000), "320 ml");
-    EXPECT_EQ(volume_in_words(-1'234), "-1.23 ml");
-    EXPECT_EQ(volume_in_words(0.0123), "0.0000123 ml");
-    EXPECT_EQ(volume_in_words(0), "0 ml");
-    EXPECT_EQ(duration(59), "59 s");
-    EXPECT_EQ(duration(89), "1 min");
-    EXPECT_EQ(duration(3570), "1 h 00 min");
-    EXPECT_EQ(duration(11100), "3 h 05 min");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cam/setup/undercut.h"
+#include "segment/mesh/transform.h"
 #include "tests/cam/setup/pieces.h"
 
 namespace qchopper {

@@ -1,4 +1,5 @@
-#include "cam/job/job.h"
+#include "cam/job/job_file.h"
+#include "cam/job/sheet.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,8 @@
 #include <string>
 #include <string_view>
 
-#include "segment/mesh/measure.h"
+#include "base/box.h"
+#include "base/hex.h"
 
 namespace qchopper::json_values {
 
@@ -50,26 +51,10 @@ Whole whole(const Json& object, const std::string& key) {
 }
 
 template <std::size_t Size>
-std::string to_hex(const std::array<std::uint8_t, Size>& bytes) {
-    std::string digits;
-    for (const std::uint8_t byte : bytes) {
-        digits += "0123456789abcdef"[byte >> 4];
-        digits += "0123456789abcdef"[byte & 15];
-    }
-    return digits;
-}
-
-template <std::size_t Size>
 std::array<std::uint8_t, Size> from_hex(const Json& object, const std::string& key) {
-    const std::string digits = text(object, key);
-    if (digits.size() != 2 * Size) throw wrong(key, "is not " + std::to_string(2 * Size) + " hexadecimal digits");
-    std::array<std::uint8_t, Size> bytes{};
-    for (std::size_t i = 0; i < digits.size(); ++i) {
-        const std::size_t value = std::string_view("0123456789abcdef").find(digits[i]);
-        if (value == std::string_view::npos) throw wrong(key, "holds a digit other than 0-9 and a-f");
-        bytes[i / 2] = static_cast<std::uint8_t>(bytes[i / 2] * 16 + value);
-    }
-    return bytes;
+    const auto bytes = qchopper::from_hex<Size>(text(object, key));
+    if (!bytes) throw wrong(key, "is not " + std::to_string(2 * Size) + " hexadecimal digits");
+    return *bytes;
 }
 
 }  // namespace qchopper::json_values

@@ -1,10 +1,12 @@
-#include "cam/job/job.h"
+#include "cam/job/job_file.h"
 
 #include <cmath>
 
 #include "base/error.h"
+#include "base/portable_name.h"
 #include "cam/job/manifest.h"
 #include "cam/job/preview.h"
+#include "cam/job/sheet.h"
 #include "cam/job/zip.h"
 #include "segment/io/write_stl.h"
 
@@ -64,7 +66,7 @@ void check_ticket(const ReadJob& job, const std::string& source) {
 
 std::string job_file_name(const std::string& piece) {
     const std::string name = piece + ".qjob";
-    if (!is_job_file_name(name) || piece.empty()) {
+    if (!is_portable_name(name) || piece.empty()) {
         throw InputError(InputFault::use, "piece \"" + piece + "\" cannot name a job file",
                          "use up to 27 of A-Z a-z 0-9 . _ -");
     }
@@ -138,7 +140,7 @@ Bytes read_job(const std::filesystem::path& path) {
 }
 
 JobTicket job_ticket(const ReadJob& job, const std::string& file_name) {
-    if (!is_job_file_name(file_name)) {
+    if (!is_portable_name(file_name)) {
         throw InputError(InputFault::use, "the cell takes no file of the name " + file_name,
                          "use 1 to 32 of A-Z a-z 0-9 . _ -, not beginning with a dot");
     }

@@ -1,4 +1,4 @@
-#include "cam/job/json.h"
+#include "base/json.h"
 
 #include <cassert>
 #include <cmath>

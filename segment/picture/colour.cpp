@@ -1,9 +1,9 @@
 // Begun from Okabe and Ito's scheme (2008), then moved apart as seen with all and with two kinds of cones
-// (tests/segment/picture/palette_test.cpp). Not too dark, so that shading shows on all of them.
+// (tests/segment/picture/colour_test.cpp). Not too dark, so that shading shows on all of them.
 
 #include <array>
 
-#include "segment/picture/picture.h"
+#include "segment/picture/colour.h"
 
 namespace qchopper {
 

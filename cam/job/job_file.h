@@ -1,0 +1,35 @@
+// The job file of one piece: everything that the cell and the workshop need, in one ZIP named <piece>.qjob.
+//
+// Millimetres in setup coordinates. Same input, same bytes: no time and no random id goes in. What is read back is
+// checked: schema, every size and SHA-256 (tests/cam/job/job_file_test.cpp). docs/job-folder.md holds the grammar.
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "base/file.h"
+#include "cam/job/job.h"
+
+namespace qchopper {
+
+// "<piece>.qjob". Throws InputError (use) if the name does not fit the wire (is_portable_name).
+std::string job_file_name(const std::string& piece);
+
+// The whole file. Throws InputError (use) if a number does not fit the ticket.
+Bytes job_file(const JobInput& input);
+
+// The template that goes into the job file.
+TicketTemplate ticket_template(const JobInput& input);
+
+// The bytes of a job file (job_limit). Throws InputError: missing if it cannot be read, mesh if it is too large.
+Bytes read_job(const std::filesystem::path& path);
+
+// Throws InputError (mesh) naming `source` if the bytes are not exactly what job_file writes for a job of this schema.
+ReadJob parse_job(const Bytes& bytes, const std::string& source);
+
+// The template of a job bound to its file, which will have this name at the cell. Throws InputError (use) if the wire
+// cannot carry the name.
+JobTicket job_ticket(const ReadJob& job, const std::string& file_name);
+
+}  // namespace qchopper

@@ -1,0 +1,140 @@
+// The values that the blocks of the register map carry, field by field.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cam/job/ticket.h"
+#include "devices/codes.h"
+#include "devices/packml.h"
+
+namespace qchopper {
+
+// What the cell says of itself. Field by field input registers 3..98.
+struct Status {
+    std::uint16_t version = map_version;
+    std::uint16_t snapshot = 0;
+    std::uint16_t heartbeat = 0;
+    std::uint32_t boot_count = 0;
+    UnitMode unit_mode = UnitMode::production;
+    PackState state = PackState::undefined;
+    PackState state_before = PackState::undefined;
+    std::uint16_t flags = 0;
+    std::uint32_t epoch_held = 0;
+    std::uint16_t lease_left_ds = 0;  // tenths of a second
+    std::uint16_t cell_id = 0;
+    std::uint32_t ack_seq = 0;
+    CellCommand ack_command = CellCommand::none;
+    AckResult ack_result = AckResult::none;
+    std::uint32_t ack_detail = 0;
+    Uuid job_id{};
+    std::uint32_t token = 0;
+    JobState job_state = JobState::none;
+    JobResult job_result = JobResult::none;
+    std::uint16_t progress = 0;  // 0.01 %
+    std::uint32_t elapsed_s = 0;
+    std::uint32_t remaining_s = 0;
+    std::uint32_t block_no = 0;
+    std::uint16_t tool_no = 0;
+    std::array<std::int32_t, 3> tip{};  // 0.01 mm
+    std::uint16_t feed_override = 0;    // 0.01 %
+    std::uint16_t spindle_rpm = 0;
+    std::uint16_t alarms = 0;
+    std::uint32_t alarm_code = 0;
+    std::uint32_t alarm_block = 0;
+    std::string alarm_text;  // at most 16 bytes
+    TransferState transfer_state = TransferState::idle;
+    std::uint32_t transfer_next = 0;
+    AckResult transfer_result = AckResult::none;
+    std::uint32_t store_free_kib = 0;
+    std::uint32_t event_no = 0;
+    Sha256 file_sha256{};
+    std::uint32_t starts_total = 0;
+    std::uint64_t cell_time_ms = 0;
+    std::uint32_t owner_held = 0;
+    std::uint32_t ack_owner = 0;
+    std::uint16_t bad_frames = 0;
+    AckResult bad_reason = AckResult::none;
+    bool operator==(const Status&) const = default;
+    bool has(std::uint16_t flag_bit) const { return (flags & flag_bit) != 0; }
+};
+
+// What the cell remembers of one job; the answer to QUERY.
+struct ResultWords {
+    Uuid job_id{};
+    JobState job_state = JobState::none;
+    JobResult job_result = JobResult::none;
+    std::uint32_t starts = 0;
+    std::uint32_t start_epoch = 0;
+    std::uint32_t start_seq = 0;
+    std::uint64_t start_time_ms = 0;
+    std::uint64_t end_time_ms = 0;
+    Sha256 file_sha256{};
+    std::uint32_t last_block = 0;
+    std::uint32_t query_seq = 0;
+    std::uint32_t query_owner = 0;
+    bool operator==(const ResultWords&) const = default;
+};
+
+struct Command {
+    std::uint32_t epoch = 0;
+    std::uint32_t seq = 0;
+    CellCommand command = CellCommand::none;
+    Uuid job_id{};
+    std::uint32_t token = 0;
+    std::uint32_t arg0 = 0;
+    std::uint32_t arg1 = 0;
+    Sha256 file_sha256{};
+    std::uint32_t owner = 0;
+    bool operator==(const Command&) const = default;
+};
+
+// The ticket in the scale of the wire.
+struct TicketWords {
+    std::uint16_t ticket_version = 1;
+    Uuid job_id{};
+    Sha256 file_sha256{};
+    std::uint32_t file_size = 0;
+    Transfer transfer = Transfer::drop_folder;
+    std::string file_name;
+    std::uint16_t unit = 1;  // mm
+    std::array<std::int32_t, 3> box_min{};
+    std::array<std::int32_t, 3> box_max{};
+    std::array<std::int32_t, 3> stock{};
+    std::uint16_t material = 0;
+    std::uint16_t tool_no = 0;
+    std::uint32_t tool_diameter_um = 0;
+    std::uint16_t spindle_max_rpm = 0;
+    std::uint32_t feed_max_mm_per_min = 0;
+    std::uint32_t estimated_time_s = 0;
+    std::uint16_t base_plane = 0xFFFF;
+    std::uint16_t piece_no = 0;
+    std::uint16_t piece_count = 0;
+    Uuid project_id{};
+    std::uint64_t created_ms = 0;
+    LinkLoss on_link_loss = LinkLoss::go_on;
+    std::uint16_t requirements = 0;  // b0 rehearsal required
+    std::uint16_t cell_id = 0;
+    std::uint16_t made_for = 0;  // b0: made for a simulated cell
+    std::uint32_t key_id = 0;
+    bool operator==(const TicketWords&) const = default;
+};
+
+struct Heartbeat {
+    std::uint32_t epoch = 0;
+    std::uint32_t owner = 0;
+    std::uint16_t counter = 0;
+    bool operator==(const Heartbeat&) const = default;
+};
+
+struct Chunk {
+    std::uint32_t offset = 0;
+    std::vector<std::uint8_t> data;  // 1..232 bytes
+    std::uint32_t crc = 0;
+    bool operator==(const Chunk&) const = default;
+};
+
+}  // namespace qchopper
