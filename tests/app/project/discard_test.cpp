@@ -6,7 +6,9 @@
 #include <set>
 
 #include "app/project/open_project.h"
+#include "app/project/project_folder.h"
 #include "app/project/project_json.h"
+#include "app/project/replay.h"
 #include "app/project/replay_plan.h"
 #include "base/error.h"
 #include "base/file.h"

@@ -5,7 +5,9 @@
 
 #include <map>
 
+#include "app/project/project_folder.h"
 #include "app/project/project_json.h"
+#include "app/project/replay.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "segment/mesh/measure.h"

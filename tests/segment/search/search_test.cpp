@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "app/project/presets.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
 #include "tests/shapes.h"
@@ -131,15 +130,6 @@ TEST(PieceNames, CountOnAfterZ) {
     EXPECT_EQ(piece_name(26), "AA");
     EXPECT_EQ(piece_name(27), "AB");
     EXPECT_EQ(piece_name(26 + 26 * 26), "AAA");
-}
-
-TEST(Presets, TheFourCasesOfTheThesisAreThere) {
-    EXPECT_EQ(preset("bunny")->stop.min_cuts, 3);
-    EXPECT_EQ(preset("bunny")->objectives.weights, (Weights{10, 5, 50, 10}));
-    EXPECT_EQ(preset("skull")->stop.max_faces, 100'000U);
-    EXPECT_EQ(preset("vertebrae")->objectives.weights, (Weights{5, 1, 200, 1}));
-    EXPECT_TRUE(preset("femur"));
-    EXPECT_FALSE(preset("rabbit"));
 }
 
 }  // namespace
