@@ -63,7 +63,7 @@ struct Status {
 };
 
 // What the cell remembers of one job; the answer to QUERY.
-struct ResultWords {
+struct ResultRecord {
     Uuid job_id{};
     JobState job_state = JobState::none;
     JobResult job_result = JobResult::none;
@@ -76,7 +76,7 @@ struct ResultWords {
     std::uint32_t last_block = 0;
     std::uint32_t query_seq = 0;
     std::uint32_t query_owner = 0;
-    bool operator==(const ResultWords&) const = default;
+    bool operator==(const ResultRecord&) const = default;
 };
 
 struct Command {
@@ -93,7 +93,7 @@ struct Command {
 };
 
 // The ticket in the scale of the wire.
-struct TicketWords {
+struct WireTicket {
     std::uint16_t ticket_version = 1;
     Uuid job_id{};
     Sha256 file_sha256{};
@@ -120,7 +120,7 @@ struct TicketWords {
     std::uint16_t cell_id = 0;
     std::uint16_t made_for = 0;  // b0: made for a simulated cell
     std::uint32_t key_id = 0;
-    bool operator==(const TicketWords&) const = default;
+    bool operator==(const WireTicket&) const = default;
 };
 
 struct Heartbeat {

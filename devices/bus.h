@@ -13,7 +13,7 @@
 
 namespace qchopper {
 
-using Words = std::vector<std::uint16_t>;
+using Registers = std::vector<std::uint16_t>;
 
 enum class BusEnd {
     ok,
@@ -24,7 +24,7 @@ enum class BusEnd {
 struct BusAnswer {
     BusEnd end = BusEnd::lost;
     int exception = 0;      // Modbus exception code if end is exception
-    Words words;            // what was read
+    Registers registers;    // what was read
     std::string why;        // for people, if end is not ok
     bool is_alien = false;  // with `lost`: what came is no answer to the request
     bool is_ok() const { return end == BusEnd::ok; }
@@ -35,7 +35,7 @@ class RegisterBus {
     virtual ~RegisterBus() = default;
     virtual BusAnswer read_input(std::uint16_t address, std::uint16_t count) = 0;
     virtual BusAnswer read_holding(std::uint16_t address, std::uint16_t count) = 0;
-    virtual BusAnswer write_holding(std::uint16_t address, std::span<const std::uint16_t> words) = 0;
+    virtual BusAnswer write_holding(std::uint16_t address, std::span<const std::uint16_t> registers) = 0;
     // From when `cancelled` is set, which may be during a call, all calls together take no longer than within_s: what
     // is asked for after that is lost at once. nullptr: no longer. A bus whose calls never wait needs nothing here.
     virtual void leave_when(const std::atomic<bool>* cancelled, double within_s) {

@@ -24,7 +24,7 @@ std::size_t offset_of(Part part) {
 
 template <class T>
 std::uint32_t crc_of(std::span<const std::uint16_t> block) {
-    return WordReader(block.subspan(offset_of<T>(Part::crc))).u32();
+    return RegisterReader(block.subspan(offset_of<T>(Part::crc))).u32();
 }
 
 template <class T>
@@ -33,80 +33,81 @@ bool has(Part part) {
 }
 
 template <class T>
-WordFault fault_of(const Block& block, std::span<const std::uint16_t> words) {
-    if (words.size() != block.count) return WordFault::length;
-    if (is_all_zero(words)) return WordFault::empty;
-    const auto at = [&](Part part) { return words[offset_of<T>(part)]; };
-    if (has<T>(Part::magic) && at(Part::magic) != cell_magic) return WordFault::magic;
-    if (has<T>(Part::version) && !is_our_major(at(Part::version))) return WordFault::version;
-    if (has<T>(Part::snap_end) && at(Part::snap_begin) != at(Part::snap_end)) return WordFault::torn;
-    if (!has<T>(Part::crc)) return WordFault::none;
-    return crc32_of_words(words.first(offset_of<T>(Part::crc))) == crc_of<T>(words) ? WordFault::none : WordFault::crc;
+BlockFault fault_of(const Block& block, std::span<const std::uint16_t> registers) {
+    if (registers.size() != block.count) return BlockFault::length;
+    if (is_all_zero(registers)) return BlockFault::empty;
+    const auto at = [&](Part part) { return registers[offset_of<T>(part)]; };
+    if (has<T>(Part::magic) && at(Part::magic) != cell_magic) return BlockFault::magic;
+    if (has<T>(Part::version) && !is_our_major(at(Part::version))) return BlockFault::version;
+    if (has<T>(Part::snap_end) && at(Part::snap_begin) != at(Part::snap_end)) return BlockFault::torn;
+    if (!has<T>(Part::crc)) return BlockFault::none;
+    return crc32_of_registers(registers.first(offset_of<T>(Part::crc))) == crc_of<T>(registers) ? BlockFault::none
+                                                                                                : BlockFault::crc;
 }
 
 template <class T>
-Words encoded(const T& value) {
+Registers encoded(const T& value) {
     const std::span<const Row<T>> rows = rows_of<T>();
-    WordWriter writer;
+    RegisterWriter writer;
     for (const Row<T>& row : rows) {
-        assert(writer.words().size() == static_cast<std::size_t>(row.field.address - rows.front().field.address));
+        assert(writer.registers().size() == static_cast<std::size_t>(row.field.address - rows.front().field.address));
         row.put(value, row.field, writer);
     }
-    return writer.words();
+    return writer.registers();
 }
 
 template <class T>
-T taken(std::span<const std::uint16_t> words) {
+T taken(std::span<const std::uint16_t> registers) {
     T value;
-    WordReader reader(words);
+    RegisterReader reader(registers);
     for (const Row<T>& row : rows_of<T>()) row.take(value, row.field, reader);
     return value;
 }
 
 template <class T>
-Decoded<T> decoded(const Block& block, std::span<const std::uint16_t> words) {
-    const WordFault fault = fault_of<T>(block, words);
-    if (fault != WordFault::none) return {fault, {}};
-    return {WordFault::none, taken<T>(words)};
+Decoded<T> decoded(const Block& block, std::span<const std::uint16_t> registers) {
+    const BlockFault fault = fault_of<T>(block, registers);
+    if (fault != BlockFault::none) return {fault, {}};
+    return {BlockFault::none, taken<T>(registers)};
 }
 
 }  // namespace
 
-const char* words(WordFault fault) {
+const char* describe(BlockFault fault) {
     switch (fault) {
-        case WordFault::none:
+        case BlockFault::none:
             return "right";
-        case WordFault::length:
+        case BlockFault::length:
             return "of the wrong length";
-        case WordFault::empty:
+        case BlockFault::empty:
             return "all zero";
-        case WordFault::magic:
+        case BlockFault::magic:
             return "without the mark of a cell of ours";
-        case WordFault::version:
+        case BlockFault::version:
             return "of another version of the register map";
-        case WordFault::crc:
+        case BlockFault::crc:
             return "damaged (checksum)";
-        case WordFault::torn:
+        case BlockFault::torn:
             return "torn (two snapshots in one)";
     }
     return "";
 }
 
-Words encode(const Status& status) {
+Registers encode(const Status& status) {
     return encoded(status);
 }
 Decoded<Status> decode_status(std::span<const std::uint16_t> block) {
     return decoded<Status>(status_block, block);
 }
 
-Words encode(const ResultWords& result) {
+Registers encode(const ResultRecord& result) {
     return encoded(result);
 }
-Decoded<ResultWords> decode_result(std::span<const std::uint16_t> block) {
-    return decoded<ResultWords>(result_block, block);
+Decoded<ResultRecord> decode_result(std::span<const std::uint16_t> block) {
+    return decoded<ResultRecord>(result_block, block);
 }
 
-Words encode(const Command& command) {
+Registers encode(const Command& command) {
     return encoded(command);
 }
 Decoded<Command> decode_command(std::span<const std::uint16_t> block) {
@@ -117,44 +118,44 @@ std::uint32_t command_crc(std::span<const std::uint16_t> block) {
     return crc_of<Command>(block);
 }
 
-Words encode(const TicketWords& ticket) {
+Registers encode(const WireTicket& ticket) {
     return encoded(ticket);
 }
-Decoded<TicketWords> decode_ticket(std::span<const std::uint16_t> block) {
-    return decoded<TicketWords>(ticket_block, block);
+Decoded<WireTicket> decode_ticket(std::span<const std::uint16_t> block) {
+    return decoded<WireTicket>(ticket_block, block);
 }
 
-Words encode(const Heartbeat& heartbeat) {
+Registers encode(const Heartbeat& heartbeat) {
     return encoded(heartbeat);
 }
 Decoded<Heartbeat> decode_heartbeat(std::span<const std::uint16_t> block) {
     return decoded<Heartbeat>(heartbeat_block, block);
 }
 
-Words encode(const Chunk& chunk) {
+Registers encode(const Chunk& chunk) {
     return encoded(chunk);
 }
 Decoded<Chunk> decode_chunk(std::span<const std::uint16_t> block) {
-    if (block.size() <= chunk_head) return {WordFault::length, {}};
+    if (block.size() <= chunk_head) return {BlockFault::length, {}};
     Chunk chunk = taken<Chunk>(block);
     const std::size_t length = chunk.data.size();
     if (length < 1 || length > max_chunk_bytes || block.size() != chunk_head + (length + 1) / 2) {
-        return {WordFault::length, {}};
+        return {BlockFault::length, {}};
     }
-    return {WordFault::none, std::move(chunk)};
+    return {BlockFault::none, std::move(chunk)};
 }
 
 std::uint32_t chunk_crc(std::uint32_t epoch, std::uint32_t owner, const Uuid& job_id, std::uint32_t offset,
                         std::span<const std::uint8_t> data) {
     // As bytes, not as words: an odd chunk has no padding byte in its sum.
     std::vector<std::uint8_t> bytes;
-    const Words head = WordWriter()
-                           .u32(epoch)
-                           .u32(owner)
-                           .bytes(job_id)
-                           .u32(offset)
-                           .u16(static_cast<std::uint16_t>(data.size()))
-                           .words();
+    const Registers head = RegisterWriter()
+                               .u32(epoch)
+                               .u32(owner)
+                               .bytes(job_id)
+                               .u32(offset)
+                               .u16(static_cast<std::uint16_t>(data.size()))
+                               .registers();
     for (const std::uint16_t word : head) {
         bytes.push_back(static_cast<std::uint8_t>(word >> 8));
         bytes.push_back(static_cast<std::uint8_t>(word & 0xFF));

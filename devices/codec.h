@@ -13,34 +13,34 @@
 
 #include "cam/job/ticket.h"
 #include "devices/blocks.h"
+#include "devices/register_writer.h"
 #include "devices/registers.h"
-#include "devices/words.h"
 
 namespace qchopper {
 
-enum class WordFault : std::uint8_t { none, length, empty, magic, version, crc, torn };  // empty: all zero, inert
-const char* words(WordFault fault);
+enum class BlockFault : std::uint8_t { none, length, empty, magic, version, crc, torn };  // empty: all zero, inert
+const char* describe(BlockFault fault);
 
 template <class T>
 struct Decoded {
-    WordFault fault = WordFault::none;
+    BlockFault fault = BlockFault::none;
     T value{};
-    bool is_ok() const { return fault == WordFault::none; }
+    bool is_ok() const { return fault == BlockFault::none; }
 };
 
-Words encode(const Status& status);
+Registers encode(const Status& status);
 Decoded<Status> decode_status(std::span<const std::uint16_t> block);
 
-Words encode(const ResultWords& result);
-Decoded<ResultWords> decode_result(std::span<const std::uint16_t> block);
+Registers encode(const ResultRecord& result);
+Decoded<ResultRecord> decode_result(std::span<const std::uint16_t> block);
 
-Words encode(const Command& command);
+Registers encode(const Command& command);
 Decoded<Command> decode_command(std::span<const std::uint16_t> block);
 // The checksum of a whole block as it came.
 std::uint32_t command_crc(std::span<const std::uint16_t> block);
 
-Words encode(const TicketWords& ticket);
-Decoded<TicketWords> decode_ticket(std::span<const std::uint16_t> block);
+Registers encode(const WireTicket& ticket);
+Decoded<WireTicket> decode_ticket(std::span<const std::uint16_t> block);
 
 // What only the hand-off knows of a ticket.
 struct TicketOrder {
@@ -54,12 +54,12 @@ struct TicketOrder {
 };
 // Lengths are rounded to the nearest 0.01 mm (the tool's diameter to 0.001 mm). Throws InputError if one is not a
 // number or does not fit, or if the file name is not one that a cell takes.
-TicketWords ticket_words(const JobTicket& ticket, const TicketOrder& order);
+WireTicket wire_ticket(const JobTicket& ticket, const TicketOrder& order);
 
-Words encode(const Heartbeat& heartbeat);
+Registers encode(const Heartbeat& heartbeat);
 Decoded<Heartbeat> decode_heartbeat(std::span<const std::uint16_t> block);
 
-Words encode(const Chunk& chunk);
+Registers encode(const Chunk& chunk);
 // fault length: LEN does not fit the number of registers.
 Decoded<Chunk> decode_chunk(std::span<const std::uint16_t> block);
 // Over EPOCH, OWNER, JOB_ID, OFFSET, LEN and the data: no chunk of somebody else or of another job fits.

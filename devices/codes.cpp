@@ -90,7 +90,7 @@ std::span<const char* const> flag_names() {
 const char* name(AckResult result) {
     return row_of(result).name;
 }
-const char* words(AckResult result) {
+const char* describe(AckResult result) {
     return row_of(result).meaning;
 }
 

@@ -123,7 +123,7 @@ std::span<const char* const> flag_names();
 
 // As in the map, "NO_CONSENT"; and in words for the operator, "the operator at the cell did not consent".
 const char* name(AckResult result);
-const char* words(AckResult result);
+const char* describe(AckResult result);
 const char* name(JobState state);
 const char* name(JobResult result);
 

@@ -110,7 +110,7 @@ class Dispatcher {
         HandOffInput input;
         for (;;) {
             input.cancelled = is_cancelled();
-            HandOffTurn turn = advance(plan_, std::move(state), input, now_s());
+            HandOffTransition turn = advance(plan_, std::move(state), input, now_s());
             state = std::move(turn.state);
             for (const std::string& line : turn.lines) say(line);
             note(turn.action.journal);
@@ -150,7 +150,7 @@ class Dispatcher {
             case Kind::write_ticket:
                 return write(ticket_block.base, encode(plan_.ticket));
             case Kind::write_signature:
-                return write(signature_block.base, Words(signature_block.count, 0));
+                return write(signature_block.base, Registers(signature_block.count, 0));
             case Kind::heartbeat:
                 return write(heartbeat_block.base, encode(action.beat));
             case Kind::write_chunk:
@@ -169,7 +169,9 @@ class Dispatcher {
         return {};
     }
 
-    HandOffInput write(std::uint16_t base, const Words& block) { return input_from(bus_.write_holding(base, block)); }
+    HandOffInput write(std::uint16_t base, const Registers& block) {
+        return input_from(bus_.write_holding(base, block));
+    }
 
     HandOffInput write_chunk(std::uint32_t offset, std::uint32_t epoch) {
         Chunk chunk;
@@ -254,7 +256,7 @@ void check_file(const JobTicket& ticket, const Bytes& file) {
 
 }  // namespace
 
-const char* words(StartVerdict verdict) {
+const char* describe(StartVerdict verdict) {
     switch (verdict) {
         case StartVerdict::started:
             return "STARTED";
@@ -277,7 +279,7 @@ JobOutcome dispatch_job(RegisterBus& bus, const JobTicket& ticket, const Bytes& 
     order.transfer = options.drop_folder.empty() ? Transfer::chunks : Transfer::drop_folder;
     order.on_link_loss = options.on_link_loss;
     check_file(ticket, file);
-    HandOffPlan plan{ticket_words(ticket, order), random_number(), random_number(), options};
+    HandOffPlan plan{wire_ticket(ticket, order), random_number(), random_number(), options};
     return Dispatcher(bus, ticket, file, std::move(plan), context).run();
 }
 

@@ -30,7 +30,7 @@ HandOffInput read(RegisterBus& bus, const Block& block, std::optional<T> HandOff
         const BusAnswer answer = bus.read_input(block.base, block.count);
         input = input_from(answer);
         if (!answer.is_ok()) return input;
-        const auto decoded = decode(answer.words);
+        const auto decoded = decode(answer.registers);
         if (decoded.is_ok()) {
             input.*where = decoded.value;
             return input;
@@ -38,7 +38,7 @@ HandOffInput read(RegisterBus& bus, const Block& block, std::optional<T> HandOff
         input.fault = decoded.fault;
     }
     input.end = BusEnd::lost;
-    input.why = std::string(block.name) + " is " + words(input.fault);
+    input.why = std::string(block.name) + " is " + describe(input.fault);
     return input;
 }
 
@@ -62,7 +62,7 @@ HandOffInput read_result_block(RegisterBus& bus) {
 }
 
 std::optional<double> pause_before_next_contact(const HandOffInput& failed, int tries, double since_s) {
-    const bool is_foreign = failed.fault == WordFault::magic || failed.fault == WordFault::version;
+    const bool is_foreign = failed.fault == BlockFault::magic || failed.fault == BlockFault::version;
     if (is_foreign || lacks_registers(failed)) return std::nullopt;
     const double pause_s = pauses_s[std::min<std::size_t>(static_cast<std::size_t>(tries), std::size(pauses_s) - 1)];
     if (since_s + pause_s > patience_s) return std::nullopt;
@@ -70,9 +70,9 @@ std::optional<double> pause_before_next_contact(const HandOffInput& failed, int 
 }
 
 ContactFailure why_no_contact(const HandOffInput& failed) {
-    if (failed.fault != WordFault::none) {
+    if (failed.fault != BlockFault::none) {
         return {DeviceFault::protocol,
-                "what answers is not a cell of ours: its STATUS is " + std::string(words(failed.fault)),
+                "what answers is not a cell of ours: its STATUS is " + std::string(describe(failed.fault)),
                 "Check address and port; a gateway in between may swap words."};
     }
     if (failed.is_alien) {

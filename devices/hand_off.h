@@ -17,12 +17,12 @@ namespace qchopper {
 
 const char* name(HandOffStep step);
 
-struct HandOffTurn {
+struct HandOffTransition {
     HandOff state;
     HandOffAction action;
     std::vector<std::string> lines;  // for the operator
 };
-HandOffTurn advance(const HandOffPlan& plan, HandOff state, const HandOffInput& input, double now_s);
+HandOffTransition advance(const HandOffPlan& plan, HandOff state, const HandOffInput& input, double now_s);
 
 // What helps after a refusal, or nothing.
 const char* remedy(AckResult refusal);

@@ -15,11 +15,11 @@ namespace qchopper {
 struct HandOffInput {
     BusEnd end = BusEnd::ok;
     int exception = 0;
-    WordFault fault = WordFault::none;  // with `lost`: somebody answered, but not like a cell
-    std::string why;                    // if end is not ok, or if put_file failed
-    bool is_alien = false;              // with `lost`: what came is no answer to the request
+    BlockFault fault = BlockFault::none;  // with `lost`: somebody answered, but not like a cell
+    std::string why;                      // if end is not ok, or if put_file failed
+    bool is_alien = false;                // with `lost`: what came is no answer to the request
     std::optional<Status> status;
-    std::optional<ResultWords> result;
+    std::optional<ResultRecord> result;
     bool cancelled = false;  // the caller asks to stop
 };
 

@@ -40,7 +40,7 @@ enum class HandOffStep : std::uint8_t {
 
 // All that is fixed before the first contact.
 struct HandOffPlan {
-    TicketWords ticket;
+    WireTicket ticket;
     std::uint32_t owner = 0;   // random, not 0
     std::uint32_t secret = 0;  // random, never shown
     DispatchOptions options;
@@ -115,8 +115,8 @@ struct HandOff {
     double leave_by_s = -1;           // once the caller has asked to stop: when the hand-off is over at the latest
     bool reset_sent = false;          // at the end
 
-    double elapsed_s = 0;               // of the job, as the cell said last
-    std::optional<ResultWords> result;  // of the query at the end
+    double elapsed_s = 0;                // of the job, as the cell said last
+    std::optional<ResultRecord> result;  // of the query at the end
     StartVerdict verdict = StartVerdict::unknown;
     AckResult refusal = AckResult::none;
     std::optional<DeviceFault> fault;  // finished by an error before anything was started

@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "devices/hand_off_turn.h"
+#include "devices/hand_off_context.h"
 
-namespace qchopper::turning {
+namespace qchopper::hand_off {
 namespace {
 
 // The steps that are one command: what it is, whether it names our job, and what comes next when it is done.
@@ -35,33 +35,34 @@ const StepRow* row_of(HandOffStep step) {
     return row == std::end(step_rows) ? nullptr : row;
 }
 
-std::string journal_row(const TurnUnderWay& turn, HandOffStep step) {
-    const std::string numbers = " epoch=" + std::to_string(turn.h.epoch) + " seq=" + std::to_string(turn.h.seq + 1);
-    const std::string job = " job=" + to_text(turn.job_id());
+std::string journal_row(const StepContext& context, HandOffStep step) {
+    const std::string numbers =
+        " epoch=" + std::to_string(context.h.epoch) + " seq=" + std::to_string(context.h.seq + 1);
+    const std::string job = " job=" + to_text(context.job_id());
     switch (step) {
         case claim:
-            return "EPOCH" + numbers + " owner=" + std::to_string(turn.plan.owner);
+            return "EPOCH" + numbers + " owner=" + std::to_string(context.plan.owner);
         case start:
-            return "START_INTENT" + job + numbers + " token=" + std::to_string(turn.h.command.token);
+            return "START_INTENT" + job + numbers + " token=" + std::to_string(context.h.command.token);
         case clear_result:
-            return "RESULT" + job + " " + name(turn.h.result ? turn.h.result->job_state : JobState::none);
+            return "RESULT" + job + " " + name(context.h.result ? context.h.result->job_state : JobState::none);
         default:
             return std::string("COMMAND ") + name(step) + job + numbers;
     }
 }
 
-HandOffAction send_step(TurnUnderWay& turn, const StepRow& row) {
-    HandOff& h = turn.h;
+HandOffAction send_step(StepContext& context, const StepRow& row) {
+    HandOff& h = context.h;
     h.command = Command{};
     if (row.names_job) {
-        h.command.job_id = turn.job_id();
-        h.command.file_sha256 = turn.plan.ticket.file_sha256;
+        h.command.job_id = context.job_id();
+        h.command.file_sha256 = context.plan.ticket.file_sha256;
     }
     switch (row.step) {
         case claim:
-            if (++h.claims > most_claims) return give_up(turn, "the link is lost at every CLAIM");
-            h.epoch = std::max(h.epoch, turn.status().epoch_held) + 1;
-            h.command.arg1 = turn.plan.secret;
+            if (++h.claims > most_claims) return give_up(context, "the link is lost at every CLAIM");
+            h.epoch = std::max(h.epoch, context.status().epoch_held) + 1;
+            h.command.arg1 = context.plan.secret;
             h.claim_sent = true;
             break;
         case store:
@@ -71,164 +72,166 @@ HandOffAction send_step(TurnUnderWay& turn, const StepRow& row) {
             h.command.arg0 = h.receipt;
             break;
         case start:
-            h.command.token = turn.status().token;
+            h.command.token = context.status().token;
             h.start_sent = true;
             break;
         default:
             break;
     }
-    return send(turn, row.command, journal_row(turn, row.step));
+    return send(context, row.command, journal_row(context, row.step));
 }
 
 // The way to the end after the job has ended; nothing here can change what is reported.
-HandOffAction wind_up(TurnUnderWay& turn) {
-    const Status& status = turn.status();
-    switch (turn.h.step) {
+HandOffAction wind_up(StepContext& context) {
+    const Status& status = context.status();
+    switch (context.h.step) {
         case reset:
-            if (!turn.h.reset_sent && (status.state == PackState::stopped || status.state == PackState::complete)) {
-                turn.h.reset_sent = true;
-                return send_step(turn, *row_of(reset));
+            if (!context.h.reset_sent && (status.state == PackState::stopped || status.state == PackState::complete)) {
+                context.h.reset_sent = true;
+                return send_step(context, *row_of(reset));
             }
-            if (status.state == PackState::resetting && turn.now_s - turn.h.step_since_s < turn.timings().answer_s) {
-                return pause(turn);
+            if (status.state == PackState::resetting &&
+                context.now_s - context.h.step_since_s < context.timings().answer_s) {
+                return pause(context);
             }
-            return enter(turn, release);
+            return enter(context, release);
         case release:
-            if (turn.h.claim_sent) return send_step(turn, *row_of(release));
+            if (context.h.claim_sent) return send_step(context, *row_of(release));
             [[fallthrough]];
         default:
-            return give_up(turn, "the hand-off is over");
+            return give_up(context, "the hand-off is over");
     }
 }
 
 // Somebody else's job stands in the way. We own the cell, so its dispatcher has gone.
-HandOffAction clear_the_way(TurnUnderWay& turn) {
-    const Status& status = turn.status();
-    turn.h.command = Command{};
-    turn.h.command.job_id = status.job_id;
+HandOffAction clear_the_way(StepContext& context) {
+    const Status& status = context.status();
+    context.h.command = Command{};
+    context.h.command.job_id = status.job_id;
     const std::string job = " job=" + to_text(status.job_id);
     if (status.job_state == JobState::ended || status.job_state == JobState::aborted) {
-        turn.say("the cell still shows the end of job " + to_text(status.job_id) + " (" + name(status.job_result) +
-                 "); it is cleared from the display, the cell remembers it");
-        return send(turn, CellCommand::clear_result, "CLEAR_OTHER" + job);
+        context.say("the cell still shows the end of job " + to_text(status.job_id) + " (" + name(status.job_result) +
+                    "); it is cleared from the display, the cell remembers it");
+        return send(context, CellCommand::clear_result, "CLEAR_OTHER" + job);
     }
     if (status.job_state == JobState::stored || status.job_state == JobState::prepared) {
-        turn.say("the cell holds job " + to_text(status.job_id) + " of a dispatcher that has gone; it is cancelled");
-        return send(turn, CellCommand::cancel, "CANCEL_OTHER" + job);
+        context.say("the cell holds job " + to_text(status.job_id) + " of a dispatcher that has gone; it is cancelled");
+        return send(context, CellCommand::cancel, "CANCEL_OTHER" + job);
     }
-    turn.h.fault = DeviceFault::busy;
-    return withdraw(turn, "the cell is busy with job " + to_text(status.job_id) + "; nothing was started",
+    context.h.fault = DeviceFault::busy;
+    return withdraw(context, "the cell is busy with job " + to_text(status.job_id) + "; nothing was started",
                     "Try again when it has ended.");
 }
 
 }  // namespace
 
-HandOffAction enter(TurnUnderWay& turn, HandOffStep step) {
-    HandOff& h = turn.h;
-    if (h.step != step) h.step_since_s = turn.now_s;
+HandOffAction enter(StepContext& context, HandOffStep step) {
+    HandOff& h = context.h;
+    if (h.step != step) h.step_since_s = context.now_s;
     h.step = step;
     h.waits_for_ack = false;
     switch (step) {
         case stage_file:
-            if (turn.plan.ticket.transfer == Transfer::chunks) return enter(turn, claim);
+            if (context.plan.ticket.transfer == Transfer::chunks) return enter(context, claim);
             return plain(Kind::stage_file);
         case make_ready:
             // Whoever has decided to withdraw does not go on after a lost link.
-            if (!h.why.empty()) return enter(turn, h.is_stored ? cancel : release);
+            if (!h.why.empty()) return enter(context, h.is_stored ? cancel : release);
             h.ready_commands = 0;
-            return get_ready(turn);
+            return get_ready(context);
         case write_ticket:
             return plain(Kind::write_ticket);
         case write_signature:
             return plain(Kind::write_signature);
         case deliver:
-            h.chunk_done = h.chunk_next = turn.status().transfer_next;
+            h.chunk_done = h.chunk_next = context.status().transfer_next;
             h.chunks_in_flight = 0;
-            return send_file(turn);
+            return send_file(context);
         case run:
-            return watch(turn);
+            return watch(context);
         case reset:
         case release:
         case finished:
-            return wind_up(turn);
+            return wind_up(context);
         default:
-            return send_step(turn, *row_of(step));
+            return send_step(context, *row_of(step));
     }
 }
 
-HandOffAction look_at_cell(TurnUnderWay& turn) {
-    const Status& status = turn.status();
-    const DispatchOptions& options = turn.plan.options;
-    turn.h.cell_beat_s = turn.now_s;
+HandOffAction look_at_cell(StepContext& context) {
+    const Status& status = context.status();
+    const DispatchOptions& options = context.plan.options;
+    context.h.cell_beat_s = context.now_s;
     if (status.cell_id != options.cell_id) {
-        return fail(turn, DeviceFault::refused,
+        return fail(context, DeviceFault::refused,
                     "this is cell " + std::to_string(status.cell_id) + ", not cell " + std::to_string(options.cell_id) +
                         "; nothing was sent",
                     "Check the address, or the cell id in the cell file.");
     }
     if (status.has(flag::simulated) != options.want_simulated) {
-        return fail(turn, DeviceFault::refused,
+        return fail(context, DeviceFault::refused,
                     options.want_simulated ? "a simulated cell was wanted, but this one is real; nothing was sent"
                                            : "a real cell was wanted, but this one is simulated; nothing was sent",
                     "Check the address.");
     }
-    turn.say("cell " + std::to_string(status.cell_id) + (status.has(flag::simulated) ? " (SIMULATED)" : "") +
-             " is in " + name(status.state));
-    return enter(turn, stage_file);
+    context.say("cell " + std::to_string(status.cell_id) + (status.has(flag::simulated) ? " (SIMULATED)" : "") +
+                " is in " + name(status.state));
+    return enter(context, stage_file);
 }
 
-HandOffAction get_ready(TurnUnderWay& turn) {
-    HandOff& h = turn.h;
-    const Status& status = turn.status();
-    const bool foreign = status.job_id != Uuid{} && status.job_id != turn.job_id();
+HandOffAction get_ready(StepContext& context) {
+    HandOff& h = context.h;
+    const Status& status = context.status();
+    const bool foreign = status.job_id != Uuid{} && status.job_id != context.job_id();
     if (h.ready_commands > most_ready_commands) {
         h.fault = DeviceFault::busy;
-        return withdraw(turn,
+        return withdraw(context,
                         std::string("the cell acknowledges ") + name(h.command.command) + " and stays in " +
                             name(status.state) + "; nothing was started",
                         "Look at the cell.");
     }
-    if (foreign) return clear_the_way(turn);
+    if (foreign) return clear_the_way(context);
     switch (status.state) {
         case PackState::idle:
-            return enter(turn, write_ticket);
+            return enter(context, write_ticket);
         case PackState::stopped:
         case PackState::complete:
-            turn.h.command = Command{};
-            return send(turn, CellCommand::reset, "RESET");
+            context.h.command = Command{};
+            return send(context, CellCommand::reset, "RESET");
         case PackState::aborted:
-            turn.say("the machine is aborted; somebody at the cell must agree to clear it");
-            turn.h.command = Command{};
-            return send(turn, CellCommand::clear, "CLEAR");
+            context.say("the machine is aborted; somebody at the cell must agree to clear it");
+            context.h.command = Command{};
+            return send(context, CellCommand::clear, "CLEAR");
         default:
             break;
     }
-    if (turn.now_s - turn.h.step_since_s > turn.timings().answer_s) {
-        turn.h.fault = DeviceFault::busy;
-        return withdraw(turn, std::string("the cell stays in ") + name(status.state) + "; nothing was started",
+    if (context.now_s - context.h.step_since_s > context.timings().answer_s) {
+        context.h.fault = DeviceFault::busy;
+        return withdraw(context, std::string("the cell stays in ") + name(status.state) + "; nothing was started",
                         "Try again when it is idle.");
     }
-    return pause(turn);
+    return pause(context);
 }
 
-HandOffAction send_file(TurnUnderWay& turn) {
-    HandOff& h = turn.h;
+HandOffAction send_file(StepContext& context) {
+    HandOff& h = context.h;
     constexpr int window = 16;
-    if (turn.plan.ticket.transfer == Transfer::drop_folder) return plain(Kind::put_file);
-    const std::uint32_t size = turn.plan.ticket.file_size;
-    if (turn.in.status && h.chunks_in_flight > 0) {
+    if (context.plan.ticket.transfer == Transfer::drop_folder) return plain(Kind::put_file);
+    const std::uint32_t size = context.plan.ticket.file_size;
+    if (context.in.status && h.chunks_in_flight > 0) {
         // What the cell says it has is where to go on, whatever became of the chunks before.
-        const bool moved = turn.status().transfer_next != h.chunk_done;
+        const bool moved = context.status().transfer_next != h.chunk_done;
         h.chunks_in_flight = 0;
-        h.chunk_done = h.chunk_next = turn.status().transfer_next;
-        if (h.chunk_next >= size) return enter(turn, verify);
-        if (moved) h.step_since_s = turn.now_s;
-        if (turn.now_s - h.step_since_s > turn.timings().answer_s) {
-            return withdraw(turn,
-                            std::string("the cell does not take the job file: ") + words(turn.status().transfer_result),
-                            "Give a drop folder.");
+        h.chunk_done = h.chunk_next = context.status().transfer_next;
+        if (h.chunk_next >= size) return enter(context, verify);
+        if (moved) h.step_since_s = context.now_s;
+        if (context.now_s - h.step_since_s > context.timings().answer_s) {
+            return withdraw(
+                context,
+                std::string("the cell does not take the job file: ") + describe(context.status().transfer_result),
+                "Give a drop folder.");
         }
-        if (!moved) return pause(turn);
+        if (!moved) return pause(context);
     }
     if (h.chunks_in_flight == window || h.chunk_next >= size) {
         h.chunks_in_flight = std::max(h.chunks_in_flight, 1);
@@ -241,56 +244,56 @@ HandOffAction send_file(TurnUnderWay& turn) {
     return action;
 }
 
-HandOffAction watch(TurnUnderWay& turn) {
-    HandOff& h = turn.h;
-    const Status& status = turn.status();
-    const bool shows_it_running = turn.shows_our_job() && has_started(status.job_state);
-    if (turn.shows_our_job() && !shows_it_running && !h.is_started) {
+HandOffAction watch(StepContext& context) {
+    HandOff& h = context.h;
+    const Status& status = context.status();
+    const bool shows_it_running = context.shows_our_job() && has_started(status.job_state);
+    if (context.shows_our_job() && !shows_it_running && !h.is_started) {
         // START was acknowledged: the state has to follow.
-        if (turn.is_leaving() || turn.now_s - h.step_since_s <= turn.timings().answer_s) return pause(turn);
-        return enter(turn, ask_after);
+        if (context.is_leaving() || context.now_s - h.step_since_s <= context.timings().answer_s) return pause(context);
+        return enter(context, ask_after);
     }
     if (!shows_it_running || status.job_state == JobState::ended || status.job_state == JobState::aborted) {
-        return enter(turn, ask_after);
+        return enter(context, ask_after);
     }
     h.odd_answers = 0;
-    if (turn.is_leaving() && !h.is_cancelled) return leave_running_job(turn);
+    if (context.is_leaving() && !h.is_cancelled) return leave_running_job(context);
     if (h.is_owner && status.owner_held == 0) {
         h.is_owner = h.claim_sent = false;
-        turn.say("the lease of the cell has run out; the job runs on");
+        context.say("the lease of the cell has run out; the job runs on");
     }
-    return pause(turn);
+    return pause(context);
 }
 
-HandOffAction acknowledged(TurnUnderWay& turn) {
-    HandOff& h = turn.h;
+HandOffAction acknowledged(StepContext& context) {
+    HandOff& h = context.h;
     h.waits_for_ack = false;
-    h.step_since_s = turn.now_s;
+    h.step_since_s = context.now_s;
     switch (h.step) {
         case claim:
             h.is_owner = true;
-            h.beat_s = turn.now_s;
+            h.beat_s = context.now_s;
             break;
         case ask_before:
         case ask_after:
             return plain(Kind::read_result);
         case verify:
-            if (turn.status().file_sha256 != turn.plan.ticket.file_sha256) {
+            if (context.status().file_sha256 != context.plan.ticket.file_sha256) {
                 h.refusal = AckResult::hash_mismatch;
-                return withdraw(turn, "the cell has another file than the one that was sent", "Dispatch it again.");
+                return withdraw(context, "the cell has another file than the one that was sent", "Dispatch it again.");
             }
-            if (turn.plan.options.rehearse) {
-                turn.say(row_of(verify)->says);
-                return enter(turn, rehearse);
+            if (context.plan.options.rehearse) {
+                context.say(row_of(verify)->says);
+                return enter(context, rehearse);
             }
             break;
         case rehearse:
-            h.receipt = turn.status().ack_detail;
+            h.receipt = context.status().ack_detail;
             break;
         case prepare:
-            if (turn.status().token != 0) break;
-            if (++h.tokenless <= most_tokenless) return pause(turn);
-            return withdraw(turn, "the cell acknowledges PREPARE and gives no token", "Look at the cell.");
+            if (context.status().token != 0) break;
+            if (++h.tokenless <= most_tokenless) return pause(context);
+            return withdraw(context, "the cell acknowledges PREPARE and gives no token", "Look at the cell.");
         case start:
             h.start_acknowledged = true;
             break;
@@ -305,47 +308,47 @@ HandOffAction acknowledged(TurnUnderWay& turn) {
     }
     if (h.step == cancel || h.step == release) h.is_given_back = true;
     const StepRow& row = *row_of(h.step);
-    if (row.says[0] != '\0') turn.say(row.says);
-    return enter(turn, row.next);
+    if (row.says[0] != '\0') context.say(row.says);
+    return enter(context, row.next);
 }
 
-HandOffAction refused(TurnUnderWay& turn, AckResult result) {
-    HandOff& h = turn.h;
+HandOffAction refused(StepContext& context, AckResult result) {
+    HandOff& h = context.h;
     h.waits_for_ack = false;
-    const std::string answer = std::string(words(result)) + " (" + name(result) + ")";
+    const std::string answer = std::string(describe(result)) + " (" + name(result) + ")";
     if (h.step == ask_before || h.step == ask_after) {
         if (result == AckResult::unknown_job) return plain(Kind::read_result);
     }
     if (h.step == cancel || h.step == release) h.is_given_back = true;  // it does not hold the job for us
     if (h.step == start && h.is_started && result != AckResult::already_finished) {
-        return contradict(turn, "it refused START, " + answer + ", and STATUS shows the job as started");
+        return contradict(context, "it refused START, " + answer + ", and STATUS shows the job as started");
     }
-    if (h.step == start && result == AckResult::already_finished) return enter(turn, ask_after);
+    if (h.step == start && result == AckResult::already_finished) return enter(context, ask_after);
     if (h.step == start) h.start_sent = false;  // its own refusal: this START has had no effect
     if (h.step == run || h.step == make_ready || h.step == clear_result || h.step == reset || h.step == cancel ||
         h.step == release) {
-        turn.say(std::string("the cell refused ") + name(h.command.command) + ": " + answer);
-        if (h.step == run) return pause(turn);
+        context.say(std::string("the cell refused ") + name(h.command.command) + ": " + answer);
+        if (h.step == run) return pause(context);
         if (h.step == release) h.is_owner = h.claim_sent = false;  // somebody else's by now
-        if (h.step == release) return wind_up(turn);
-        if (h.step != make_ready) return enter(turn, row_of(h.step)->next);
+        if (h.step == release) return wind_up(context);
+        if (h.step != make_ready) return enter(context, row_of(h.step)->next);
     }
     h.refusal = result;
     if (h.step == claim && !h.start_sent && !h.is_stored) {
-        if (result == AckResult::stale_epoch) return fence(turn, "another dispatcher was faster");
-        return fail(turn, result == AckResult::lease_busy ? DeviceFault::busy : DeviceFault::refused,
+        if (result == AckResult::stale_epoch) return fence(context, "another dispatcher was faster");
+        return fail(context, result == AckResult::lease_busy ? DeviceFault::busy : DeviceFault::refused,
                     "the cell cannot be claimed: " + answer + "; nothing was started",
                     result == AckResult::lease_busy ? "Try again when the other one has finished." : "");
     }
     if (h.step == claim) h.is_owner = h.claim_sent = false;
-    if (h.step == claim) return give_up(turn, "the cell was taken over by another dispatcher: " + answer);
-    if (result == AckResult::not_owner) return fence(turn, "the lease of the cell has run out");
+    if (h.step == claim) return give_up(context, "the cell was taken over by another dispatcher: " + answer);
+    if (result == AckResult::not_owner) return fence(context, "the lease of the cell has run out");
     std::string why = "the cell refused the job at " + std::string(name(h.command.command)) + ": " + answer;
-    if (result == AckResult::ticket_field) why += ", address " + std::to_string(turn.status().ack_detail);
-    return withdraw(turn, why, remedy(result));
+    if (result == AckResult::ticket_field) why += ", address " + std::to_string(context.status().ack_detail);
+    return withdraw(context, why, remedy(result));
 }
 
-}  // namespace qchopper::turning
+}  // namespace qchopper::hand_off
 
 namespace qchopper {
 

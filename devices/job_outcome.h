@@ -14,7 +14,7 @@ namespace qchopper {
 enum class StartVerdict { started, not_started, unknown };
 
 // STARTED, NOT STARTED, UNKNOWN: ask the cell.
-const char* words(StartVerdict verdict);
+const char* describe(StartVerdict verdict);
 
 struct JobOutcome {
     StartVerdict verdict = StartVerdict::unknown;

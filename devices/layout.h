@@ -13,7 +13,7 @@
 
 #include "devices/blocks.h"
 #include "devices/field.h"
-#include "devices/words.h"
+#include "devices/register_writer.h"
 
 namespace qchopper {
 
@@ -24,8 +24,8 @@ template <class T>
 struct Row {
     Field field;
     Part part;
-    void (*put)(const T& from, const Field& field, WordWriter& to);
-    void (*take)(T& to, const Field& field, WordReader& from);
+    void (*put)(const T& from, const Field& field, RegisterWriter& to);
+    void (*take)(T& to, const Field& field, RegisterReader& from);
 };
 
 // The table of the block that carries a T; defined in registers.cpp.
@@ -34,11 +34,11 @@ std::span<const Row<T>> rows_of();
 template <>
 std::span<const Row<Status>> rows_of();
 template <>
-std::span<const Row<ResultWords>> rows_of();
+std::span<const Row<ResultRecord>> rows_of();
 template <>
 std::span<const Row<Command>> rows_of();
 template <>
-std::span<const Row<TicketWords>> rows_of();
+std::span<const Row<WireTicket>> rows_of();
 template <>
 std::span<const Row<Chunk>> rows_of();
 template <>
@@ -63,7 +63,7 @@ constexpr bool fits(const Field& field) {
 }
 
 template <class Member>
-void put(const Member& member, const Field& field, WordWriter& to) {
+void put(const Member& member, const Field& field, RegisterWriter& to) {
     if constexpr (is_word<Member>) {
         to.u16(static_cast<std::uint16_t>(member));
     } else if constexpr (std::is_same_v<Member, std::uint32_t>) {
@@ -80,7 +80,7 @@ void put(const Member& member, const Field& field, WordWriter& to) {
 }
 
 template <class Member>
-void take(Member& member, const Field& field, WordReader& from) {
+void take(Member& member, const Field& field, RegisterReader& from) {
     if constexpr (is_word<Member>) {
         member = static_cast<Member>(from.u16());
     } else if constexpr (std::is_same_v<Member, std::uint32_t>) {
@@ -107,8 +107,8 @@ constexpr auto bound(Field field, Part part = Part::value) {
     using T = decltype(owner_of(at));
     using Member = decltype(member_of(at));
     if (!fits<Member>(field)) throw "the field has another type or size than the member";
-    return Row<T>{field, part, [](const T& from, const Field& f, WordWriter& to) { put(from.*at, f, to); },
-                  [](T& to, const Field& f, WordReader& from) { take(to.*at, f, from); }};
+    return Row<T>{field, part, [](const T& from, const Field& f, RegisterWriter& to) { put(from.*at, f, to); },
+                  [](T& to, const Field& f, RegisterReader& from) { take(to.*at, f, from); }};
 }
 
 // The field is one of the three numbers of the member `at`.
@@ -117,30 +117,30 @@ constexpr auto bound_axis(Field field) {
     using T = decltype(owner_of(at));
     if (!fits<std::int32_t>(field)) throw "the field is no i32";
     return Row<T>{field, Part::value,
-                  [](const T& from, const Field& f, WordWriter& to) { put((from.*at)[axis], f, to); },
-                  [](T& to, const Field& f, WordReader& from) { take((to.*at)[axis], f, from); }};
+                  [](const T& from, const Field& f, RegisterWriter& to) { put((from.*at)[axis], f, to); },
+                  [](T& to, const Field& f, RegisterReader& from) { take((to.*at)[axis], f, from); }};
 }
 
 // The field is always `word`.
 template <class T, std::uint16_t word>
 constexpr Row<T> fixed(Field field, Part part) {
     if (field.count != 1) throw "the field is no word";
-    return {field, part, [](const T&, const Field&, WordWriter& to) { to.u16(word); },
-            [](T&, const Field& f, WordReader& from) { from.skip(f.count); }};
+    return {field, part, [](const T&, const Field&, RegisterWriter& to) { to.u16(word); },
+            [](T&, const Field& f, RegisterReader& from) { from.skip(f.count); }};
 }
 
 template <class T>
 constexpr Row<T> reserved(Field field) {
-    return {field, Part::reserved, [](const T&, const Field& f, WordWriter& to) { to.zeros(f.count); },
-            [](T&, const Field& f, WordReader& from) { from.skip(f.count); }};
+    return {field, Part::reserved, [](const T&, const Field& f, RegisterWriter& to) { to.zeros(f.count); },
+            [](T&, const Field& f, RegisterReader& from) { from.skip(f.count); }};
 }
 
 // Over everything before it.
 template <class T>
 constexpr Row<T> checksum(Field field) {
     if (!fits<std::uint32_t>(field)) throw "the field is no u32";
-    return {field, Part::crc, [](const T&, const Field&, WordWriter& to) { to.crc(); },
-            [](T&, const Field& f, WordReader& from) { from.skip(f.count); }};
+    return {field, Part::crc, [](const T&, const Field&, RegisterWriter& to) { to.crc(); },
+            [](T&, const Field& f, RegisterReader& from) { from.skip(f.count); }};
 }
 
 template <class T, std::size_t n>

@@ -30,18 +30,18 @@ unsigned length_of_answer(const ModbusRequest& request) {
 constexpr unsigned length_of_exception = 3;
 
 const char* words_of_exception(unsigned code) {
-    constexpr const char* words[] = {"no such function is served",
-                                     "no such registers, or not all of a block",
-                                     "a wrong count or length",
-                                     "a failure inside the cell",
-                                     "accepted, it takes time",
-                                     "the cell is busy",
-                                     "not done",
-                                     "a fault of its memory",
-                                     "an undefined fault",
-                                     "the gateway has no way to the cell",
-                                     "the cell does not answer to the gateway"};
-    return code >= 1 && code <= std::size(words) ? words[code - 1] : nullptr;
+    constexpr const char* registers[] = {"no such function is served",
+                                         "no such registers, or not all of a block",
+                                         "a wrong count or length",
+                                         "a failure inside the cell",
+                                         "accepted, it takes time",
+                                         "the cell is busy",
+                                         "not done",
+                                         "a fault of its memory",
+                                         "an undefined fault",
+                                         "the gateway has no way to the cell",
+                                         "the cell does not answer to the gateway"};
+    return code >= 1 && code <= std::size(registers) ? registers[code - 1] : nullptr;
 }
 
 std::string differs(const char* what, unsigned is, unsigned wanted) {
@@ -107,7 +107,7 @@ bool is_exception(const ModbusRequest& request, std::span<const std::uint8_t> by
 
 Bytes frame_of(const ModbusRequest& request) {
     assert(request.count >= 1 && request.count <= (is_write(request) ? most_written_registers : most_read_registers));
-    assert(is_write(request) ? request.words.size() == request.count : request.words.empty());
+    assert(is_write(request) ? request.registers.size() == request.count : request.registers.empty());
     Bytes bytes;
     put(bytes, request.transaction);
     put(bytes, 0);
@@ -117,7 +117,7 @@ Bytes frame_of(const ModbusRequest& request) {
     put(bytes, request.address);
     put(bytes, request.count);
     if (is_write(request)) bytes.push_back(static_cast<std::uint8_t>(2 * request.count));
-    for (const std::uint16_t word : request.words) put(bytes, word);
+    for (const std::uint16_t word : request.registers) put(bytes, word);
     assert(bytes.size() <= largest_frame);
     return bytes;
 }
@@ -144,9 +144,9 @@ BusAnswer take_answer(const ModbusRequest& request, std::span<const std::uint8_t
     answer.end = BusEnd::ok;
     if (is_write(request)) return answer;
     for (std::size_t at = header_bytes + 2; at < bytes.size(); at += 2) {
-        answer.words.push_back(static_cast<std::uint16_t>(word_at(bytes, at)));
+        answer.registers.push_back(static_cast<std::uint16_t>(word_at(bytes, at)));
     }
-    assert(answer.words.size() == request.count);
+    assert(answer.registers.size() == request.count);
     return answer;
 }
 

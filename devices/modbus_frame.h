@@ -25,8 +25,8 @@ struct ModbusRequest {
     std::uint8_t unit = 255;
     ModbusFunction function = ModbusFunction::read_input;
     std::uint16_t address = 0;
-    std::uint16_t count = 1;                 // of registers, 1 to what the function allows
-    std::span<const std::uint16_t> words{};  // write_holding: `count` of them
+    std::uint16_t count = 1;                     // of registers, 1 to what the function allows
+    std::span<const std::uint16_t> registers{};  // write_holding: `count` of them
 };
 
 Bytes frame_of(const ModbusRequest& request);

@@ -271,10 +271,10 @@ BusAnswer ModbusTcpBus::read_holding(std::uint16_t address, std::uint16_t count)
     return link_->call({0, 0, ModbusFunction::read_holding, address, count});
 }
 
-BusAnswer ModbusTcpBus::write_holding(std::uint16_t address, std::span<const std::uint16_t> words) {
-    if (words.empty() || words.size() > most_written_registers) return wrong_count();
-    const auto count = static_cast<std::uint16_t>(words.size());
-    return link_->call({0, 0, ModbusFunction::write_holding, address, count, words});
+BusAnswer ModbusTcpBus::write_holding(std::uint16_t address, std::span<const std::uint16_t> registers) {
+    if (registers.empty() || registers.size() > most_written_registers) return wrong_count();
+    const auto count = static_cast<std::uint16_t>(registers.size());
+    return link_->call({0, 0, ModbusFunction::write_holding, address, count, registers});
 }
 
 void ModbusTcpBus::leave_when(const std::atomic<bool>* cancelled, double within_s) {

@@ -40,7 +40,7 @@ class ModbusTcpBus : public RegisterBus {
 
     BusAnswer read_input(std::uint16_t address, std::uint16_t count) override;
     BusAnswer read_holding(std::uint16_t address, std::uint16_t count) override;
-    BusAnswer write_holding(std::uint16_t address, std::span<const std::uint16_t> words) override;
+    BusAnswer write_holding(std::uint16_t address, std::span<const std::uint16_t> registers) override;
     void leave_when(const std::atomic<bool>* cancelled, double within_s) override;
 
  private:

@@ -91,16 +91,16 @@ bool has_active_job(PackState state) {
 Transition transition(PackState from, CellCommand command) {
     if (from == undefined || static_cast<std::uint16_t>(from) > last_pack_state) return {};
     for (const Row& row : moves) {
-        if (row.from == from && row.command == command) return {Meeting::moves, row.to};
+        if (row.from == from && row.command == command) return {TransitionKind::moves, row.to};
     }
     for (const Row& row : in_place) {
-        if (row.from == from && row.command == command) return {Meeting::already, row.to};
+        if (row.from == from && row.command == command) return {TransitionKind::already, row.to};
     }
     // Start again, while the job runs: it has started, and once is enough.
-    if (command == Command::start && has_active_job(from)) return {Meeting::already, from};
-    if (command == Command::stop && has_active_job(from)) return {Meeting::moves, stopping};
-    if (command == Command::abort) return {Meeting::moves, aborting};
-    if (job_command_allowed(from, command)) return {Meeting::allowed, from};
+    if (command == Command::start && has_active_job(from)) return {TransitionKind::already, from};
+    if (command == Command::stop && has_active_job(from)) return {TransitionKind::moves, stopping};
+    if (command == Command::abort) return {TransitionKind::moves, aborting};
+    if (job_command_allowed(from, command)) return {TransitionKind::allowed, from};
     return {};
 }
 

@@ -66,14 +66,14 @@ constexpr std::array<CellCommand, 20> all_commands{
 constexpr std::uint16_t last_pack_state = 17;
 
 // What a command meets in a state, once sender and job are right.
-enum class Meeting : std::uint8_t {
+enum class TransitionKind : std::uint8_t {
     refused,  // WRONG_STATE
     moves,    // the machine goes to `to`
     already,  // the wanted effect is in place: ALREADY
     allowed   // a job command: taken, the machine stays where it is
 };
 struct Transition {
-    Meeting meeting = Meeting::refused;
+    TransitionKind kind = TransitionKind::refused;
     PackState to = PackState::undefined;
 };
 Transition transition(PackState from, CellCommand command);

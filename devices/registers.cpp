@@ -66,21 +66,21 @@ constexpr Row<Status> status_rows[] = {
     bound<&Status::snapshot>({99, 1, u16, "SNAP_END", "equals SNAP_BEGIN"}, Part::snap_end),
 };
 
-constexpr Row<ResultWords> result_rows[] = {
-    bound<&ResultWords::job_id>({200, 8, bytes, "JOB_ID", "that was asked for"}),
-    bound<&ResultWords::job_state>({208, 1, u16, "JOB_STATE", "0: the cell does not know it"}),
-    bound<&ResultWords::job_result>({209, 1, u16, "JOB_RESULT", ""}),
-    bound<&ResultWords::starts>({210, 2, u32, "STARTS", "0 or 1"}),
-    bound<&ResultWords::start_epoch>({212, 2, u32, "START_EPOCH", ""}),
-    bound<&ResultWords::start_seq>({214, 2, u32, "START_SEQ", ""}),
-    bound<&ResultWords::start_time_ms>({216, 4, u64, "START_TIME", "unix ms"}),
-    bound<&ResultWords::end_time_ms>({220, 4, u64, "END_TIME", "unix ms"}),
-    bound<&ResultWords::file_sha256>({224, 16, bytes, "FILE_SHA256", "of what was carved"}),
-    bound<&ResultWords::last_block>({240, 2, u32, "LAST_BLOCK", ""}),
-    bound<&ResultWords::query_seq>({242, 2, u32, "QUERY_SEQ", "CMD_SEQ of the query"}),
-    bound<&ResultWords::query_owner>({244, 2, u32, "QUERY_OWNER", "who asked"}),
-    reserved<ResultWords>({246, 12, words, "reserved", "0"}),
-    checksum<ResultWords>({258, 2, u32, "CRC", "CRC-32 over 200..257"}),
+constexpr Row<ResultRecord> result_rows[] = {
+    bound<&ResultRecord::job_id>({200, 8, bytes, "JOB_ID", "that was asked for"}),
+    bound<&ResultRecord::job_state>({208, 1, u16, "JOB_STATE", "0: the cell does not know it"}),
+    bound<&ResultRecord::job_result>({209, 1, u16, "JOB_RESULT", ""}),
+    bound<&ResultRecord::starts>({210, 2, u32, "STARTS", "0 or 1"}),
+    bound<&ResultRecord::start_epoch>({212, 2, u32, "START_EPOCH", ""}),
+    bound<&ResultRecord::start_seq>({214, 2, u32, "START_SEQ", ""}),
+    bound<&ResultRecord::start_time_ms>({216, 4, u64, "START_TIME", "unix ms"}),
+    bound<&ResultRecord::end_time_ms>({220, 4, u64, "END_TIME", "unix ms"}),
+    bound<&ResultRecord::file_sha256>({224, 16, bytes, "FILE_SHA256", "of what was carved"}),
+    bound<&ResultRecord::last_block>({240, 2, u32, "LAST_BLOCK", ""}),
+    bound<&ResultRecord::query_seq>({242, 2, u32, "QUERY_SEQ", "CMD_SEQ of the query"}),
+    bound<&ResultRecord::query_owner>({244, 2, u32, "QUERY_OWNER", "who asked"}),
+    reserved<ResultRecord>({246, 12, words, "reserved", "0"}),
+    checksum<ResultRecord>({258, 2, u32, "CRC", "CRC-32 over 200..257"}),
 };
 
 constexpr Row<Command> command_rows[] = {
@@ -100,60 +100,60 @@ constexpr Row<Command> command_rows[] = {
     checksum<Command>({58, 2, u32, "CRC", "CRC-32 over 0..57"}),
 };
 
-constexpr Row<TicketWords> ticket_rows[] = {
-    bound<&TicketWords::ticket_version>({100, 1, u16, "TICKET_VERSION", "1"}),
-    bound<&TicketWords::job_id>({101, 8, bytes, "JOB_ID", "UUID"}),
-    bound<&TicketWords::file_sha256>({109, 16, bytes, "FILE_SHA256", ""}),
-    bound<&TicketWords::file_size>({125, 2, u32, "FILE_SIZE", "bytes"}),
-    bound<&TicketWords::transfer>({127, 1, u16, "TRANSFER", "1 drop folder, 2 chunks"}),
-    bound<&TicketWords::file_name>(
+constexpr Row<WireTicket> ticket_rows[] = {
+    bound<&WireTicket::ticket_version>({100, 1, u16, "TICKET_VERSION", "1"}),
+    bound<&WireTicket::job_id>({101, 8, bytes, "JOB_ID", "UUID"}),
+    bound<&WireTicket::file_sha256>({109, 16, bytes, "FILE_SHA256", ""}),
+    bound<&WireTicket::file_size>({125, 2, u32, "FILE_SIZE", "bytes"}),
+    bound<&WireTicket::transfer>({127, 1, u16, "TRANSFER", "1 drop folder, 2 chunks"}),
+    bound<&WireTicket::file_name>(
         {128, 16, text, "FILE_NAME", "1 to 32 of A-Z a-z 0-9 . _ -, not beginning with a dot"}),
-    bound<&TicketWords::unit>({144, 1, u16, "UNIT", "1 mm"}),
-    bound_axis<&TicketWords::box_min, 0>({145, 2, i32, "BOX_MIN_X", "0.01 mm, base frame of the program"}),
-    bound_axis<&TicketWords::box_min, 1>({147, 2, i32, "BOX_MIN_Y", "0.01 mm"}),
-    bound_axis<&TicketWords::box_min, 2>({149, 2, i32, "BOX_MIN_Z", "0.01 mm"}),
-    bound_axis<&TicketWords::box_max, 0>({151, 2, i32, "BOX_MAX_X", "0.01 mm"}),
-    bound_axis<&TicketWords::box_max, 1>({153, 2, i32, "BOX_MAX_Y", "0.01 mm"}),
-    bound_axis<&TicketWords::box_max, 2>({155, 2, i32, "BOX_MAX_Z", "0.01 mm"}),
-    bound_axis<&TicketWords::stock, 0>({157, 2, i32, "STOCK_X", "0.01 mm"}),
-    bound_axis<&TicketWords::stock, 1>({159, 2, i32, "STOCK_Y", "0.01 mm"}),
-    bound_axis<&TicketWords::stock, 2>({161, 2, i32, "STOCK_Z", "0.01 mm"}),
-    bound<&TicketWords::material>({163, 1, u16, "MATERIAL", "0 unspecified, 1 PU foam, 2 EPS, 3 XPS, 4 other"}),
-    bound<&TicketWords::tool_no>({164, 1, u16, "TOOL_NO", "first tool"}),
-    bound<&TicketWords::tool_diameter_um>({165, 2, u32, "TOOL_DIAMETER", "0.001 mm, largest"}),
-    bound<&TicketWords::spindle_max_rpm>({167, 1, u16, "SPINDLE_MAX", "rpm"}),
-    bound<&TicketWords::feed_max_mm_per_min>({168, 2, u32, "FEED_MAX", "mm/min"}),
-    bound<&TicketWords::estimated_time_s>({170, 2, u32, "EST_TIME", "s"}),
-    bound<&TicketWords::base_plane>({172, 1, u16, "BASE_PLANE", "index of the cap in the manifest, 0xFFFF none"}),
-    bound<&TicketWords::piece_no>({173, 1, u16, "PIECE_NO", "1.."}),
-    bound<&TicketWords::piece_count>({174, 1, u16, "PIECE_COUNT", ""}),
-    bound<&TicketWords::project_id>({175, 8, bytes, "PROJECT_ID", ""}),
-    bound<&TicketWords::created_ms>({183, 4, u64, "CREATED", "unix ms"}),
-    bound<&TicketWords::on_link_loss>({187, 1, u16, "ON_LINK_LOSS", "0 continue, 1 hold"}),
-    bound<&TicketWords::requirements>({188, 1, u16, "REQUIREMENTS", "b0 rehearsal required"}),
-    reserved<TicketWords>({189, 4, words, "reserved", "0"}),
-    bound<&TicketWords::cell_id>({193, 1, u16, "CELL_ID", "of the cell it is made for"}),
-    bound<&TicketWords::made_for>({194, 1, u16, "MADE_FOR", "b0 a simulated cell"}),
-    bound<&TicketWords::key_id>({195, 2, u32, "KEY_ID", "first 4 bytes of the SHA-256 of the public key"}),
-    reserved<TicketWords>({197, 1, words, "reserved", "0"}),
-    checksum<TicketWords>({198, 2, u32, "CRC", "CRC-32 over 100..197"}),
+    bound<&WireTicket::unit>({144, 1, u16, "UNIT", "1 mm"}),
+    bound_axis<&WireTicket::box_min, 0>({145, 2, i32, "BOX_MIN_X", "0.01 mm, base frame of the program"}),
+    bound_axis<&WireTicket::box_min, 1>({147, 2, i32, "BOX_MIN_Y", "0.01 mm"}),
+    bound_axis<&WireTicket::box_min, 2>({149, 2, i32, "BOX_MIN_Z", "0.01 mm"}),
+    bound_axis<&WireTicket::box_max, 0>({151, 2, i32, "BOX_MAX_X", "0.01 mm"}),
+    bound_axis<&WireTicket::box_max, 1>({153, 2, i32, "BOX_MAX_Y", "0.01 mm"}),
+    bound_axis<&WireTicket::box_max, 2>({155, 2, i32, "BOX_MAX_Z", "0.01 mm"}),
+    bound_axis<&WireTicket::stock, 0>({157, 2, i32, "STOCK_X", "0.01 mm"}),
+    bound_axis<&WireTicket::stock, 1>({159, 2, i32, "STOCK_Y", "0.01 mm"}),
+    bound_axis<&WireTicket::stock, 2>({161, 2, i32, "STOCK_Z", "0.01 mm"}),
+    bound<&WireTicket::material>({163, 1, u16, "MATERIAL", "0 unspecified, 1 PU foam, 2 EPS, 3 XPS, 4 other"}),
+    bound<&WireTicket::tool_no>({164, 1, u16, "TOOL_NO", "first tool"}),
+    bound<&WireTicket::tool_diameter_um>({165, 2, u32, "TOOL_DIAMETER", "0.001 mm, largest"}),
+    bound<&WireTicket::spindle_max_rpm>({167, 1, u16, "SPINDLE_MAX", "rpm"}),
+    bound<&WireTicket::feed_max_mm_per_min>({168, 2, u32, "FEED_MAX", "mm/min"}),
+    bound<&WireTicket::estimated_time_s>({170, 2, u32, "EST_TIME", "s"}),
+    bound<&WireTicket::base_plane>({172, 1, u16, "BASE_PLANE", "index of the cap in the manifest, 0xFFFF none"}),
+    bound<&WireTicket::piece_no>({173, 1, u16, "PIECE_NO", "1.."}),
+    bound<&WireTicket::piece_count>({174, 1, u16, "PIECE_COUNT", ""}),
+    bound<&WireTicket::project_id>({175, 8, bytes, "PROJECT_ID", ""}),
+    bound<&WireTicket::created_ms>({183, 4, u64, "CREATED", "unix ms"}),
+    bound<&WireTicket::on_link_loss>({187, 1, u16, "ON_LINK_LOSS", "0 continue, 1 hold"}),
+    bound<&WireTicket::requirements>({188, 1, u16, "REQUIREMENTS", "b0 rehearsal required"}),
+    reserved<WireTicket>({189, 4, words, "reserved", "0"}),
+    bound<&WireTicket::cell_id>({193, 1, u16, "CELL_ID", "of the cell it is made for"}),
+    bound<&WireTicket::made_for>({194, 1, u16, "MADE_FOR", "b0 a simulated cell"}),
+    bound<&WireTicket::key_id>({195, 2, u32, "KEY_ID", "first 4 bytes of the SHA-256 of the public key"}),
+    reserved<WireTicket>({197, 1, words, "reserved", "0"}),
+    checksum<WireTicket>({198, 2, u32, "CRC", "CRC-32 over 100..197"}),
 };
 
 constexpr Field signature_fields[] = {
     {200, 32, bytes, "SIGNATURE", "Ed25519 over \"QCHOPPER-TICKET-1\" and the bytes of 100..197; all zero: unsigned"},
 };
 
-void put_length(const Chunk& from, const Field&, WordWriter& to) {
+void put_length(const Chunk& from, const Field&, RegisterWriter& to) {
     to.u16(static_cast<std::uint16_t>(from.data.size()));
 }
-void take_length(Chunk& to, const Field&, WordReader& from) {
+void take_length(Chunk& to, const Field&, RegisterReader& from) {
     // One byte more than fits is enough to see that there are too many.
     to.data.resize(std::min<std::size_t>(from.u16(), max_chunk_bytes + 1U));
 }
-void put_data(const Chunk& from, const Field&, WordWriter& to) {
+void put_data(const Chunk& from, const Field&, RegisterWriter& to) {
     to.bytes(from.data);
 }
-void take_data(Chunk& to, const Field&, WordReader& from) {
+void take_data(Chunk& to, const Field&, RegisterReader& from) {
     from.bytes(to.data);
 }
 
@@ -202,7 +202,7 @@ std::span<const Row<Status>> rows_of() {
     return status_rows;
 }
 template <>
-std::span<const Row<ResultWords>> rows_of() {
+std::span<const Row<ResultRecord>> rows_of() {
     return result_rows;
 }
 template <>
@@ -210,7 +210,7 @@ std::span<const Row<Command>> rows_of() {
     return command_rows;
 }
 template <>
-std::span<const Row<TicketWords>> rows_of() {
+std::span<const Row<WireTicket>> rows_of() {
     return ticket_rows;
 }
 template <>

@@ -76,14 +76,14 @@ std::string print_words() {
 
 std::string cell_of(PackState state, CellCommand command) {
     const Transition what = transition(state, command);
-    switch (what.meeting) {
-        case Meeting::refused:
+    switch (what.kind) {
+        case TransitionKind::refused:
             return "-";
-        case Meeting::moves:
+        case TransitionKind::moves:
             return name(what.to);
-        case Meeting::already:
+        case TransitionKind::already:
             return "(in place)";
-        case Meeting::allowed:
+        case TransitionKind::allowed:
             return "yes";
     }
     return "";

@@ -99,7 +99,7 @@ struct CellSim::Parts {
 
     struct FileTask {
         std::uint64_t number = 0;
-        TicketWords ticket;
+        WireTicket ticket;
         Bytes chunks;
     };
 

@@ -84,8 +84,8 @@ struct Lease {
 };
 
 struct CellJob {
-    TicketWords ticket;
-    Words ticket_block;  // as it came, for "the same ticket again"
+    WireTicket ticket;
+    Registers ticket_block;  // as it came, for "the same ticket again"
     bool is_signed = false;
     JobState state = JobState::none;
     JobResult result = JobResult::none;
@@ -129,14 +129,14 @@ struct CellState {
     bool warning = false;
     std::optional<Pending> pending;
     std::uint64_t pending_count = 0;
-    Words ticket_draft;                   // empty: none
-    Words signature_draft;                // empty: none
+    Registers ticket_draft;               // empty: none
+    Registers signature_draft;            // empty: none
     Acknowledgement ack;                  // published
     std::deque<Acknowledgement> senders;  // last one of each owner, bounded
     std::uint16_t bad_frames = 0;
     AckResult bad_reason = AckResult::none;
     AckResult transfer_result = AckResult::none;
-    ResultWords answer;  // RESULT block
+    ResultRecord answer;  // RESULT block
     bool has_answer = false;
     std::uint32_t events = 0;
     std::uint32_t store_free_kib = 0;

@@ -20,9 +20,9 @@ void bad_frame(CellState& cell, AckResult reason, const CellHooks& hooks) {
     log(cell, hooks, std::string("a command that cannot be trusted: ") + name(reason));
 }
 
-AckResult reason_of(WordFault fault) {
-    if (fault == WordFault::magic) return AckResult::bad_magic;
-    return fault == WordFault::version ? AckResult::bad_version : AckResult::bad_crc;
+AckResult reason_of(BlockFault fault) {
+    if (fault == BlockFault::magic) return AckResult::bad_magic;
+    return fault == BlockFault::version ? AckResult::bad_version : AckResult::bad_crc;
 }
 
 bool is_known(CellCommand command) {
@@ -39,7 +39,7 @@ bool is_current(const CellState& cell, const Uuid& id) {
 }
 
 AckResult state_rule(const CellState& cell, CellCommand command) {
-    return transition(cell.state, command).meeting == Meeting::refused ? AckResult::wrong_state : AckResult::ok;
+    return transition(cell.state, command).kind == TransitionKind::refused ? AckResult::wrong_state : AckResult::ok;
 }
 
 // What is said of a job that the cell does not have before it.
@@ -103,8 +103,8 @@ Answer machine_command(CellState& cell, const Command& command, CellTime now, co
         if (!is_current(cell, command.job_id)) return {AckResult::wrong_job, 0};
     }
     const Transition to = transition(cell.state, what);
-    if (to.meeting == Meeting::already) return {AckResult::already, 0};
-    if (to.meeting != Meeting::moves) return {AckResult::wrong_state, 0};
+    if (to.kind == TransitionKind::already) return {AckResult::already, 0};
+    if (to.kind != TransitionKind::moves) return {AckResult::wrong_state, 0};
     if (what == CellCommand::clear) {
         if (cell.pending && cell.pending->command != what) return {AckResult::wrong_state, 0};
         return wait_for(cell, command, Pending::Waits::consent, now,
@@ -120,7 +120,7 @@ Answer machine_command(CellState& cell, const Command& command, CellTime now, co
 }
 
 Answer query(CellState& cell, const Command& command) {
-    ResultWords answer;
+    ResultRecord answer;
     answer.job_id = command.job_id;
     answer.query_seq = command.seq;
     answer.query_owner = command.owner;
@@ -160,7 +160,7 @@ Answer set_mode(CellState& cell, const Command& command) {
 
 Answer store(CellState& cell, const Command& command, const CellHooks& hooks) {
     if (cell.ticket_draft.empty()) return {AckResult::no_ticket, 0};
-    const Decoded<TicketWords> ticket = decode_ticket(cell.ticket_draft);
+    const Decoded<WireTicket> ticket = decode_ticket(cell.ticket_draft);
     if (!ticket.is_ok()) return {AckResult::ticket_crc, 0};
     const Uuid& id = ticket.value.job_id;
     if (id == Uuid{} || command.job_id != id) return {AckResult::ticket_field, address_of(ticket_block, "JOB_ID")};
@@ -249,7 +249,7 @@ Answer stored_job(const CellState& cell, const Command& command) {
 }
 
 Answer prepare(CellState& cell, const Command& command, CellTime now) {
-    const TicketWords& ticket = cell.job.ticket;
+    const WireTicket& ticket = cell.job.ticket;
     const bool needs_receipt = (ticket.requirements & 1U) != 0 || command.arg0 != 0;
     if (needs_receipt && (cell.job.receipt == 0 || command.arg0 != cell.job.receipt))
         return {AckResult::rehearsal_required, 0};
@@ -268,7 +268,7 @@ Answer start_job(CellState& cell, const Command& command, CellTime now, const Ce
     if (job.is_finished()) return {AckResult::already_finished, 0};
     if (cell.mode != UnitMode::production) return {AckResult::wrong_mode, 0};
     const Transition to = transition(cell.state, CellCommand::start);
-    if (to.meeting != Meeting::moves) return {AckResult::wrong_state, 0};
+    if (to.kind != TransitionKind::moves) return {AckResult::wrong_state, 0};
     if (job.state != JobState::prepared || command.token != job.token) {
         const bool is_expired = command.token != 0 && command.token == job.expired_token;
         return {is_expired ? AckResult::token_expired : AckResult::token_bad, 0};
@@ -360,7 +360,7 @@ void remember(CellState& cell, const Acknowledgement& ack) {
 void take_command(CellState& cell, std::span<const std::uint16_t> block, CellTime now, const CellHooks& hooks) {
     pass_time(cell, now, hooks);
     const Decoded<Command> decoded = decode_command(block);
-    if (decoded.fault == WordFault::empty || decoded.fault == WordFault::length) return;
+    if (decoded.fault == BlockFault::empty || decoded.fault == BlockFault::length) return;
     if (!decoded.is_ok()) return cell::bad_frame(cell, cell::reason_of(decoded.fault), hooks);
     const Command& command = decoded.value;
     const std::uint32_t crc = command_crc(block);

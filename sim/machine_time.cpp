@@ -70,7 +70,7 @@ void pass_lease(CellState& cell, CellTime now, const CellHooks& hooks) {
         log(cell, hooks, "no heartbeat of the dispatcher for 2.5 s");
         const bool holds = cell.job.is_active() && cell.job.ticket.on_link_loss == LinkLoss::hold;
         const Transition to = transition(cell.state, CellCommand::hold);
-        if (holds && to.meeting == Meeting::moves) enter_state(cell, to.to, now.steady_ms);
+        if (holds && to.kind == TransitionKind::moves) enter_state(cell, to.to, now.steady_ms);
     }
     if (now.steady_ms < cell.lease->until_ms) return;
     log(cell, hooks, "the lease of the dispatcher has run out");
@@ -165,7 +165,7 @@ void file_checked(CellState& cell, std::uint64_t number, const FileCheck& check,
     if (!cell.pending || cell.pending->number != number || cell.pending->waits != Pending::Waits::file) return;
     pass_time(cell, now, hooks);
     if (!cell.pending || cell.pending->number != number) return;
-    const TicketWords& ticket = cell.job.ticket;
+    const WireTicket& ticket = cell.job.ticket;
     AckResult result = AckResult::ok;
     if (check.end == FileCheck::End::missing)
         result = AckResult::file_missing;

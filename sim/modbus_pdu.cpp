@@ -28,10 +28,10 @@ const Block* block_around(Side side, std::uint32_t address, std::uint32_t count)
     return nullptr;
 }
 
-Words read_block(const Block& block, const CellState& cell, CellTime now) {
+Registers read_block(const Block& block, const CellState& cell, CellTime now) {
     if (&block == &status_block) return encode(status_of(cell, now));
     if (&block == &result_block && cell.has_answer) return encode(cell.answer);
-    return Words(block.count, 0);  // what was written is never shown: it may hold a secret
+    return Registers(block.count, 0);  // what was written is never shown: it may hold a secret
 }
 
 Bytes answer_read(Side side, std::span<const std::uint8_t> pdu, CellState& cell, CellTime now, const CellHooks& hooks) {
@@ -42,10 +42,10 @@ Bytes answer_read(Side side, std::span<const std::uint8_t> pdu, CellState& cell,
     const Block* block = block_around(side, address, count);
     if (block == nullptr) return exception_pdu(pdu[0], illegal_address);
     pass_time(cell, now, hooks);
-    const Words words = read_block(*block, cell, now);
+    const Registers registers = read_block(*block, cell, now);
     Bytes answer{pdu[0], static_cast<std::uint8_t>(2 * count)};
     for (std::size_t i = 0; i < count; ++i) {
-        const std::uint16_t word = words[address - block->base + i];
+        const std::uint16_t word = registers[address - block->base + i];
         answer.push_back(static_cast<std::uint8_t>(word >> 8));
         answer.push_back(static_cast<std::uint8_t>(word & 0xFF));
     }
@@ -53,22 +53,22 @@ Bytes answer_read(Side side, std::span<const std::uint8_t> pdu, CellState& cell,
 }
 
 // 0, or the exception.
-std::uint8_t write_block(const Block& block, const Words& words, CellState& cell, CellTime now,
+std::uint8_t write_block(const Block& block, const Registers& registers, CellState& cell, CellTime now,
                          const CellHooks& hooks) {
     if (&block == &chunk_block) {
-        const Decoded<Chunk> chunk = decode_chunk(words);
+        const Decoded<Chunk> chunk = decode_chunk(registers);
         if (!chunk.is_ok()) return illegal_value;
         pass_time(cell, now, hooks);
         take_chunk(cell, chunk.value);
         return 0;
     }
-    if (&block == &command_block) take_command(cell, words, now, hooks);
+    if (&block == &command_block) take_command(cell, registers, now, hooks);
     if (&block == &heartbeat_block) {
         pass_time(cell, now, hooks);
-        take_heartbeat(cell, words, now);
+        take_heartbeat(cell, registers, now);
     }
-    if (&block == &ticket_block) cell.ticket_draft = is_all_zero(words) ? Words{} : words;
-    if (&block == &signature_block) cell.signature_draft = is_all_zero(words) ? Words{} : words;
+    if (&block == &ticket_block) cell.ticket_draft = is_all_zero(registers) ? Registers{} : registers;
+    if (&block == &signature_block) cell.signature_draft = is_all_zero(registers) ? Registers{} : registers;
     return 0;
 }
 
@@ -82,9 +82,9 @@ Bytes answer_write(std::span<const std::uint8_t> pdu, CellState& cell, CellTime 
     if (block == nullptr || address != block->base) return exception_pdu(pdu[0], illegal_address);
     const bool is_whole = block == &chunk_block ? count > chunk_head : count == block->count;
     if (!is_whole) return exception_pdu(pdu[0], illegal_address);
-    Words words;
-    for (std::size_t i = 0; i < count; ++i) words.push_back(word_at(pdu, 6 + 2 * i));
-    const std::uint8_t code = write_block(*block, words, cell, now, hooks);
+    Registers registers;
+    for (std::size_t i = 0; i < count; ++i) registers.push_back(word_at(pdu, 6 + 2 * i));
+    const std::uint8_t code = write_block(*block, registers, cell, now, hooks);
     if (code != 0) return exception_pdu(pdu[0], code);
     return {pdu.begin(), pdu.begin() + 5};
 }

@@ -37,7 +37,7 @@ bool has_hidden_text(const std::string& text, const Field& field, std::span<cons
 }
 
 // At most what the largest tool of the rack has.
-std::optional<TicketFault> wrong_tool_value(const TicketWords& t, const std::vector<CellTool>& tools) {
+std::optional<TicketFault> wrong_tool_value(const WireTicket& t, const std::vector<CellTool>& tools) {
     CellTool largest{0, 0, 0, 0};
     for (const CellTool& tool : tools) {
         largest.diameter = std::max(largest.diameter, tool.diameter);
@@ -55,7 +55,7 @@ std::optional<TicketFault> wrong_tool_value(const TicketWords& t, const std::vec
 
 }  // namespace
 
-std::optional<TicketFault> wrong_field(const TicketWords& t, std::span<const std::uint16_t> block,
+std::optional<TicketFault> wrong_field(const WireTicket& t, std::span<const std::uint16_t> block,
                                        const CellLimits& limits) {
     const auto fault_at = [](std::uint16_t address) { return TicketFault{AckResult::ticket_field, address}; };
     const auto field = [&](const char* name) { return fault_at(address_of(ticket_block, name)); };
@@ -85,7 +85,7 @@ std::optional<TicketFault> wrong_field(const TicketWords& t, std::span<const std
     return std::nullopt;
 }
 
-std::optional<TicketFault> does_not_fit(const TicketWords& t, const CellLimits& limits) {
+std::optional<TicketFault> does_not_fit(const WireTicket& t, const CellLimits& limits) {
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         if (t.box_min[a] < 100 * limits.reach.min[axis])

@@ -17,10 +17,10 @@ struct TicketFault {
 };
 
 // Field by field, when the ticket is stored.
-std::optional<TicketFault> wrong_field(const TicketWords& ticket, std::span<const std::uint16_t> block,
+std::optional<TicketFault> wrong_field(const WireTicket& ticket, std::span<const std::uint16_t> block,
                                        const CellLimits& limits);
 
 // Reach, stock, tool and its speeds, before the operator is asked for consent.
-std::optional<TicketFault> does_not_fit(const TicketWords& ticket, const CellLimits& limits);
+std::optional<TicketFault> does_not_fit(const WireTicket& ticket, const CellLimits& limits);
 
 }  // namespace qchopper

@@ -21,7 +21,7 @@ Json job_json(const HandedOver& handed) {
     const JobOutcome& o = handed.outcome;
     return {{"piece", handed.piece},
             {"job_id", to_text(o.job_id)},
-            {"verdict", words(o.verdict)},
+            {"verdict", describe(o.verdict)},
             {"job_state", static_cast<int>(o.job_state)},
             {"job_result", static_cast<int>(o.job_result)},
             {"ended_complete", o.is_complete()},
@@ -46,7 +46,7 @@ bool HandOverReport::is_cancelled() const {
 std::vector<std::string> lines(const HandOverReport& report) {
     std::vector<std::vector<std::string>> rows{{"piece", "job", "start", "STARTS", "end", "s"}};
     for (const auto& [piece, o] : report.handed) {
-        rows.push_back({piece, to_text(o.job_id), words(o.verdict), o.starts_known ? std::to_string(o.starts) : "?",
+        rows.push_back({piece, to_text(o.job_id), describe(o.verdict), o.starts_known ? std::to_string(o.starts) : "?",
                         ending(o), fixed(o.took_s, 1)});
     }
     std::vector<std::string> text = columns(rows);

@@ -18,7 +18,7 @@
 
 namespace qchopper {
 
-constexpr int job_schema_version = 1;
+constexpr int job_schema_version = 2;
 
 struct JobInput {
     Piece piece;

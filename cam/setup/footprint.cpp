@@ -168,7 +168,7 @@ class Grid {
 
 }  // namespace
 
-double shadow_mm2(const TriangleMesh& mesh, Vec3 up) {
+double projected_area_mm2(const TriangleMesh& mesh, Vec3 up) {
     const auto [e1, e2] = frame_under(up);
     std::vector<FootPoint> flat;
     flat.reserve(mesh.points.size());

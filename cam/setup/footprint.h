@@ -1,4 +1,4 @@
-// What a piece covers on the table, seen along one direction: its rectangle and its shadow.
+// What a piece covers on the table, seen along one direction: its rectangle and its projected area.
 //
 // Millimetres. No turn of a footprint has a smaller rectangle (tests/cam/setup/footprint_test.cpp).
 
@@ -30,7 +30,7 @@ Rectangle smallest_rectangle(std::vector<FootPoint> points);
 // Two unit vectors that make a right-handed frame with the unit vector `up`.
 std::array<Vec3, 2> frame_under(Vec3 up);
 
-// Area of the shadow that light along `up` casts, on a grid: good to about a hundredth of its box.
-double shadow_mm2(const TriangleMesh& mesh, Vec3 up);
+// Area of the projection along `up`, on a grid: good to about a hundredth of its box.
+double projected_area_mm2(const TriangleMesh& mesh, Vec3 up);
 
 }  // namespace qchopper

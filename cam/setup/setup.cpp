@@ -12,9 +12,9 @@
 namespace qchopper {
 namespace {
 
-constexpr double same = 1e-9;           // undercuts and shares that differ by less are a tie
-constexpr double rounding = 1e-6;       // mm
-constexpr double least_to_carry = 0.1;  // of the shadow
+constexpr double same = 1e-9;               // undercuts and shares that differ by less are a tie
+constexpr double rounding = 1e-6;           // mm
+constexpr double least_stable_share = 0.1;  // of the projected area
 
 std::string percent(double share) {
     return std::to_string(static_cast<int>(100 * share + 0.5)) + " %";
@@ -24,8 +24,8 @@ struct Candidate {
     std::optional<std::int32_t> base;
     Vec3 up;
     Facing facing;
-    double shadow = 0;
-    bool carries = false;
+    double projected_area_mm2 = 0;
+    bool is_stable = false;
 };
 
 std::vector<Candidate> caps_owned(const Piece& piece) {
@@ -33,8 +33,8 @@ std::vector<Candidate> caps_owned(const Piece& piece) {
     for (const Bound& bound : piece.bounds) {
         const Facing sums = facing(*piece.mesh, bound.up(), bound.cut);
         if (sums.base_triangles == 0) continue;
-        Candidate candidate{bound.cut, bound.up(), sums, shadow_mm2(*piece.mesh, bound.up()), false};
-        candidate.carries = sums.base >= least_to_carry * candidate.shadow;
+        Candidate candidate{bound.cut, bound.up(), sums, projected_area_mm2(*piece.mesh, bound.up()), false};
+        candidate.is_stable = sums.base >= least_stable_share * candidate.projected_area_mm2;
         candidates.push_back(candidate);
     }
     return candidates;
@@ -46,11 +46,11 @@ Candidate best_cap(const std::vector<Candidate>& candidates) {
     Candidate best = candidates.front();
     for (const Candidate& other : candidates) {
         const bool less = other.facing.undercut() < best.facing.undercut();
-        if (other.carries != best.carries ? other.carries : less) best = other;
+        if (other.is_stable != best.is_stable ? other.is_stable : less) best = other;
     }
     Candidate first = best;
     for (const Candidate& other : candidates) {
-        const bool tie = other.carries == best.carries && other.facing.undercut() - best.facing.undercut() <= same;
+        const bool tie = other.is_stable == best.is_stable && other.facing.undercut() - best.facing.undercut() <= same;
         if (tie && *other.base < *first.base) first = other;
     }
     return first;
@@ -64,13 +64,13 @@ Candidate best_side(const Piece& piece, const RayTree& rays) {
     for (int axis = 2; axis >= 0; --axis) {
         for (const double sign : {1.0, -1.0}) {
             const Vec3 direction = sign * box.axis[axis];
-            const double hidden = hidden_share(*piece.mesh, rays, direction, std::nullopt);
-            if (hidden >= least - same) continue;
-            least = hidden;
+            const double occluded = occluded_area_ratio(*piece.mesh, rays, direction, std::nullopt);
+            if (occluded >= least - same) continue;
+            least = occluded;
             up = direction;
         }
     }
-    return {std::nullopt, up, facing(*piece.mesh, up, std::nullopt), shadow_mm2(*piece.mesh, up), false};
+    return {std::nullopt, up, facing(*piece.mesh, up, std::nullopt), projected_area_mm2(*piece.mesh, up), false};
 }
 
 // Turned so that the smallest rectangle of the footprint lies along x, then set down.
@@ -126,8 +126,8 @@ void describe(const Candidate& chosen, Setup& setup) {
         return;
     }
     setup.base_words = "the cap of cut " + std::to_string(*chosen.base);
-    if (setup.base_carries) return;
-    setup.warnings.push_back("the base is only " + percent(chosen.facing.base / chosen.shadow) +
+    if (setup.base_is_stable) return;
+    setup.warnings.push_back("the base is only " + percent(chosen.facing.base / chosen.projected_area_mm2) +
                              " of the piece's shadow: it may tip or break off");
 }
 
@@ -143,10 +143,10 @@ Setup choose_setup(const Piece& piece, const Cell& cell) {
     setup.base = chosen.base;
     setup.up = chosen.up;
     setup.undercut = chosen.facing.undercut();
-    setup.inaccessible = hidden_share(*piece.mesh, rays, chosen.up, chosen.base);
+    setup.occluded_area_ratio = occluded_area_ratio(*piece.mesh, rays, chosen.up, chosen.base);
     setup.base_mm2 = chosen.facing.base;
-    setup.shadow_mm2 = chosen.shadow;
-    setup.base_carries = chosen.carries;
+    setup.projected_area_mm2 = chosen.projected_area_mm2;
+    setup.base_is_stable = chosen.is_stable;
     describe(chosen, setup);
     place(*piece.mesh, setup);
     choose_stock(cell, setup);

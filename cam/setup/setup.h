@@ -31,17 +31,17 @@ struct Setup {
     Vec3 block;                 // size of the block as it stands
     bool stock_holds = true;    // false: no block of the list holds the piece with its margin; this one comes nearest
 
-    double undercut = 0;       // share of the projected area that faces down, base left out
-    double inaccessible = 0;   // share of the area that no vertical tool sees, base left out
-    double base_mm2 = 0;       // area of the base; 0 without
-    double shadow_mm2 = 0;     // area of the piece seen from above
-    bool base_carries = true;  // the base is at least a tenth of the shadow
+    double undercut = 0;             // share of the projected area that faces down, base left out
+    double occluded_area_ratio = 0;  // share of the area that no vertical tool sees, base left out
+    double base_mm2 = 0;             // area of the base; 0 without
+    double projected_area_mm2 = 0;   // area of the piece seen from above
+    bool base_is_stable = true;      // the base is at least a tenth of the projected area
     std::vector<std::string> warnings;
     bool operator==(const Setup&) const = default;
 };
 
-// The base with the least undercut; a tie goes to the lower cut; one that cannot carry the piece is taken only if
-// none can. A piece without caps takes the side of its oriented box from which least surface is hidden.
+// The base with the least undercut; a tie goes to the lower cut; one that is not stable is taken only if
+// none can. A piece without caps takes the side of its oriented box from which least surface is occluded.
 Setup choose_setup(const Piece& piece, const Cell& cell);
 
 }  // namespace qchopper

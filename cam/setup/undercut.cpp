@@ -32,7 +32,7 @@ Facing facing(const TriangleMesh& mesh, Vec3 up, std::optional<std::int32_t> bas
     return sums;
 }
 
-double hidden_share(const TriangleMesh& mesh, const RayTree& rays, Vec3 up, std::optional<std::int32_t> base) {
+double occluded_area_ratio(const TriangleMesh& mesh, const RayTree& rays, Vec3 up, std::optional<std::int32_t> base) {
     const double off_the_surface = 1e-5 * norm(bounds(mesh).size());  // rays are single precision
     std::vector<char> hidden(mesh.triangles.size(), 0);
     const auto look = [&](std::size_t first, std::size_t end) {

@@ -27,6 +27,6 @@ Facing facing(const TriangleMesh& mesh, Vec3 up, std::optional<std::int32_t> bas
 
 // Share of the area, base left out, that faces down or has something of the piece straight above its middle. A wall
 // counts as seen: the side of the tool cuts it.
-double hidden_share(const TriangleMesh& mesh, const RayTree& rays, Vec3 up, std::optional<std::int32_t> base);
+double occluded_area_ratio(const TriangleMesh& mesh, const RayTree& rays, Vec3 up, std::optional<std::int32_t> base);
 
 }  // namespace qchopper

@@ -14,7 +14,7 @@ namespace qchopper {
 namespace {
 
 // clang-format off
-const Words command_words{
+const Registers command_words{
     0x5143, 0x0100, 0x0000, 0x0005, 0x0000, 0x0009, 0x0002, 0x0000, 0x0001, 0x0203,
     0x0405, 0x0607, 0x0809, 0x0A0B, 0x0C0D, 0x0E0F, 0xDEAD, 0xBEEF, 0x0000, 0x0007,
     0x1234, 0x5678, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA,
@@ -22,7 +22,7 @@ const Words command_words{
     0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000,
     0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x2062, 0x8DB7,
 };
-const Words status_words{
+const Registers status_words{
     0x5143, 0x0100, 0x0102, 0x0304, 0x0000, 0x0003, 0x0004, 0x0006, 0x0003, 0x0A08,
     0x0000, 0x0005, 0x002A, 0xFFFF, 0x0000, 0x0009, 0x0002, 0x0001, 0x0000, 0x004D,
     0x0001, 0x0203, 0x0405, 0x0607, 0x0809, 0x0A0B, 0x0C0D, 0x0E0F, 0xDEAD, 0xBEEF,
@@ -34,7 +34,7 @@ const Words status_words{
     0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0x0000, 0x0004, 0x0000, 0x0190, 0x1234,
     0x5678, 0x89AB, 0xCDEF, 0x89AB, 0xCDEF, 0x0006, 0x1DDD, 0xE3C7, 0x0103, 0x0102,
 };
-const Words ticket_block_words{
+const Registers ticket_block_words{
     0x0001, 0x0001, 0x0203, 0x0405, 0x0607, 0x0809, 0x0A0B, 0x0C0D, 0x0E0F, 0xAAAA,
     0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA,
     0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0x0000, 0x1388, 0x0001, 0x612E, 0x716A,
@@ -46,7 +46,7 @@ const Words ticket_block_words{
     0x0707, 0x0707, 0x0707, 0x0000, 0x0190, 0x1234, 0x5678, 0x0001, 0x0001, 0x0000,
     0x0000, 0x0000, 0x0000, 0x0007, 0x0001, 0x0000, 0x0000, 0x0000, 0x2623, 0xE712,
 };
-const Words result_words{
+const Registers result_words{
     0x0001, 0x0203, 0x0405, 0x0607, 0x0809, 0x0A0B, 0x0C0D, 0x0E0F, 0x0005, 0x0001,
     0x0000, 0x0001, 0x0000, 0x0005, 0x0000, 0x0009, 0x0000, 0x0190, 0x1234, 0x5678,
     0x0000, 0x0190, 0x1234, 0x9999, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC,
@@ -130,11 +130,11 @@ TEST(Codec, AStatusIsTheseWords) {
 }
 
 TEST(Codec, AResultIsTheseWords) {
-    const ResultWords result{
+    const ResultRecord result{
         job, JobState::ended, JobResult::complete, 1, 5, 9, 0x0190'1234'5678, 0x0190'1234'9999, digest(0xBB, 0xCC), 88,
         11,  0x89ABCDEF};
     EXPECT_EQ(encode(result), result_words);
-    const Decoded<ResultWords> back = decode_result(result_words);
+    const Decoded<ResultRecord> back = decode_result(result_words);
     ASSERT_TRUE(back.is_ok());
     EXPECT_EQ(back.value, result);
 }
@@ -164,28 +164,28 @@ TicketOrder an_order() {
 }
 
 TEST(Codec, ATicketIsTheseWords) {
-    const TicketWords ticket = ticket_words(a_ticket(), an_order());
+    const WireTicket ticket = wire_ticket(a_ticket(), an_order());
     EXPECT_EQ(encode(ticket), ticket_block_words);
-    const Decoded<TicketWords> back = decode_ticket(ticket_block_words);
+    const Decoded<WireTicket> back = decode_ticket(ticket_block_words);
     ASSERT_TRUE(back.is_ok());
     EXPECT_EQ(back.value, ticket);
 }
 
 TEST(Codec, AHeartbeatAndAChunkAreTheseWords) {
     const Heartbeat beat{5, 0x89ABCDEF, 17};
-    EXPECT_EQ(encode(beat), (Words{0, 5, 0x89AB, 0xCDEF, 17}));
+    EXPECT_EQ(encode(beat), (Registers{0, 5, 0x89AB, 0xCDEF, 17}));
     EXPECT_EQ(decode_heartbeat(encode(beat)).value, beat);
     Chunk chunk{232, {1, 2, 3}, 0};
     chunk.crc = chunk_crc(5, 0x89ABCDEF, job, chunk.offset, chunk.data);
     EXPECT_EQ(chunk.crc, 0xF7CD8CEBU);
-    EXPECT_EQ(encode(chunk), (Words{0, 232, 3, 0xF7CD, 0x8CEB, 0x0102, 0x0300}));
+    EXPECT_EQ(encode(chunk), (Registers{0, 232, 3, 0xF7CD, 0x8CEB, 0x0102, 0x0300}));
     EXPECT_EQ(decode_chunk(encode(chunk)).value, chunk);
 }
 
 TEST(Codec, OneWrongBitAnywhereIsNeverTakenForAGoodBlock) {
-    const auto flipped = [](Words words, std::size_t bit) {
-        words[bit / 16] = static_cast<std::uint16_t>(words[bit / 16] ^ (1U << bit % 16));
-        return words;
+    const auto flipped = [](Registers registers, std::size_t bit) {
+        registers[bit / 16] = static_cast<std::uint16_t>(registers[bit / 16] ^ (1U << bit % 16));
+        return registers;
     };
     for (std::size_t bit = 0; bit < 16 * command_words.size(); ++bit) {
         EXPECT_FALSE(decode_command(flipped(command_words, bit)).is_ok()) << bit;
@@ -199,26 +199,26 @@ TEST(Codec, OneWrongBitAnywhereIsNeverTakenForAGoodBlock) {
 }
 
 TEST(Codec, ABlockThatIsNotRightIsNamed) {
-    Words words = status_words;
-    words[0] = 0x4351;
-    EXPECT_EQ(decode_status(words).fault, WordFault::magic);
-    words = status_words;
-    words[1] = 0x0200;
-    EXPECT_EQ(decode_status(words).fault, WordFault::version);
-    words = status_words;
-    words[99] = 0x0103;
-    EXPECT_EQ(decode_status(words).fault, WordFault::torn);
-    words = status_words;
-    words[40] = 0;
-    EXPECT_EQ(decode_status(words).fault, WordFault::crc);
-    words.pop_back();
-    EXPECT_EQ(decode_status(words).fault, WordFault::length);
-    EXPECT_EQ(decode_status(Words(100, 0)).fault, WordFault::empty);
-    EXPECT_EQ(decode_command(Words(60, 0)).fault, WordFault::empty);
+    Registers registers = status_words;
+    registers[0] = 0x4351;
+    EXPECT_EQ(decode_status(registers).fault, BlockFault::magic);
+    registers = status_words;
+    registers[1] = 0x0200;
+    EXPECT_EQ(decode_status(registers).fault, BlockFault::version);
+    registers = status_words;
+    registers[99] = 0x0103;
+    EXPECT_EQ(decode_status(registers).fault, BlockFault::torn);
+    registers = status_words;
+    registers[40] = 0;
+    EXPECT_EQ(decode_status(registers).fault, BlockFault::crc);
+    registers.pop_back();
+    EXPECT_EQ(decode_status(registers).fault, BlockFault::length);
+    EXPECT_EQ(decode_status(Registers(100, 0)).fault, BlockFault::empty);
+    EXPECT_EQ(decode_command(Registers(60, 0)).fault, BlockFault::empty);
     // A gateway that swaps the words of a pair.
-    words = status_words;
-    for (std::size_t i = 0; i + 1 < words.size(); i += 2) std::swap(words[i], words[i + 1]);
-    EXPECT_EQ(decode_status(words).fault, WordFault::magic);
+    registers = status_words;
+    for (std::size_t i = 0; i + 1 < registers.size(); i += 2) std::swap(registers[i], registers[i + 1]);
+    EXPECT_EQ(decode_status(registers).fault, BlockFault::magic);
 }
 
 TEST(Codec, ANewerMinorVersionIsTaken) {
@@ -230,14 +230,14 @@ TEST(Codec, ANewerMinorVersionIsTaken) {
 TEST(Codec, RandomWordsNeverThrowAndNeverPass) {
     std::mt19937 random(1);
     for (int n = 0; n < 20000; ++n) {
-        Words words(random() % 130);
-        for (std::uint16_t& word : words) word = static_cast<std::uint16_t>(random());
-        EXPECT_FALSE(decode_status(words).is_ok());
-        EXPECT_FALSE(decode_command(words).is_ok());
-        EXPECT_FALSE(decode_ticket(words).is_ok());
-        EXPECT_FALSE(decode_result(words).is_ok());
-        const Decoded<Chunk> chunk = decode_chunk(words);
-        EXPECT_TRUE(!chunk.is_ok() || words.size() == chunk_head + (chunk.value.data.size() + 1) / 2);
+        Registers registers(random() % 130);
+        for (std::uint16_t& word : registers) word = static_cast<std::uint16_t>(random());
+        EXPECT_FALSE(decode_status(registers).is_ok());
+        EXPECT_FALSE(decode_command(registers).is_ok());
+        EXPECT_FALSE(decode_ticket(registers).is_ok());
+        EXPECT_FALSE(decode_result(registers).is_ok());
+        const Decoded<Chunk> chunk = decode_chunk(registers);
+        EXPECT_TRUE(!chunk.is_ok() || registers.size() == chunk_head + (chunk.value.data.size() + 1) / 2);
     }
 }
 
@@ -254,23 +254,23 @@ TEST(Codec, AChunkOfAnotherOwnerJobOrPlaceHasAnotherChecksum) {
 TEST(Ticket, LengthsAreRoundedToTheNearestHundredth) {
     JobTicket ticket = a_ticket();
     ticket.about.box.max.z = 80.2549;
-    EXPECT_EQ(ticket_words(ticket, an_order()).box_max[2], 8025);
+    EXPECT_EQ(wire_ticket(ticket, an_order()).box_max[2], 8025);
     ticket.about.box.max.z = -80.256;
-    EXPECT_EQ(ticket_words(ticket, an_order()).box_max[2], -8026);
+    EXPECT_EQ(wire_ticket(ticket, an_order()).box_max[2], -8026);
 }
 
 TEST(Ticket, WhatIsNotALengthIsRefused) {
     for (const double wrong : {double{NAN}, double{INFINITY}, -double{INFINITY}, 3e7, -3e7}) {
         JobTicket ticket = a_ticket();
         ticket.about.box.min.x = wrong;
-        EXPECT_THROW(ticket_words(ticket, an_order()), InputError) << wrong;
+        EXPECT_THROW(wire_ticket(ticket, an_order()), InputError) << wrong;
         ticket = a_ticket();
         ticket.about.stock.y = wrong;
-        EXPECT_THROW(ticket_words(ticket, an_order()), InputError) << wrong;
+        EXPECT_THROW(wire_ticket(ticket, an_order()), InputError) << wrong;
     }
     JobTicket ticket = a_ticket();
     ticket.about.tool_diameter = -1;
-    EXPECT_THROW(ticket_words(ticket, an_order()), InputError);
+    EXPECT_THROW(wire_ticket(ticket, an_order()), InputError);
 }
 
 TEST(Ticket, OnlyPlainFileNamesAreTaken) {
@@ -278,7 +278,7 @@ TEST(Ticket, OnlyPlainFileNamesAreTaken) {
          {"", ".", "..", ".a", "a/b", "../a", "a b", "\xC3\xA9", "a\\b", "123456789012345678901234567890123"}) {
         JobTicket ticket = a_ticket();
         ticket.file_name = bad;
-        EXPECT_THROW(ticket_words(ticket, an_order()), InputError) << bad;
+        EXPECT_THROW(wire_ticket(ticket, an_order()), InputError) << bad;
     }
 }
 

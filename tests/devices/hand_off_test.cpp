@@ -41,7 +41,7 @@ struct PaperCell {
             ADD_FAILURE() << "no end in sight at " << name(state.step);
             return false;
         }
-        HandOffTurn turn = advance(plan, state, input, now_s);
+        HandOffTransition turn = advance(plan, state, input, now_s);
         state = turn.state;
         action = turn.action;
         lines.insert(lines.end(), turn.lines.begin(), turn.lines.end());
@@ -140,7 +140,7 @@ struct PaperCell {
     int steps = 0;
     bool cancelled = false;
     Status status;
-    ResultWords result;
+    ResultRecord result;
     std::uint32_t tokens = 1000;
     std::vector<Command> commands;  // that the cell has taken; a frozen one takes none
     std::vector<CellCommand> written;
@@ -148,7 +148,7 @@ struct PaperCell {
     std::function<AckResult(const Command&)> grant;
     std::function<bool(const HandOffAction&)> lose;
     std::function<int(const HandOffAction&)> refuse;
-    std::function<void(ResultWords&)> twist;  // what the cell says to QUERY
+    std::function<void(ResultRecord&)> twist;  // what the cell says to QUERY
 };
 
 void end_the_job(PaperCell& cell) {
@@ -518,7 +518,7 @@ TEST(HandOff, AfterAnExceptionTheCellIsGivenBack) {
 
 TEST(HandOff, TheResultOfAnotherJobIsNotAskedForWithoutEnd) {
     PaperCell before;
-    before.twist = [](ResultWords& result) { result.job_id = other_job; };
+    before.twist = [](ResultRecord& result) { result.job_id = other_job; };
     before.run();
     EXPECT_EQ(before.state.verdict, StartVerdict::not_started);
     EXPECT_NE(before.state.why.find(to_text(other_job)), std::string::npos) << before.state.why;
@@ -538,7 +538,7 @@ TEST(HandOff, TheResultOfAnotherJobIsNotAskedForWithoutEnd) {
 TEST(HandOff, AQueryOvertakenByThatOfAnotherClientIsAskedAgain) {
     PaperCell cell;
     int overtaken = 0;
-    cell.twist = [&](ResultWords& result) {
+    cell.twist = [&](ResultRecord& result) {
         if (++overtaken % 4 != 0) result.query_owner = 4711;
     };
     end_the_job(cell);
@@ -560,14 +560,14 @@ void expect_contradiction(const PaperCell& cell, const std::string& named) {
 TEST(HandOff, NumbersOfStartsThatCannotBeAreAContradiction) {
     for (const std::uint32_t starts : {0U, 2U, 0xFFFFFFFFU}) {
         PaperCell cell;
-        cell.twist = [&](ResultWords& result) {
+        cell.twist = [&](ResultRecord& result) {
             if (cell.state.start_sent) result.starts = starts;
         };
         end_the_job(cell);
         expect_contradiction(cell, "STARTS " + std::to_string(starts));
     }
     PaperCell before;
-    before.twist = [](ResultWords& result) { result.starts = 1; };  // of a job that it does not know
+    before.twist = [](ResultRecord& result) { result.starts = 1; };  // of a job that it does not know
     before.run();
     expect_contradiction(before, "STARTS 1");
     EXPECT_EQ(before.count(CellCommand::start), 0);
@@ -610,7 +610,7 @@ TEST(HandOff, StatusAndResultThatDisagreeWithoutEndAreUnknown) {
         }
         cell.status.job_state = JobState::ended;
         if (!shown) cell.status.job_id = {};
-        cell.twist = [](ResultWords& result) {
+        cell.twist = [](ResultRecord& result) {
             result.job_state = JobState::running;
             result.starts = 1;
         };
@@ -628,7 +628,7 @@ TEST(HandOff, StatusAndResultThatDisagreeWithoutEndAreUnknown) {
 
 TEST(HandOff, AnotherFileThanOursUnderOurJobIsAContradictionAfterTheStart) {
     PaperCell cell;
-    cell.twist = [&](ResultWords& result) {
+    cell.twist = [&](ResultRecord& result) {
         if (cell.state.is_started) result.file_sha256.fill(1);
     };
     end_the_job(cell);
@@ -708,7 +708,7 @@ TEST(HandOff, TheFirstStatusIsTriedAgainBeforeItIsGivenUp) {
     EXPECT_GT(first(alien, 1).state.step, HandOffStep::check_cell);
     EXPECT_EQ(first(alien, 99).state.fault, DeviceFault::protocol);
     HandOffInput damaged = silent;
-    damaged.fault = WordFault::crc;
+    damaged.fault = BlockFault::crc;
     EXPECT_GT(first(damaged, 2).state.step, HandOffStep::check_cell);
     EXPECT_EQ(first(damaged, 99).state.fault, DeviceFault::protocol);
     const auto exception = [](int code) {
@@ -755,8 +755,8 @@ TEST(HandOff, ACellWhoseWordsAreNotOursIsAnErrorOfTheProtocol) {
     cell.step();
     cell.input = {};
     cell.input.end = BusEnd::lost;
-    cell.input.fault = WordFault::magic;
-    HandOffTurn turn = advance(cell.plan, cell.state, cell.input, 1);
+    cell.input.fault = BlockFault::magic;
+    HandOffTransition turn = advance(cell.plan, cell.state, cell.input, 1);
     EXPECT_EQ(turn.action.kind, Kind::finish);
     EXPECT_EQ(turn.state.fault, DeviceFault::protocol);
 }

@@ -8,7 +8,7 @@ namespace qchopper {
 namespace {
 
 constexpr ModbusRequest a_read{0x1234, 0xFF, ModbusFunction::read_input, 100, 2};
-const Words three_words{1, 2, 0xABCD};
+const Registers three_words{1, 2, 0xABCD};
 
 ModbusRequest a_write() {
     return {0x0102, 17, ModbusFunction::write_holding, 0x0205, 3, three_words};
@@ -30,7 +30,7 @@ const Bytes refusal{0x12, 0x34, 0, 0, 0, 3, 0xFF, 0x84, 2};
 TEST(ModbusFrame, ARightAnswerIsTaken) {
     EXPECT_EQ(check_answer(a_read, read_answer).wanted, read_answer.size());
     EXPECT_EQ(check_answer(a_read, read_answer).wrong, "");
-    EXPECT_EQ(take_answer(a_read, read_answer).words, (Words{0xCAFE, 9}));
+    EXPECT_EQ(take_answer(a_read, read_answer).registers, (Registers{0xCAFE, 9}));
     EXPECT_EQ(check_answer(a_write(), write_answer).wanted, write_answer.size());
     EXPECT_EQ(check_answer(a_write(), write_answer).wrong, "");
     EXPECT_TRUE(take_answer(a_write(), write_answer).is_ok());

@@ -133,7 +133,7 @@ TEST(ModbusTcpBus, ARegisterIsRead) {
     ModbusTcpBus bus({"localhost", peer.port});
     const BusAnswer answer = bus.read_input(7, 1);
     ASSERT_TRUE(answer.is_ok()) << answer.why;
-    EXPECT_EQ(answer.words, (Words{0x1234}));
+    EXPECT_EQ(answer.registers, (Registers{0x1234}));
 }
 
 TEST(ModbusTcpBus, APeerThatIsSilentCostsOneSecondAndTheNextCallIsAFreshConnection) {
@@ -246,7 +246,7 @@ TEST(ModbusTcpBus, AWriteWhoseEchoNamesOtherRegistersIsLost) {
     for (const std::size_t at : {0, 8, 9, 10, 11}) {
         const Peer peer(echo(at));
         ModbusTcpBus bus({"127.0.0.1", peer.port});
-        EXPECT_EQ(bus.write_holding(0x0205, Words{5}).is_ok(), at == 0) << at;
+        EXPECT_EQ(bus.write_holding(0x0205, Registers{5}).is_ok(), at == 0) << at;
     }
 }
 
@@ -305,14 +305,14 @@ TEST(ModbusTcpBus, ADescriptorOf1024OrMoreServesLikeAnyOther) {
     for (const int fd : files) close(fd);
     setrlimit(RLIMIT_NOFILE, &limit);
     EXPECT_TRUE(answer.is_ok()) << answer.why;
-    EXPECT_EQ(answer.words, (Words{0x1234}));
+    EXPECT_EQ(answer.registers, (Registers{0x1234}));
 }
 
 TEST(ModbusTcpBus, ACountThatNoRequestCanHoldIsRefusedAtHome) {
     ModbusTcpBus bus({"127.0.0.1", 1});
     EXPECT_EQ(bus.read_input(0, 126).exception, 3);
     EXPECT_EQ(bus.read_holding(0, 0).exception, 3);
-    EXPECT_EQ(bus.write_holding(0, Words(124, 0)).exception, 3);
+    EXPECT_EQ(bus.write_holding(0, Registers(124, 0)).exception, 3);
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ Sha256 right_digest() {
 }
 
 // A ticket that this cell takes.
-TicketWords good_ticket(const Uuid& id) {
-    TicketWords ticket;
+WireTicket good_ticket(const Uuid& id) {
+    WireTicket ticket;
     ticket.job_id = id;
     ticket.file_sha256 = right_digest();
     ticket.file_size = 1000;
@@ -123,12 +123,12 @@ Bytes CellSteps::answer(const Bytes& pdu) {
     return bytes;
 }
 
-void CellSteps::write(std::uint16_t address, const Words& words) {
+void CellSteps::write(std::uint16_t address, const Registers& registers) {
     Bytes pdu{16};
     add_word(pdu, address);
-    add_word(pdu, words.size());
-    pdu.push_back(static_cast<std::uint8_t>(2 * words.size()));
-    for (const std::uint16_t word : words) add_word(pdu, word);
+    add_word(pdu, registers.size());
+    pdu.push_back(static_cast<std::uint8_t>(2 * registers.size()));
+    for (const std::uint16_t word : registers) add_word(pdu, word);
     answer(pdu);
 }
 
@@ -158,20 +158,20 @@ Command CellSteps::chosen_command(Input& input) {
 
 void CellSteps::write_ticket(Input& input) {
     const unsigned choice = input.u8();
-    TicketWords ticket = good_ticket(jobs[choice & 1U]);
+    WireTicket ticket = good_ticket(jobs[choice & 1U]);
     if ((choice & 2U) != 0) ticket.transfer = Transfer::chunks;
     if ((choice & 4U) != 0) ticket.on_link_loss = LinkLoss::hold;
-    Words words = encode(ticket);
+    Registers registers = encode(ticket);
     const unsigned changes = choice >> 4U;
-    words.resize(words.size() - 2);  // the checksum
+    registers.resize(registers.size() - 2);  // the checksum
     for (unsigned n = 0; n < changes; ++n) {
-        const std::size_t at = input.u8() % words.size();
-        words[at] = input.u16();
+        const std::size_t at = input.u8() % registers.size();
+        registers[at] = input.u16();
     }
-    const std::uint32_t crc = crc32_of_words(words);
-    words.push_back(static_cast<std::uint16_t>(crc >> 16U));
-    words.push_back(static_cast<std::uint16_t>(crc & 0xFFFFU));
-    write(ticket_block.base, words);
+    const std::uint32_t crc = crc32_of_registers(registers);
+    registers.push_back(static_cast<std::uint16_t>(crc >> 16U));
+    registers.push_back(static_cast<std::uint16_t>(crc & 0xFFFFU));
+    write(ticket_block.base, registers);
 }
 
 void CellSteps::write_chunk(Input& input) {
@@ -189,7 +189,7 @@ void CellSteps::write_chunk(Input& input) {
 void CellSteps::write_zeros(const Block& block) {
     pass_time(cell_, now_, hooks_);
     const CellState before = cell_;
-    write(block.base, Words(block.count, 0));
+    write(block.base, Registers(block.count, 0));
     demand(cell_.state == before.state && cell_.mode == before.mode);
     demand(cell_.memory == before.memory);
     demand(cell_.job.state == before.job.state && cell_.job.token == before.job.token);
@@ -212,11 +212,11 @@ void CellSteps::check_file(Input& input) {
 void CellSteps::demand_status() {
     const Bytes bytes = answer({4, 0, 0, 0, static_cast<std::uint8_t>(status_block.count)});
     demand(bytes.size() == 2U + 2U * status_block.count);
-    Words words;
+    Registers registers;
     for (std::size_t i = 2; i < bytes.size(); i += 2) {
-        words.push_back(static_cast<std::uint16_t>(bytes[i] << 8U | bytes[i + 1]));
+        registers.push_back(static_cast<std::uint16_t>(bytes[i] << 8U | bytes[i + 1]));
     }
-    demand(decode_status(words).is_ok());
+    demand(decode_status(registers).is_ok());
 }
 
 void CellSteps::demand_one_start(bool was_active) {

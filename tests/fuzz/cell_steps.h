@@ -41,7 +41,7 @@ class CellSteps {
  private:
     void step(Input& input);
     Bytes answer(const Bytes& pdu);
-    void write(std::uint16_t address, const Words& words);
+    void write(std::uint16_t address, const Registers& registers);
     Command chosen_command(Input& input);
     void write_ticket(Input& input);
     void write_chunk(Input& input);

@@ -15,59 +15,59 @@ std::size_t crc_at(const Block& block, const char* name) {
 // Any words are taken or not; made right in magic, version and checksum they are taken, and then encoding and decoding
 // gives the same values back; with one bit of the covered words or of the checksum changed they are never taken.
 template <class Decode, class Right>
-void try_block(const Block& block, const char* crc_name, Words words, unsigned bit, const Decode& decode,
+void try_block(const Block& block, const char* crc_name, Registers registers, unsigned bit, const Decode& decode,
                const Right& make_right) {
     const std::size_t crc = crc_at(block, crc_name);
-    const auto checksum = [&] { return crc32_of_words(std::span(words).first(crc)); };
-    const auto raw = decode(words);
+    const auto checksum = [&] { return crc32_of_registers(std::span(registers).first(crc)); };
+    const auto raw = decode(registers);
     if (raw.is_ok()) {
-        demand(words.size() == block.count);
-        demand(words[crc] == checksum() >> 16 && words[crc + 1] == (checksum() & 0xFFFF));
+        demand(registers.size() == block.count);
+        demand(registers[crc] == checksum() >> 16 && registers[crc + 1] == (checksum() & 0xFFFF));
     }
-    words.resize(block.count);
-    if (is_all_zero(words)) {
-        demand(decode(words).fault == WordFault::empty);
-        words[crc - 1] = 1;
+    registers.resize(block.count);
+    if (is_all_zero(registers)) {
+        demand(decode(registers).fault == BlockFault::empty);
+        registers[crc - 1] = 1;
     }
-    make_right(words);
+    make_right(registers);
     const std::uint32_t right = checksum();
-    words[crc] = static_cast<std::uint16_t>(right >> 16);
-    words[crc + 1] = static_cast<std::uint16_t>(right & 0xFFFF);
-    const auto taken = decode(words);
+    registers[crc] = static_cast<std::uint16_t>(right >> 16);
+    registers[crc + 1] = static_cast<std::uint16_t>(right & 0xFFFF);
+    const auto taken = decode(registers);
     demand(taken.is_ok());
     const auto again = decode(encode(taken.value));
     demand(again.is_ok() && again.value == taken.value);
     const std::size_t at = bit % (16 * (crc + 2));
-    words[at / 16] = static_cast<std::uint16_t>(words[at / 16] ^ 1U << at % 16);
-    demand(!decode(words).is_ok());
+    registers[at / 16] = static_cast<std::uint16_t>(registers[at / 16] ^ 1U << at % 16);
+    demand(!decode(registers).is_ok());
 }
 
-void try_words(unsigned which, unsigned bit, const Words& words) {
-    const auto as_it_is = [](Words&) {};
-    const auto named = [](Words& w) {
+void try_words(unsigned which, unsigned bit, const Registers& registers) {
+    const auto as_it_is = [](Registers&) {};
+    const auto named = [](Registers& w) {
         w[0] = cell_magic;
         w[1] = static_cast<std::uint16_t>(map_version | (w[1] & 0xFF));
     };
-    const auto named_twice = [&named](Words& w) {
+    const auto named_twice = [&named](Registers& w) {
         named(w);
         w.back() = w[2];  // SNAPSHOT stands at both ends
     };
     switch (which % 6) {
         case 0:
-            return try_block(status_block, "STATUS_CRC", words, bit, decode_status, named_twice);
+            return try_block(status_block, "STATUS_CRC", registers, bit, decode_status, named_twice);
         case 1:
-            return try_block(result_block, "CRC", words, bit, decode_result, as_it_is);
+            return try_block(result_block, "CRC", registers, bit, decode_result, as_it_is);
         case 2:
-            return try_block(command_block, "CRC", words, bit, decode_command, named);
+            return try_block(command_block, "CRC", registers, bit, decode_command, named);
         case 3:
-            return try_block(ticket_block, "CRC", words, bit, decode_ticket, as_it_is);
+            return try_block(ticket_block, "CRC", registers, bit, decode_ticket, as_it_is);
         case 4: {
-            const Decoded<Heartbeat> beat = decode_heartbeat(words);
-            if (beat.is_ok()) demand(encode(beat.value) == words);
+            const Decoded<Heartbeat> beat = decode_heartbeat(registers);
+            if (beat.is_ok()) demand(encode(beat.value) == registers);
             return;
         }
         default: {
-            const Decoded<Chunk> chunk = decode_chunk(words);
+            const Decoded<Chunk> chunk = decode_chunk(registers);
             if (!chunk.is_ok()) return;
             demand(!chunk.value.data.empty() && chunk.value.data.size() <= max_chunk_bytes);
             demand(decode_chunk(encode(chunk.value)).value == chunk.value);
@@ -83,8 +83,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     qchopper::Input input(data, size);
     const unsigned which = input.u8();
     const unsigned bit = input.u16();
-    qchopper::Words words;
-    while (!input.is_empty() && words.size() < 200) words.push_back(input.u16());
-    qchopper::try_words(which, bit, words);
+    qchopper::Registers registers;
+    while (!input.is_empty() && registers.size() < 200) registers.push_back(input.u16());
+    qchopper::try_words(which, bit, registers);
     return 0;
 }

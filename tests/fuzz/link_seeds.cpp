@@ -9,9 +9,9 @@ namespace qchopper {
 namespace {
 
 // Which block, which bit is changed, its words (fuzz_blocks.cpp).
-Encoded block_seed(std::uint8_t which, const std::string& name, const Words& words) {
+Encoded block_seed(std::uint8_t which, const std::string& name, const Registers& registers) {
     Bytes bytes{which, 0, 77};
-    for (const std::uint16_t word : words) {
+    for (const std::uint16_t word : registers) {
         bytes.push_back(static_cast<std::uint8_t>(word >> 8U));
         bytes.push_back(static_cast<std::uint8_t>(word & 0xFFU));
     }
@@ -133,11 +133,11 @@ Encoded pdu_seed(const std::string& name, const Bytes& steps, std::uint32_t star
 std::vector<Encoded> link_seeds() {
     Status status;
     status.alarm_text = "Tool broke";
-    TicketWords ticket;
+    WireTicket ticket;
     ticket.file_name = "a.qjob";
     Command command;
     command.command = CellCommand::start;
-    ResultWords result;
+    ResultRecord result;
     result.starts = 1;
     return {block_seed(0, "status", encode(status)),
             block_seed(1, "result", encode(result)),

@@ -22,7 +22,7 @@ TEST(Bus, ReadsWhatTheCellSays) {
     const Link link;
     const BusAnswer answer = link.bus->read_input(status_block.base, status_block.count);
     ASSERT_TRUE(answer.is_ok()) << answer.why;
-    const Decoded<Status> status = decode_status(answer.words);
+    const Decoded<Status> status = decode_status(answer.registers);
     ASSERT_TRUE(status.is_ok());
     EXPECT_EQ(status.value.cell_id, any_cell_id);
     EXPECT_TRUE(status.value.has(flag::simulated));
@@ -42,7 +42,7 @@ TEST(Bus, HoldingRegistersReadAsZero) {
     ASSERT_TRUE(link.bus->write_holding(heartbeat_block.base, encode(Heartbeat{1, 2, 3})).is_ok());
     const BusAnswer answer = link.bus->read_holding(heartbeat_block.base, 5);
     ASSERT_TRUE(answer.is_ok());
-    EXPECT_EQ(answer.words, Words(5, 0));
+    EXPECT_EQ(answer.registers, Registers(5, 0));
 }
 
 TEST(Bus, ACellThatWentAndCameBackIsFoundAgain) {

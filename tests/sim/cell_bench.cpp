@@ -10,8 +10,8 @@ Sha256 good_digest() {
     return digest;
 }
 
-TicketWords good_ticket(const Uuid& id) {
-    TicketWords ticket;
+WireTicket good_ticket(const Uuid& id) {
+    WireTicket ticket;
     ticket.job_id = id;
     ticket.file_sha256 = good_digest();
     ticket.file_size = 1000;
@@ -67,7 +67,7 @@ AckResult Bench::claim(std::uint32_t who, std::uint32_t whose_secret, std::uint3
     return send(command);
 }
 
-void Bench::write_ticket(const TicketWords& ticket) {
+void Bench::write_ticket(const WireTicket& ticket) {
     cell.ticket_draft = encode(ticket);
 }
 
@@ -90,20 +90,20 @@ void Bench::to_idle() {
     ASSERT_EQ(cell.state, PackState::idle);
 }
 
-void Bench::to_stored(const TicketWords& ticket) {
+void Bench::to_stored(const WireTicket& ticket) {
     to_idle();
     write_ticket(ticket);
     ASSERT_EQ(send(CellCommand::store, ticket.job_id), AckResult::ok);
 }
 
-void Bench::to_verified(const TicketWords& ticket) {
+void Bench::to_verified(const WireTicket& ticket) {
     to_stored(ticket);
     ASSERT_EQ(send(CellCommand::verify, ticket.job_id), AckResult::pending);
     file_checked(cell, cell.pending->number, {FileCheck::End::ok, ticket.file_size, ticket.file_sha256}, now, hooks);
     ASSERT_EQ(cell.ack.result, AckResult::ok);
 }
 
-void Bench::to_prepared(const TicketWords& ticket) {
+void Bench::to_prepared(const WireTicket& ticket) {
     to_verified(ticket);
     ASSERT_EQ(send(CellCommand::prepare, ticket.job_id), AckResult::pending);
     if (cell.limits.consent == Consent::ask) consent_given(cell, cell.pending->number, true, now, hooks);
@@ -112,7 +112,7 @@ void Bench::to_prepared(const TicketWords& ticket) {
     ASSERT_NE(cell.job.token, 0U);
 }
 
-void Bench::to_running(const TicketWords& ticket) {
+void Bench::to_running(const WireTicket& ticket) {
     to_prepared(ticket);
     ASSERT_EQ(send(CellCommand::start, ticket.job_id, cell.job.token), AckResult::ok);
 }

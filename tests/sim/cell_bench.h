@@ -16,7 +16,7 @@ constexpr Uuid job_b{0xB, 1, 2, 3};
 constexpr Uuid any_job{0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF};
 
 // A ticket that this cell takes: 100 s, stored as piece-1.qjob.
-TicketWords good_ticket(const Uuid& id = job_a);
+WireTicket good_ticket(const Uuid& id = job_a);
 Sha256 good_digest();
 
 struct Bench {
@@ -28,16 +28,16 @@ struct Bench {
     AckResult send(CellCommand command, const Uuid& job = {}, std::uint32_t token = 0, std::uint32_t arg0 = 0);
     AckResult send(Command command);
     AckResult claim(std::uint32_t who = owner, std::uint32_t whose_secret = secret, std::uint32_t code = 0);
-    void write_ticket(const TicketWords& ticket);
+    void write_ticket(const WireTicket& ticket);
     void beat();
     void pass(std::int64_t ms);  // in steps of 10 ms, without heartbeats
 
     // The ways to a stored, verified, prepared, running job.
     void to_idle();
-    void to_stored(const TicketWords& ticket = good_ticket());
-    void to_verified(const TicketWords& ticket = good_ticket());
-    void to_prepared(const TicketWords& ticket = good_ticket());
-    void to_running(const TicketWords& ticket = good_ticket());
+    void to_stored(const WireTicket& ticket = good_ticket());
+    void to_verified(const WireTicket& ticket = good_ticket());
+    void to_prepared(const WireTicket& ticket = good_ticket());
+    void to_running(const WireTicket& ticket = good_ticket());
     Status status() const { return status_of(cell, now); }
 
     CellTime now{1000000, 1700000000000};

@@ -119,10 +119,10 @@ Bytes read_request(std::uint8_t function, std::uint16_t address, std::uint16_t c
             static_cast<std::uint8_t>(count >> 8), static_cast<std::uint8_t>(count & 0xFF)};
 }
 
-Bytes write_request(std::uint16_t address, const Words& words) {
-    Bytes pdu = read_request(16, address, static_cast<std::uint16_t>(words.size()));
-    pdu.push_back(static_cast<std::uint8_t>(2 * words.size()));
-    for (const std::uint16_t word : words) {
+Bytes write_request(std::uint16_t address, const Registers& registers) {
+    Bytes pdu = read_request(16, address, static_cast<std::uint16_t>(registers.size()));
+    pdu.push_back(static_cast<std::uint8_t>(2 * registers.size()));
+    for (const std::uint16_t word : registers) {
         pdu.push_back(static_cast<std::uint8_t>(word >> 8));
         pdu.push_back(static_cast<std::uint8_t>(word & 0xFF));
     }

@@ -49,6 +49,6 @@ class RawSocket {
 // MBAP header and PDU.
 Bytes frame(std::uint16_t transaction, const Bytes& pdu, std::uint8_t unit = 1);
 Bytes read_request(std::uint8_t function, std::uint16_t address, std::uint16_t count);
-Bytes write_request(std::uint16_t address, const Words& words);
+Bytes write_request(std::uint16_t address, const Registers& registers);
 
 }  // namespace qchopper::rig

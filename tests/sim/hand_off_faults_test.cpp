@@ -50,7 +50,7 @@ class Trial {
         order.job_id = Uuid{5, 5, 5};
         order.cell_id = any_cell_id;
         order.simulated = true;
-        plan_.ticket = ticket_words(ticket, order);
+        plan_.ticket = wire_ticket(ticket, order);
         plan_.owner = seed + 1;
         plan_.secret = seed + 2;
     }
@@ -59,7 +59,7 @@ class Trial {
         HandOff state;
         HandOffInput input;
         for (int n = 0; n < 20000; ++n) {
-            HandOffTurn turn = advance(plan_, std::move(state), input, seconds());
+            HandOffTransition turn = advance(plan_, std::move(state), input, seconds());
             state = std::move(turn.state);
             for (const std::string& line : turn.lines) log += line + "\n";
             if (turn.action.kind == Kind::finish) {
@@ -121,7 +121,7 @@ class Trial {
         return input;
     }
 
-    HandOffInput request(const Bytes& pdu, bool is_write, Words* words = nullptr) {
+    HandOffInput request(const Bytes& pdu, bool is_write, Registers* registers = nullptr) {
         pass(0.003);
         if (happens(odds_.lost_before)) {
             if (is_write && happens(odds_.late)) late_.push_back(pdu);
@@ -135,34 +135,35 @@ class Trial {
             return lost();
         }
         EXPECT_EQ(answer[0], pdu[0]);
-        for (std::size_t i = 2; words != nullptr && i + 1 < answer.size(); i += 2) {
-            words->push_back(static_cast<std::uint16_t>(answer[i] << 8 | answer[i + 1]));
+        for (std::size_t i = 2; registers != nullptr && i + 1 < answer.size(); i += 2) {
+            registers->push_back(static_cast<std::uint16_t>(answer[i] << 8 | answer[i + 1]));
         }
         return {};
     }
 
-    HandOffInput write(const Block& block, const Words& words) {
-        return request(rig::write_request(block.base, words), true);
+    HandOffInput write(const Block& block, const Registers& registers) {
+        return request(rig::write_request(block.base, registers), true);
     }
 
     HandOffInput act(const HandOffAction& action) {
-        Words words;
+        Registers registers;
         HandOffInput input;
         switch (action.kind) {
             case Kind::read_status:
-                input = request(rig::read_request(4, status_block.base, status_block.count), false, &words);
-                if (input.end == BusEnd::ok) input.status = decode_status(words).value;
+                input = request(rig::read_request(4, status_block.base, status_block.count), false, &registers);
+                if (input.end == BusEnd::ok) input.status = decode_status(registers).value;
                 return input;
             case Kind::read_result:
-                input = request(rig::read_request(4, result_block.base, result_block.count), false, &words);
-                if (input.end == BusEnd::ok && decode_result(words).is_ok()) input.result = decode_result(words).value;
+                input = request(rig::read_request(4, result_block.base, result_block.count), false, &registers);
+                if (input.end == BusEnd::ok && decode_result(registers).is_ok())
+                    input.result = decode_result(registers).value;
                 return input;
             case Kind::write_command:
                 return write(command_block, encode(action.command));
             case Kind::write_ticket:
                 return write(ticket_block, encode(plan_.ticket));
             case Kind::write_signature:
-                return write(signature_block, Words(signature_block.count, 0));
+                return write(signature_block, Registers(signature_block.count, 0));
             case Kind::heartbeat:
                 return write(heartbeat_block, encode(action.beat));
             case Kind::wait:

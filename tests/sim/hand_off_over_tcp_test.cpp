@@ -41,7 +41,7 @@ struct Rig {
 };
 
 std::string whole(const JobOutcome& outcome) {
-    std::string text = std::string(words(outcome.verdict)) + ": " + outcome.why + "\n";
+    std::string text = std::string(describe(outcome.verdict)) + ": " + outcome.why + "\n";
     for (const std::string& line : outcome.log) text += line + "\n";
     return text;
 }

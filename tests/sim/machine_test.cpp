@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "devices/words.h"
+#include "devices/register_writer.h"
 #include "tests/sim/cell_bench.h"
 
 namespace qchopper {
@@ -261,7 +261,7 @@ TEST(Lease, AHeartbeatThatDoesNotChangeOrIsNotOursDoesNotCount) {
         take_heartbeat(bench.cell, encode(Heartbeat{epoch, owner, bench.counter}), bench.now);
         take_heartbeat(bench.cell, encode(Heartbeat{epoch + 1, owner, static_cast<std::uint16_t>(n)}), bench.now);
         take_heartbeat(bench.cell, encode(Heartbeat{epoch, other_owner, static_cast<std::uint16_t>(n)}), bench.now);
-        take_heartbeat(bench.cell, Words(5, 0), bench.now);
+        take_heartbeat(bench.cell, Registers(5, 0), bench.now);
         bench.pass(100);
     }
     EXPECT_FALSE(bench.cell.lease.has_value());
@@ -281,7 +281,7 @@ TEST(Lease, TheHeartbeatMayWrap) {
 TEST(Lease, ASilentDispatcherHoldsTheJobOnlyIfTheTicketSaysSo) {
     for (const LinkLoss policy : {LinkLoss::go_on, LinkLoss::hold}) {
         Bench bench;
-        TicketWords ticket = good_ticket();
+        WireTicket ticket = good_ticket();
         ticket.on_link_loss = policy;
         bench.to_running(ticket);
         bench.pass(4000);
@@ -301,12 +301,12 @@ TEST(Frames, WhatCannotBeTrustedHasNoEffectAndIsCounted) {
                         0,
                         good_digest(),
                         owner};
-    const Words good = encode(start);
+    const Registers good = encode(start);
     const Acknowledgement before = bench.cell.ack;
     const auto spoil = [&](std::size_t at) {
-        Words words = good;
-        words[at] ^= 0x0100;
-        take_command(bench.cell, words, bench.now, bench.hooks);
+        Registers registers = good;
+        registers[at] ^= 0x0100;
+        take_command(bench.cell, registers, bench.now, bench.hooks);
         return bench.cell.bad_reason;
     };
     EXPECT_EQ(spoil(0), AckResult::bad_magic);
@@ -314,7 +314,7 @@ TEST(Frames, WhatCannotBeTrustedHasNoEffectAndIsCounted) {
     EXPECT_EQ(spoil(16), AckResult::bad_crc);
     EXPECT_EQ(bench.cell.bad_frames, 3);
     EXPECT_EQ(bench.cell.ack.seq, before.seq);
-    take_command(bench.cell, Words(60, 0), bench.now, bench.hooks);
+    take_command(bench.cell, Registers(60, 0), bench.now, bench.hooks);
     EXPECT_EQ(bench.cell.bad_frames, 3);  // zeros are inert
     // The right frame still works.
     take_command(bench.cell, good, bench.now, bench.hooks);
@@ -351,7 +351,7 @@ TEST(Store, TheSameTicketAgainIsAlreadyThereAndAnotherOneIsNot) {
     Bench bench;
     bench.to_stored();
     EXPECT_EQ(bench.send(CellCommand::store, job_a), AckResult::already);
-    TicketWords other = good_ticket();
+    WireTicket other = good_ticket();
     other.file_size = 2000;
     bench.write_ticket(other);
     EXPECT_EQ(bench.send(CellCommand::store, job_a), AckResult::job_id_reused);
@@ -392,30 +392,30 @@ TEST(Store, WithoutATicketOrWithADamagedOneNothingIsStored) {
 }
 
 TEST(Store, EveryFieldThatIsWrongIsNamedByItsAddress) {
-    const auto refused_at = [](const std::function<void(TicketWords&)>& spoil) -> std::uint32_t {
+    const auto refused_at = [](const std::function<void(WireTicket&)>& spoil) -> std::uint32_t {
         Bench bench;
         bench.to_idle();
-        TicketWords ticket = good_ticket();
+        WireTicket ticket = good_ticket();
         spoil(ticket);
         bench.write_ticket(ticket);
         EXPECT_EQ(bench.send(CellCommand::store, ticket.job_id), AckResult::ticket_field);
         return bench.cell.ack.detail;
     };
-    EXPECT_EQ(refused_at([](TicketWords& t) { t.ticket_version = 2; }), 100U);
-    EXPECT_EQ(refused_at([](TicketWords& t) { t.job_id = {}; }), 101U);
-    EXPECT_EQ(refused_at([](TicketWords& t) { t.file_size = 0; }), 125U);
-    EXPECT_EQ(refused_at([](TicketWords& t) { t.transfer = static_cast<Transfer>(3); }), 127U);
-    EXPECT_EQ(refused_at([](TicketWords& t) { t.file_name = "../etc"; }), 128U);
-    EXPECT_EQ(refused_at([](TicketWords& t) { t.unit = 2; }), 144U);
-    EXPECT_EQ(refused_at([](TicketWords& t) { t.box_min[1] = t.box_max[1]; }), 147U);
-    EXPECT_EQ(refused_at([](TicketWords& t) { t.stock[2] = 0; }), 161U);
-    EXPECT_EQ(refused_at([](TicketWords& t) { t.material = 5; }), 163U);
-    EXPECT_EQ(refused_at([](TicketWords& t) { t.tool_diameter_um = 0; }), 165U);
-    EXPECT_EQ(refused_at([](TicketWords& t) { t.piece_no = 2; }), 173U);
-    EXPECT_EQ(refused_at([](TicketWords& t) { t.on_link_loss = static_cast<LinkLoss>(2); }), 187U);
-    EXPECT_EQ(refused_at([](TicketWords& t) { t.requirements = 2; }), 188U);
-    EXPECT_EQ(refused_at([](TicketWords& t) { t.cell_id = 7; }), 193U);
-    EXPECT_EQ(refused_at([](TicketWords& t) { t.made_for = 0; }), 194U);
+    EXPECT_EQ(refused_at([](WireTicket& t) { t.ticket_version = 2; }), 100U);
+    EXPECT_EQ(refused_at([](WireTicket& t) { t.job_id = {}; }), 101U);
+    EXPECT_EQ(refused_at([](WireTicket& t) { t.file_size = 0; }), 125U);
+    EXPECT_EQ(refused_at([](WireTicket& t) { t.transfer = static_cast<Transfer>(3); }), 127U);
+    EXPECT_EQ(refused_at([](WireTicket& t) { t.file_name = "../etc"; }), 128U);
+    EXPECT_EQ(refused_at([](WireTicket& t) { t.unit = 2; }), 144U);
+    EXPECT_EQ(refused_at([](WireTicket& t) { t.box_min[1] = t.box_max[1]; }), 147U);
+    EXPECT_EQ(refused_at([](WireTicket& t) { t.stock[2] = 0; }), 161U);
+    EXPECT_EQ(refused_at([](WireTicket& t) { t.material = 5; }), 163U);
+    EXPECT_EQ(refused_at([](WireTicket& t) { t.tool_diameter_um = 0; }), 165U);
+    EXPECT_EQ(refused_at([](WireTicket& t) { t.piece_no = 2; }), 173U);
+    EXPECT_EQ(refused_at([](WireTicket& t) { t.on_link_loss = static_cast<LinkLoss>(2); }), 187U);
+    EXPECT_EQ(refused_at([](WireTicket& t) { t.requirements = 2; }), 188U);
+    EXPECT_EQ(refused_at([](WireTicket& t) { t.cell_id = 7; }), 193U);
+    EXPECT_EQ(refused_at([](WireTicket& t) { t.made_for = 0; }), 194U);
 }
 
 TEST(Store, ANameWithSomethingHiddenBehindItsEndIsRefused) {
@@ -423,9 +423,9 @@ TEST(Store, ANameWithSomethingHiddenBehindItsEndIsRefused) {
     for (const std::size_t behind : {7U, 15U}) {  // "piece-1.qjob" fills six registers
         Bench bench;
         bench.to_idle();
-        Words block = encode(good_ticket());
+        Registers block = encode(good_ticket());
         block[name.address - ticket_block.base + behind] = 0x4142;
-        const std::uint32_t crc = crc32_of_words(std::span(block).first(98));
+        const std::uint32_t crc = crc32_of_registers(std::span(block).first(98));
         block[98] = static_cast<std::uint16_t>(crc >> 16U);
         block[99] = static_cast<std::uint16_t>(crc & 0xFFFFU);
         ASSERT_TRUE(decode_ticket(block).is_ok());
@@ -507,23 +507,23 @@ TEST(Prepare, ChecksReachStockAndToolBeforeAnybodyIsAsked) {
     limits.reach = {{-10, -10, 0}, {10, 10, 20}};
     limits.max_stock = {30, 30, 30};
     limits.tools = {{3}, {4}};
-    const auto answer = [&](const std::function<void(TicketWords&)>& spoil) {
+    const auto answer = [&](const std::function<void(WireTicket&)>& spoil) {
         Bench bench(limits);
-        TicketWords ticket = good_ticket();
+        WireTicket ticket = good_ticket();
         spoil(ticket);
         bench.to_verified(ticket);
         const AckResult result = bench.send(CellCommand::prepare, job_a);
         EXPECT_EQ(bench.cell.pending.has_value(), result == AckResult::pending);
         return std::pair(result, bench.cell.ack.detail);
     };
-    EXPECT_EQ(answer([](TicketWords&) {}).first, AckResult::pending);
-    EXPECT_EQ(answer([](TicketWords& t) { t.box_max[2] = 2001; }), std::pair(AckResult::envelope, 155U));
-    EXPECT_EQ(answer([](TicketWords& t) { t.box_min[0] = -1001; }), std::pair(AckResult::envelope, 145U));
-    EXPECT_EQ(answer([](TicketWords& t) { t.stock[1] = 3001; }), std::pair(AckResult::envelope, 159U));
-    EXPECT_EQ(answer([](TicketWords& t) { t.stock[0] = 1999; }), std::pair(AckResult::stock_too_small, 157U));
-    EXPECT_EQ(answer([](TicketWords& t) { t.tool_no = 9; }), std::pair(AckResult::tool, 164U));
+    EXPECT_EQ(answer([](WireTicket&) {}).first, AckResult::pending);
+    EXPECT_EQ(answer([](WireTicket& t) { t.box_max[2] = 2001; }), std::pair(AckResult::envelope, 155U));
+    EXPECT_EQ(answer([](WireTicket& t) { t.box_min[0] = -1001; }), std::pair(AckResult::envelope, 145U));
+    EXPECT_EQ(answer([](WireTicket& t) { t.stock[1] = 3001; }), std::pair(AckResult::envelope, 159U));
+    EXPECT_EQ(answer([](WireTicket& t) { t.stock[0] = 1999; }), std::pair(AckResult::stock_too_small, 157U));
+    EXPECT_EQ(answer([](WireTicket& t) { t.tool_no = 9; }), std::pair(AckResult::tool, 164U));
     limits = {};
-    EXPECT_EQ(answer([](TicketWords& t) {
+    EXPECT_EQ(answer([](WireTicket& t) {
                   t.box_min[0] = INT32_MIN;
                   t.box_max[0] = INT32_MAX;
               }).first,
@@ -533,26 +533,26 @@ TEST(Prepare, ChecksReachStockAndToolBeforeAnybodyIsAsked) {
 TEST(Prepare, ChecksTheToolsSizeAndSpeedsAndThatNothingLiesBelowTheTable) {
     CellLimits limits;
     limits.tools = {{3, 12, 18000, 4000}, {4, 6, 24000, 6000}};
-    const auto answer = [&](const std::function<void(TicketWords&)>& spoil) {
+    const auto answer = [&](const std::function<void(WireTicket&)>& spoil) {
         Bench bench(limits);
-        TicketWords ticket = good_ticket();
+        WireTicket ticket = good_ticket();
         spoil(ticket);
         bench.to_verified(ticket);
         const AckResult result = bench.send(CellCommand::prepare, job_a);
         EXPECT_EQ(bench.cell.pending.has_value(), result == AckResult::pending);
         return std::pair(result, bench.cell.ack.detail);
     };
-    const auto sound = [](TicketWords& t) {
+    const auto sound = [](WireTicket& t) {
         t.tool_diameter_um = 12000;
         t.spindle_max_rpm = 24000;
         t.feed_max_mm_per_min = 6000;
     };
     EXPECT_EQ(answer(sound).first, AckResult::pending) << "at most the largest of the list";
     const auto field = [](std::uint32_t address) { return std::pair(AckResult::ticket_field, address); };
-    EXPECT_EQ(answer([](TicketWords& t) { t.tool_diameter_um = 12001; }), field(165));
-    EXPECT_EQ(answer([](TicketWords& t) { t.spindle_max_rpm = 24001; }), field(167));
-    EXPECT_EQ(answer([](TicketWords& t) { t.feed_max_mm_per_min = 6001; }), field(168));
-    EXPECT_EQ(answer([](TicketWords& t) { t.box_min[2] = -1; }), field(149));
+    EXPECT_EQ(answer([](WireTicket& t) { t.tool_diameter_um = 12001; }), field(165));
+    EXPECT_EQ(answer([](WireTicket& t) { t.spindle_max_rpm = 24001; }), field(167));
+    EXPECT_EQ(answer([](WireTicket& t) { t.feed_max_mm_per_min = 6001; }), field(168));
+    EXPECT_EQ(answer([](WireTicket& t) { t.box_min[2] = -1; }), field(149));
 }
 
 TEST(Prepare, IsPendingUntilSomebodyConsents) {
@@ -603,7 +603,7 @@ TEST(Prepare, ConsentIsForOneStartOnly) {
 
 TEST(Rehearse, GivesAReceiptThatPrepareAsksForAndMovesNothing) {
     Bench bench;
-    TicketWords ticket = good_ticket();
+    WireTicket ticket = good_ticket();
     ticket.requirements = 1;
     bench.to_verified(ticket);
     EXPECT_EQ(bench.send(CellCommand::prepare, job_a), AckResult::rehearsal_required);
@@ -626,7 +626,7 @@ TEST(Rehearse, GivesAReceiptThatPrepareAsksForAndMovesNothing) {
 
 TEST(Chunks, TheFileGrowsOnlyInOrderAndOnlyByItsOwner) {
     Bench bench;
-    TicketWords ticket = good_ticket();
+    WireTicket ticket = good_ticket();
     ticket.transfer = Transfer::chunks;
     ticket.file_size = 5;
     bench.to_stored(ticket);

@@ -144,12 +144,13 @@ TEST(PackML, ActingStatesEndByThemselvesAndWaitingStatesDoNot) {
 TEST(PackML, NumbersThatAreNoStateOrNoCommandMeetARefusal) {
     for (const std::uint16_t n : {0, 18, 100, 65535}) {
         for (const CellCommand command : all_commands) {
-            EXPECT_EQ(transition(static_cast<PackState>(n), command).meeting, Meeting::refused) << n << name(command);
+            EXPECT_EQ(transition(static_cast<PackState>(n), command).kind, TransitionKind::refused)
+                << n << name(command);
         }
     }
     for (std::uint16_t n = 1; n <= last_pack_state; ++n) {
         for (const std::uint16_t c : {0, 11, 99, 110, 65535}) {
-            EXPECT_EQ(transition(static_cast<PackState>(n), static_cast<CellCommand>(c)).meeting, Meeting::refused);
+            EXPECT_EQ(transition(static_cast<PackState>(n), static_cast<CellCommand>(c)).kind, TransitionKind::refused);
         }
     }
 }

@@ -28,10 +28,10 @@ TEST(Pdu, AStatusReadIsTheStatus) {
     ASSERT_EQ(bytes.size(), 202U);
     EXPECT_EQ(bytes[0], 4);
     EXPECT_EQ(bytes[1], 200);
-    Words words;
+    Registers registers;
     for (std::size_t i = 2; i < bytes.size(); i += 2)
-        words.push_back(static_cast<std::uint16_t>(bytes[i] << 8 | bytes[i + 1]));
-    const Decoded<Status> status = decode_status(words);
+        registers.push_back(static_cast<std::uint16_t>(bytes[i] << 8 | bytes[i + 1]));
+    const Decoded<Status> status = decode_status(registers);
     ASSERT_TRUE(status.is_ok());
     EXPECT_EQ(status.value, bench.status());
 }
@@ -97,7 +97,7 @@ TEST(Pdu, CountAndLengthComeBeforeTheAddress) {
     Bytes wrong_bytes = good;
     wrong_bytes[5] = 9;
     EXPECT_EQ(answer(bench, wrong_bytes), exception(16, 3));
-    EXPECT_EQ(answer(bench, write_request(0, Words(124, 0))), exception(16, 3));
+    EXPECT_EQ(answer(bench, write_request(0, Registers(124, 0))), exception(16, 3));
     EXPECT_EQ(answer(bench, good), (Bytes{16, 500 >> 8, 500 & 0xFF, 0, 5}));
 }
 
@@ -126,25 +126,26 @@ TEST(Pdu, AnAtomicBlockIsWrittenWholeOrNotAtAll) {
     Bench bench;
     bench.to_prepared();
     const std::uint32_t seq = bench.cell.ack.seq;
-    Words start = encode(Command{bench.cell.memory.epoch_held, seq + 1, CellCommand::start, bench::job_a,
-                                 bench.cell.job.token, 0, 0, bench::good_digest(), bench::owner});
-    const Words whole = start;
+    Registers start = encode(Command{bench.cell.memory.epoch_held, seq + 1, CellCommand::start, bench::job_a,
+                                     bench.cell.job.token, 0, 0, bench::good_digest(), bench::owner});
+    const Registers whole = start;
     for (std::size_t count = 1; count < 60; ++count) {
-        EXPECT_EQ(
-            answer(bench, write_request(0, Words(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(count)))),
-            exception(16, 2));
-        EXPECT_EQ(answer(bench, write_request(static_cast<std::uint16_t>(60 - count),
-                                              Words(whole.end() - static_cast<std::ptrdiff_t>(count), whole.end()))),
+        EXPECT_EQ(answer(bench, write_request(
+                                    0, Registers(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(count)))),
                   exception(16, 2));
+        EXPECT_EQ(
+            answer(bench, write_request(static_cast<std::uint16_t>(60 - count),
+                                        Registers(whole.end() - static_cast<std::ptrdiff_t>(count), whole.end()))),
+            exception(16, 2));
     }
     start.push_back(0);
     EXPECT_EQ(answer(bench, write_request(0, start)), exception(16, 2));
-    EXPECT_EQ(answer(bench, write_request(100, Words(99, 0))), exception(16, 2));
-    EXPECT_EQ(answer(bench, write_request(200, Words(31, 0))), exception(16, 2));
-    EXPECT_EQ(answer(bench, write_request(500, Words(4, 0))), exception(16, 2));
-    EXPECT_EQ(answer(bench, write_request(300, Words(5, 1))), exception(16, 2));
-    EXPECT_EQ(answer(bench, write_request(301, Words(5, 1))), exception(16, 2));
-    Words chunk = encode(Chunk{0, {1, 2, 3}, 0});
+    EXPECT_EQ(answer(bench, write_request(100, Registers(99, 0))), exception(16, 2));
+    EXPECT_EQ(answer(bench, write_request(200, Registers(31, 0))), exception(16, 2));
+    EXPECT_EQ(answer(bench, write_request(500, Registers(4, 0))), exception(16, 2));
+    EXPECT_EQ(answer(bench, write_request(300, Registers(5, 1))), exception(16, 2));
+    EXPECT_EQ(answer(bench, write_request(301, Registers(5, 1))), exception(16, 2));
+    Registers chunk = encode(Chunk{0, {1, 2, 3}, 0});
     chunk.push_back(0);
     EXPECT_EQ(answer(bench, write_request(300, chunk)), exception(16, 3));
     EXPECT_EQ(bench.cell.ack.seq, seq);
@@ -157,7 +158,7 @@ TEST(Pdu, ZerosAreInert) {
     Bench bench;
     bench.to_running();
     for (const Block* block : all_blocks()) {
-        if (block->side == Side::holding) answer(bench, write_request(block->base, Words(block->count, 0)));
+        if (block->side == Side::holding) answer(bench, write_request(block->base, Registers(block->count, 0)));
     }
     EXPECT_EQ(bench.cell.state, PackState::starting);
     EXPECT_EQ(bench.cell.bad_frames, 0);

@@ -31,24 +31,24 @@ struct Peer {
 
 TEST(Peer, LibmodbusReadsTheStatus) {
     const Peer peer;
-    std::uint16_t words[MODBUS_MAX_READ_REGISTERS] = {};
-    ASSERT_EQ(modbus_read_input_registers(peer.client.get(), 0, 100, words), 100) << modbus_strerror(errno);
-    EXPECT_EQ(words[0], 0x5143);
-    EXPECT_EQ(words[7], 2);  // Stopped
-    EXPECT_EQ(words[13], 0xFFFF);
-    EXPECT_NE(words[9] & (1 << 9), 0);
-    EXPECT_TRUE(decode_status(std::span(words).first(100)).is_ok());
+    std::uint16_t registers[MODBUS_MAX_READ_REGISTERS] = {};
+    ASSERT_EQ(modbus_read_input_registers(peer.client.get(), 0, 100, registers), 100) << modbus_strerror(errno);
+    EXPECT_EQ(registers[0], 0x5143);
+    EXPECT_EQ(registers[7], 2);  // Stopped
+    EXPECT_EQ(registers[13], 0xFFFF);
+    EXPECT_NE(registers[9] & (1 << 9), 0);
+    EXPECT_TRUE(decode_status(std::span(registers).first(100)).is_ok());
 }
 
 TEST(Peer, LibmodbusClaimsTheCellWithWordsWrittenByHand) {
     const Peer peer;
-    std::uint16_t words[60] = {0x5143, 0x0100, 0, 1, 0, 1, 100, 0};
-    words[38] = 0xABCD;
-    words[39] = 0xEF01;
-    const std::uint32_t crc = crc32_of_words(std::span(words).first(58));
-    words[58] = static_cast<std::uint16_t>(crc >> 16);
-    words[59] = static_cast<std::uint16_t>(crc & 0xFFFF);
-    ASSERT_EQ(modbus_write_registers(peer.client.get(), 0, 60, words), 60) << modbus_strerror(errno);
+    std::uint16_t registers[60] = {0x5143, 0x0100, 0, 1, 0, 1, 100, 0};
+    registers[38] = 0xABCD;
+    registers[39] = 0xEF01;
+    const std::uint32_t crc = crc32_of_registers(std::span(registers).first(58));
+    registers[58] = static_cast<std::uint16_t>(crc >> 16);
+    registers[59] = static_cast<std::uint16_t>(crc & 0xFFFF);
+    ASSERT_EQ(modbus_write_registers(peer.client.get(), 0, 60, registers), 60) << modbus_strerror(errno);
     std::uint16_t status[MODBUS_MAX_READ_REGISTERS] = {};
     ASSERT_EQ(modbus_read_input_registers(peer.client.get(), 0, 100, status), 100);
     EXPECT_EQ(status[17], 1);       // OK
@@ -60,33 +60,33 @@ TEST(Peer, LibmodbusClaimsTheCellWithWordsWrittenByHand) {
 TEST(Peer, LibmodbusIsToldWhatIsNotServed) {
     const Peer peer;
     modbus_t* client = peer.client.get();
-    std::uint16_t words[MODBUS_MAX_READ_REGISTERS] = {};
+    std::uint16_t registers[MODBUS_MAX_READ_REGISTERS] = {};
     std::uint8_t bits[8] = {};
     EXPECT_EQ(modbus_write_register(client, 0, 1), -1);  // function 6
     EXPECT_EQ(errno, EMBXILFUN);
     EXPECT_EQ(modbus_read_bits(client, 0, 8, bits), -1);
     EXPECT_EQ(errno, EMBXILFUN);
-    EXPECT_EQ(modbus_read_input_registers(client, 150, 10, words), -1);
+    EXPECT_EQ(modbus_read_input_registers(client, 150, 10, registers), -1);
     EXPECT_EQ(errno, EMBXILADD);
-    EXPECT_EQ(modbus_write_registers(client, 0, 59, words), -1);
+    EXPECT_EQ(modbus_write_registers(client, 0, 59, registers), -1);
     EXPECT_EQ(errno, EMBXILADD);
     modbus_set_slave(client, 7);
-    EXPECT_EQ(modbus_read_input_registers(client, 0, 1, words), -1);
+    EXPECT_EQ(modbus_read_input_registers(client, 0, 1, registers), -1);
     EXPECT_EQ(errno, EMBXGTAR);
     modbus_set_slave(client, 1);
-    EXPECT_EQ(modbus_read_input_registers(client, 0, 1, words), 1);  // and the connection is as good as before
+    EXPECT_EQ(modbus_read_input_registers(client, 0, 1, registers), 1);  // and the connection is as good as before
 }
 
 TEST(Peer, GarbageInAllHoldingRegistersStartsNothing) {
     const Peer peer;
-    std::uint16_t words[123];
+    std::uint16_t registers[123];
     for (int n = 0; n < 50; ++n) {
-        for (int i = 0; i < 123; ++i) words[i] = static_cast<std::uint16_t>(31 * n + 7919 * i);
-        modbus_write_registers(peer.client.get(), 0, 60, words);
-        modbus_write_registers(peer.client.get(), 100, 100, words);
-        modbus_write_registers(peer.client.get(), 200, 32, words);
-        modbus_write_registers(peer.client.get(), 300, 121, words);
-        modbus_write_registers(peer.client.get(), 500, 5, words);
+        for (int i = 0; i < 123; ++i) registers[i] = static_cast<std::uint16_t>(31 * n + 7919 * i);
+        modbus_write_registers(peer.client.get(), 0, 60, registers);
+        modbus_write_registers(peer.client.get(), 100, 100, registers);
+        modbus_write_registers(peer.client.get(), 200, 32, registers);
+        modbus_write_registers(peer.client.get(), 300, 121, registers);
+        modbus_write_registers(peer.client.get(), 500, 5, registers);
     }
     EXPECT_EQ(peer.sim.status().starts_total, 0U);
     EXPECT_EQ(peer.sim.status().state, PackState::stopped);

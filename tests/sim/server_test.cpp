@@ -106,7 +106,7 @@ TEST(Server, WhatIsNotModbusIsClosed) {
     const std::string http = "GET / HTTP/1.1\r\nHost: cell\r\n\r\n";
     EXPECT_TRUE(is_closed(Bytes(http.begin(), http.end())));
     EXPECT_TRUE(is_closed({0x16, 0x03, 0x01, 0x02, 0x00, 0x01, 0x00, 0x01, 0xFC, 0x03, 0x03}));
-    EXPECT_TRUE(is_closed(frame(1, rig::write_request(0, Words(124, 0)))));
+    EXPECT_TRUE(is_closed(frame(1, rig::write_request(0, Registers(124, 0)))));
     EXPECT_TRUE(is_served(RawSocket(cell.sim.port())));
 }
 
@@ -117,7 +117,7 @@ TEST(Server, AHalfFrameIsClosedAfterTwoSecondsAndAByteNowAndThenDoesNotHelp) {
     half.send({0, 1, 0, 0, 0});
     const auto began = std::chrono::steady_clock::now();
     bool slow_is_closed = false;
-    const Bytes whole = frame(1, rig::write_request(0, Words(60, 0)));
+    const Bytes whole = frame(1, rig::write_request(0, Registers(60, 0)));
     for (std::size_t n = 0; n < 14 && !slow_is_closed; ++n) {
         slow.send({whole[n]});
         slow_is_closed = slow.is_closed_within(0.2);

@@ -169,10 +169,10 @@ TEST(Job, TheTextsInsideHaveOneForm) {
     const auto compact = [](const std::string& text) { return nlohmann::ordered_json::parse(text).dump(); };
     EXPECT_NE(with(compact).find("the one form"), std::string::npos) << with(compact);
     EXPECT_NE(with([](const std::string& text) { return text + " "; }).find("the one form"), std::string::npos);
-    const auto twice = [](const std::string& text) { return "{\n  \"schema\": 1," + text.substr(1); };
+    const auto twice = [](const std::string& text) { return "{\n  \"schema\": 2," + text.substr(1); };
     EXPECT_NE(with(twice).find("the one form"), std::string::npos) << with(twice);
     const auto huge = [](std::string text) {
-        return text.replace(text.find("\"schema\": 1"), 11, "\"schema\": 1e999");
+        return text.replace(text.find("\"schema\": 2"), 11, "\"schema\": 1e999");
     };
     EXPECT_NE(with(huge).find("out of range"), std::string::npos) << with(huge);
     const auto deep = [](const std::string&) { return std::string(5'000'000, '['); };
@@ -203,7 +203,7 @@ TEST(Job, AnyValueOfAnotherKindEndsInOneWay) {
 TEST(Job, ForgedManifestsAreRefusedAndSayWhere) {
     using Json = nlohmann::ordered_json;
     const std::vector<std::pair<std::function<void(Json&)>, std::string>> cases{
-        {[](Json& j) { j["schema"] = 2; }, "schema 2 is not 1"},
+        {[](Json& j) { j["schema"] = 1; }, "schema 1 is not 2"},
         {[](Json& j) { j["format"] = "other"; }, "format"},
         {[](Json& j) { j.erase("piece"); }, "piece is missing"},
         {[](Json& j) { j["piece"]["number"] = 70000; }, "number is not a whole number"},

@@ -87,7 +87,7 @@ TEST(Setup, TheBaseIsTheCapWithTheLeastUndercutThatCarries) {
                 EXPECT_EQ(setup.up, bound.up());
             }
             const double base_mm2 = facing(*piece.mesh, bound.up(), bound.cut).base;
-            if (setup.base_carries && base_mm2 > 0.5 * setup.shadow_mm2) {
+            if (setup.base_is_stable && base_mm2 > 0.5 * setup.projected_area_mm2) {
                 EXPECT_LE(setup.undercut, by_hand + 1e-9) << piece.name;
             }
         }
@@ -118,7 +118,8 @@ TEST(Setup, TurningPieceAndBoundsTogetherChangesNothing) {
         if (!before.base) continue;  // the oriented box is a search, and may end elsewhere
         const qchopper::Setup after = choose_setup(rotated(piece, {0.3, -0.5, 0.8}, 1.234, {17, -40, 5}), in);
         EXPECT_NEAR(after.undercut, before.undercut, 1e-9) << piece.name;
-        EXPECT_NEAR(after.inaccessible, before.inaccessible, 0.02) << piece.name;  // rays are single precision
+        EXPECT_NEAR(after.occluded_area_ratio, before.occluded_area_ratio, 0.02)
+            << piece.name;  // rays are single precision
         EXPECT_EQ(after.base, before.base) << piece.name;
         EXPECT_EQ(after.stock, before.stock) << piece.name;
         const Vec3 change = after.box.size() - before.box.size();
@@ -131,10 +132,10 @@ TEST(Setup, ABoxOnItsCapHasNoUndercut) {
     const qchopper::Setup setup = choose_setup(piece, cell());
     EXPECT_EQ(setup.base, 3);
     EXPECT_EQ(setup.undercut, 0);
-    EXPECT_EQ(setup.inaccessible, 0);
+    EXPECT_EQ(setup.occluded_area_ratio, 0);
     EXPECT_NEAR(setup.base_mm2, 30 * 90, 1e-9);
-    EXPECT_NEAR(setup.shadow_mm2, 30 * 90, 27);
-    EXPECT_TRUE(setup.base_carries);
+    EXPECT_NEAR(setup.projected_area_mm2, 30 * 90, 27);
+    EXPECT_TRUE(setup.base_is_stable);
     EXPECT_TRUE(setup.warnings.empty());
     EXPECT_NEAR(setup.box.max.x, 45, 1e-9) << "the long side lies along x";
     EXPECT_NEAR(setup.box.max.y, 15, 1e-9);
@@ -170,9 +171,9 @@ TEST(Setup, ABaseThatCannotCarryIsPassedOverOrTakenWithAWarning) {
     ASSERT_FALSE(stump.bounds[0].above);
     const qchopper::Setup on_tip = choose_setup(stump, cell());
     EXPECT_EQ(on_tip.base, 0);
-    EXPECT_FALSE(on_tip.base_carries);
+    EXPECT_FALSE(on_tip.base_is_stable);
     ASSERT_EQ(on_tip.warnings.size(), 1U);
-    EXPECT_NE(on_tip.warnings[0].find("1 % of the piece's shadow"), std::string::npos) << on_tip.warnings[0];
+    EXPECT_NE(on_tip.warnings[0].find("1 % of the piece's projected area"), std::string::npos) << on_tip.warnings[0];
 
     const auto again = cut_piece(stump, canonical({{1, 0.1, 0}, 20.77}), 1);
     ASSERT_TRUE(again && again->pieces.size() == 2);
@@ -183,10 +184,10 @@ TEST(Setup, APieceWithoutCapsLiesOnASideOfItsBox) {
     const Piece piece = uncut(shapes::box({0, 0, 0}, {50, 20, 10}));
     const qchopper::Setup setup = choose_setup(piece, cell());
     EXPECT_EQ(setup.base, std::nullopt);
-    EXPECT_FALSE(setup.base_carries);
+    EXPECT_FALSE(setup.base_is_stable);
     EXPECT_EQ(setup.warnings.size(), 1U);
     // Six sides hide 10 x 20, 10 x 50 or 20 x 50 of 3400: the smallest is the one below.
-    EXPECT_NEAR(setup.inaccessible, 200.0 / 3400, 1e-6);
+    EXPECT_NEAR(setup.occluded_area_ratio, 200.0 / 3400, 1e-6);
     EXPECT_NEAR(setup.box.size().z, 50, 1e-6);
 }
 

@@ -31,22 +31,22 @@ TEST(Undercut, WhatStandsBelowIsHidden) {
     const TriangleMesh top = shapes::box({0, 0, 2}, {3, 3, 3});
     const TriangleMesh both = shapes::joined({leg, top});
     const RayTree rays(both);
-    EXPECT_NEAR(hidden_share(both, rays, {0, 0, 1}, std::nullopt), (6.0 + 9) / (6 + 30), 1e-9);
-    EXPECT_NEAR(hidden_share(both, rays, {0, 0, -1}, std::nullopt), (1.0 + 9) / (6 + 30), 0.2);
+    EXPECT_NEAR(occluded_area_ratio(both, rays, {0, 0, 1}, std::nullopt), (6.0 + 9) / (6 + 30), 1e-9);
+    EXPECT_NEAR(occluded_area_ratio(both, rays, {0, 0, -1}, std::nullopt), (1.0 + 9) / (6 + 30), 0.2);
 }
 
 TEST(Undercut, TheBaseIsNeverHidden) {
     const Piece piece = standing_box({0, 0, 0}, {3, 4, 5}, 0, 3);
     const RayTree rays(*piece.mesh);
-    EXPECT_EQ(hidden_share(*piece.mesh, rays, {0, 0, 1}, 0), 0);
-    EXPECT_NEAR(hidden_share(*piece.mesh, rays, {0, 0, 1}, std::nullopt), 12.0 / 94, 1e-9);
+    EXPECT_EQ(occluded_area_ratio(*piece.mesh, rays, {0, 0, 1}, 0), 0);
+    EXPECT_NEAR(occluded_area_ratio(*piece.mesh, rays, {0, 0, 1}, std::nullopt), 12.0 / 94, 1e-9);
 }
 
 TEST(Undercut, HalfOfABallIsHidden) {
     const TriangleMesh ball = shapes::ball({100, 200, 3000}, 50, 40);
     const RayTree rays(ball);
     for (const Vec3 up : {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{0.6, 0, 0.8}}) {
-        EXPECT_NEAR(hidden_share(ball, rays, up, std::nullopt), 0.5, 0.03);
+        EXPECT_NEAR(occluded_area_ratio(ball, rays, up, std::nullopt), 0.5, 0.03);
     }
 }
 

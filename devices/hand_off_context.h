@@ -10,9 +10,9 @@
 #include "devices/hand_off_input.h"
 #include "devices/hand_off_state.h"
 
-namespace qchopper::turning {
+namespace qchopper::hand_off {
 
-struct TurnUnderWay {
+struct StepContext {
     const HandOffPlan& plan;
     HandOff& h;
     const HandOffInput& in;
@@ -42,39 +42,39 @@ constexpr bool has_started(JobState state) {
 }
 
 // hand_off.cpp
-HandOffAction next_action(TurnUnderWay& turn);
+HandOffAction next_action(StepContext& context);
 HandOffAction plain(Kind kind, std::string journal = {});
-HandOffAction pause(TurnUnderWay& turn);
-HandOffAction send(TurnUnderWay& turn, CellCommand command, std::string journal = {});
-HandOffAction finish(TurnUnderWay& turn, StartVerdict verdict, const std::string& why, const std::string& to_do = {});
+HandOffAction pause(StepContext& context);
+HandOffAction send(StepContext& context, CellCommand command, std::string journal = {});
+HandOffAction finish(StepContext& context, StartVerdict verdict, const std::string& why, const std::string& to_do = {});
 // What is known decides the word: STARTED, UNKNOWN if a START may have arrived, else NOT STARTED.
-HandOffAction give_up(TurnUnderWay& turn, const std::string& why, const std::string& to_do = {});
-HandOffAction fail(TurnUnderWay& turn, DeviceFault fault, const std::string& why, const std::string& to_do);
+HandOffAction give_up(StepContext& context, const std::string& why, const std::string& to_do = {});
+HandOffAction fail(StepContext& context, DeviceFault fault, const std::string& why, const std::string& to_do);
 // The job will not be started: takes it out of the cell, gives the cell back, and ends with what was said here.
-HandOffAction withdraw(TurnUnderWay& turn, const std::string& why, const std::string& to_do);
+HandOffAction withdraw(StepContext& context, const std::string& why, const std::string& to_do);
 // A new epoch voids everything that may still be on its way; then the cell is asked.
-HandOffAction fence(TurnUnderWay& turn, const std::string& why);
+HandOffAction fence(StepContext& context, const std::string& why);
 
 // hand_off_leave.cpp
 // The caller has asked to stop: what that changes now, or nothing if the hand-off is on its way out already.
-std::optional<HandOffAction> leave(TurnUnderWay& turn);
+std::optional<HandOffAction> leave(StepContext& context);
 // Asked to stop while the job runs: stops watching it, or stops the machine if that was ordered.
-HandOffAction leave_running_job(TurnUnderWay& turn);
+HandOffAction leave_running_job(StepContext& context);
 // The end of a hand-off that was asked to stop and can wait no longer.
-HandOffAction leave_at_once(TurnUnderWay& turn);
+HandOffAction leave_at_once(StepContext& context);
 
 // hand_off_result.cpp
-HandOffAction take_result(TurnUnderWay& turn);
+HandOffAction take_result(StepContext& context);
 // What the cell has said cannot all be true: UNKNOWN, with `what` it was.
-HandOffAction contradict(TurnUnderWay& turn, const std::string& what);
+HandOffAction contradict(StepContext& context, const std::string& what);
 
 // hand_off_steps.cpp
-HandOffAction enter(TurnUnderWay& turn, HandOffStep step);
-HandOffAction look_at_cell(TurnUnderWay& turn);
-HandOffAction get_ready(TurnUnderWay& turn);
-HandOffAction send_file(TurnUnderWay& turn);
-HandOffAction watch(TurnUnderWay& turn);
-HandOffAction acknowledged(TurnUnderWay& turn);
-HandOffAction refused(TurnUnderWay& turn, AckResult result);
+HandOffAction enter(StepContext& context, HandOffStep step);
+HandOffAction look_at_cell(StepContext& context);
+HandOffAction get_ready(StepContext& context);
+HandOffAction send_file(StepContext& context);
+HandOffAction watch(StepContext& context);
+HandOffAction acknowledged(StepContext& context);
+HandOffAction refused(StepContext& context, AckResult result);
 
-}  // namespace qchopper::turning
+}  // namespace qchopper::hand_off

@@ -1,6 +1,6 @@
 // Numbers, text and bytes as 16-bit registers: high word first, first character in the high byte, no floats.
 //
-// Reading what was written gives it back (tests/devices/words_test.cpp).
+// Reading what was written gives it back (tests/devices/register_writer_test.cpp).
 
 #pragma once
 
@@ -18,32 +18,32 @@ namespace qchopper {
 // CRC-32 of IEEE 802.3 (reflected, init and xorout all ones); "123456789" gives 0xCBF43926.
 std::uint32_t crc32_of(std::span<const std::uint8_t> bytes);
 // Over the bytes of the registers as they go over the wire.
-std::uint32_t crc32_of_words(std::span<const std::uint16_t> words);
+std::uint32_t crc32_of_registers(std::span<const std::uint16_t> registers);
 
 // Longest beginning of `text` of at most `max_bytes` that does not end inside a UTF-8 character.
 std::string_view cut_utf8(std::string_view text, std::size_t max_bytes);
 
 // Appends fields one after the other.
-class WordWriter {
+class RegisterWriter {
  public:
-    WordWriter& u16(std::uint16_t value);
-    WordWriter& u32(std::uint32_t value);
-    WordWriter& u64(std::uint64_t value);
-    WordWriter& i32(std::int32_t value) { return u32(static_cast<std::uint32_t>(value)); }
-    WordWriter& bytes(std::span<const std::uint8_t> data);  // an odd last byte in the high half
-    WordWriter& text(std::string_view characters, std::size_t registers);
-    WordWriter& zeros(std::size_t registers);
-    WordWriter& crc() { return u32(crc32_of_words(words_)); }  // over everything so far
-    const Words& words() const { return words_; }
+    RegisterWriter& u16(std::uint16_t value);
+    RegisterWriter& u32(std::uint32_t value);
+    RegisterWriter& u64(std::uint64_t value);
+    RegisterWriter& i32(std::int32_t value) { return u32(static_cast<std::uint32_t>(value)); }
+    RegisterWriter& bytes(std::span<const std::uint8_t> data);  // an odd last byte in the high half
+    RegisterWriter& text(std::string_view characters, std::size_t registers);
+    RegisterWriter& zeros(std::size_t registers);
+    RegisterWriter& crc() { return u32(crc32_of_registers(registers_)); }  // over everything so far
+    const Registers& registers() const { return registers_; }
 
  private:
-    Words words_;
+    Registers registers_;
 };
 
 // Takes fields one after the other; behind the end everything is 0.
-class WordReader {
+class RegisterReader {
  public:
-    explicit WordReader(std::span<const std::uint16_t> words) : words_(words) {}
+    explicit RegisterReader(std::span<const std::uint16_t> registers) : registers_(registers) {}
     std::uint16_t u16();
     std::uint32_t u32();
     std::uint64_t u64();
@@ -53,10 +53,10 @@ class WordReader {
     void skip(std::size_t registers) { at_ += registers; }
 
  private:
-    std::span<const std::uint16_t> words_;
+    std::span<const std::uint16_t> registers_;
     std::size_t at_ = 0;
 };
 
-bool is_all_zero(std::span<const std::uint16_t> words);
+bool is_all_zero(std::span<const std::uint16_t> registers);
 
 }  // namespace qchopper

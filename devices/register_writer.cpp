@@ -1,4 +1,4 @@
-#include "devices/words.h"
+#include "devices/register_writer.h"
 
 #include <zlib.h>
 
@@ -11,10 +11,10 @@ std::uint32_t crc32_of(std::span<const std::uint8_t> bytes) {
     return static_cast<std::uint32_t>(crc32_z(0, bytes.data(), bytes.size()));
 }
 
-std::uint32_t crc32_of_words(std::span<const std::uint16_t> words) {
+std::uint32_t crc32_of_registers(std::span<const std::uint16_t> registers) {
     std::vector<std::uint8_t> bytes;
-    bytes.reserve(2 * words.size());
-    for (const std::uint16_t word : words) {
+    bytes.reserve(2 * registers.size());
+    for (const std::uint16_t word : registers) {
         bytes.push_back(static_cast<std::uint8_t>(word >> 8));
         bytes.push_back(static_cast<std::uint8_t>(word & 0xFF));
     }
@@ -28,20 +28,20 @@ std::string_view cut_utf8(std::string_view text, std::size_t max_bytes) {
     return text.substr(0, end);
 }
 
-WordWriter& WordWriter::u16(std::uint16_t value) {
-    words_.push_back(value);
+RegisterWriter& RegisterWriter::u16(std::uint16_t value) {
+    registers_.push_back(value);
     return *this;
 }
 
-WordWriter& WordWriter::u32(std::uint32_t value) {
+RegisterWriter& RegisterWriter::u32(std::uint32_t value) {
     return u16(static_cast<std::uint16_t>(value >> 16)).u16(static_cast<std::uint16_t>(value & 0xFFFF));
 }
 
-WordWriter& WordWriter::u64(std::uint64_t value) {
+RegisterWriter& RegisterWriter::u64(std::uint64_t value) {
     return u32(static_cast<std::uint32_t>(value >> 32)).u32(static_cast<std::uint32_t>(value & 0xFFFFFFFF));
 }
 
-WordWriter& WordWriter::bytes(std::span<const std::uint8_t> data) {
+RegisterWriter& RegisterWriter::bytes(std::span<const std::uint8_t> data) {
     for (std::size_t i = 0; i < data.size(); i += 2) {
         const unsigned low = i + 1 < data.size() ? data[i + 1] : 0U;
         u16(static_cast<std::uint16_t>((data[i] << 8U) | low));
@@ -49,7 +49,7 @@ WordWriter& WordWriter::bytes(std::span<const std::uint8_t> data) {
     return *this;
 }
 
-WordWriter& WordWriter::text(std::string_view characters, std::size_t registers) {
+RegisterWriter& RegisterWriter::text(std::string_view characters, std::size_t registers) {
     const std::string_view fitting = cut_utf8(characters, 2 * registers);
     assert(fitting.size() <= 2 * registers);
     std::vector<std::uint8_t> padded(2 * registers, 0);
@@ -57,27 +57,27 @@ WordWriter& WordWriter::text(std::string_view characters, std::size_t registers)
     return bytes(padded);
 }
 
-WordWriter& WordWriter::zeros(std::size_t registers) {
-    words_.insert(words_.end(), registers, 0);
+RegisterWriter& RegisterWriter::zeros(std::size_t registers) {
+    registers_.insert(registers_.end(), registers, 0);
     return *this;
 }
 
-std::uint16_t WordReader::u16() {
+std::uint16_t RegisterReader::u16() {
     const std::size_t at = at_++;
-    return at < words_.size() ? words_[at] : std::uint16_t{0};
+    return at < registers_.size() ? registers_[at] : std::uint16_t{0};
 }
 
-std::uint32_t WordReader::u32() {
+std::uint32_t RegisterReader::u32() {
     const std::uint32_t high = u16();
     return (high << 16) | u16();
 }
 
-std::uint64_t WordReader::u64() {
+std::uint64_t RegisterReader::u64() {
     const std::uint64_t high = u32();
     return (high << 32) | u32();
 }
 
-void WordReader::bytes(std::span<std::uint8_t> data) {
+void RegisterReader::bytes(std::span<std::uint8_t> data) {
     for (std::size_t i = 0; i < data.size(); i += 2) {
         const std::uint16_t word = u16();
         data[i] = static_cast<std::uint8_t>(word >> 8);
@@ -85,14 +85,14 @@ void WordReader::bytes(std::span<std::uint8_t> data) {
     }
 }
 
-std::string WordReader::text(std::size_t registers) {
+std::string RegisterReader::text(std::size_t registers) {
     std::vector<std::uint8_t> raw(2 * registers);
     bytes(raw);
     return {raw.begin(), std::find(raw.begin(), raw.end(), std::uint8_t{0})};
 }
 
-bool is_all_zero(std::span<const std::uint16_t> words) {
-    return std::all_of(words.begin(), words.end(), [](std::uint16_t word) { return word == 0; });
+bool is_all_zero(std::span<const std::uint16_t> registers) {
+    return std::all_of(registers.begin(), registers.end(), [](std::uint16_t word) { return word == 0; });
 }
 
 }  // namespace qchopper

@@ -40,12 +40,12 @@ std::uint32_t thousandths(const JobTicket& ticket, double length, const char* wh
 
 }  // namespace
 
-TicketWords ticket_words(const JobTicket& ticket, const TicketOrder& order) {
+WireTicket wire_ticket(const JobTicket& ticket, const TicketOrder& order) {
     if (!is_portable_name(ticket.file_name)) {
         refuse(ticket, "'" + ticket.file_name +
                            "' is not a file name that a cell takes (1 to 32 of A-Z a-z 0-9 . _ -, no dot in front)");
     }
-    TicketWords t;
+    WireTicket t;
     t.job_id = order.job_id;
     t.file_sha256 = ticket.file_sha256;
     t.file_size = ticket.file_size;
