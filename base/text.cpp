@@ -22,14 +22,14 @@ std::string significant(double value, int digits) {
     return result.ec == std::errc{} ? std::string(text, result.ptr) : "?";
 }
 
-std::string counted(std::size_t count, const std::string& one, const std::string& many) {
-    return std::to_string(count) + " " + (count == 1 ? one : many.empty() ? one + "s" : many);
-}
-
 std::string with_commas(std::size_t number) {
     std::string text = std::to_string(number);
     for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
     return text;
+}
+
+std::string counted(std::size_t count, const std::string& one, const std::string& many) {
+    return with_commas(count) + " " + (count == 1 ? one : many.empty() ? one + "s" : many);
 }
 
 std::string volume_in_words(double mm3) {

@@ -14,7 +14,7 @@ std::string fixed(double value, int decimals);
 // So many significant digits, without trailing zeros: "0.00125", "1.2e+09".
 std::string significant(double value, int digits);
 
-// "1 hole", "5 holes"; `many` where an s is not enough.
+// "1 hole", "5,000 holes"; `many` where an s is not enough.
 std::string counted(std::size_t count, const std::string& one, const std::string& many = {});
 
 // 1234567 -> "1,234,567"

@@ -33,6 +33,7 @@ TEST(Text, NumbersAreForPeople) {
 TEST(Text, CountsAndDigits) {
     EXPECT_EQ(counted(1, "hole"), "1 hole");
     EXPECT_EQ(counted(0, "hole"), "0 holes");
+    EXPECT_EQ(counted(5000, "hole"), "5,000 holes");
     EXPECT_EQ(counted(2, "vertex", "vertices"), "2 vertices");
     EXPECT_EQ(with_commas(0), "0");
     EXPECT_EQ(with_commas(999), "999");
