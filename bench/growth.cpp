@@ -1,6 +1,6 @@
 #include <iostream>
 
-#include "app/project/project.h"
+#include "app/project/project_folder.h"
 #include "base/file.h"
 #include "base/temporary_folder.h"
 #include "bench/child.h"

@@ -102,7 +102,7 @@ void print_cuts(const Result& r) {
     for (const double t : r.wall) sum += t;
     std::cout << "\n### " << r.which.name << ": " << r.which.mesh << "\n\n"
               << s.pieces.size() << " pieces and " << s.crumbs.size() << " crumbs after " << s.cuts.size()
-              << " cuts in " << time_text(sum) << "; " << r.end.reason << ".\n\nFaces of the pieces:";
+              << " cuts in " << time_text(sum) << "; " << r.end.sentence << ".\n\nFaces of the pieces:";
     for (const Piece& piece : s.pieces) std::cout << " " << piece.name << " " << piece.mesh->triangles.size();
     std::cout << ".\n\n| cut | piece | makes | face ratio | fragility | piece count | undercut | total | time |\n"
                  "|---|---|---|---|---|---|---|---|---|\n";

@@ -1,4 +1,4 @@
-// What the operator typed, as values. The only file that knows the option parser is arguments.cpp.
+// What the operator typed, as values.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/vec3.h"
+#include "app/project/export_pieces.h"
 
 namespace qchopper {
 
@@ -31,6 +31,7 @@ struct InspectArguments {
 struct RepairChoiceArguments {
     std::optional<double> weld_mm;
     std::optional<std::string> fill;  // auto | flat | fair | none
+    bool resolve_self_intersections = false;
     bool smooth_marks = false;
     std::optional<double> wrap_mm;
 };
@@ -49,14 +50,13 @@ struct RepairArguments : RepairChoiceArguments {
 
 // What a new project is told; a stop rule also tells a search how to go on.
 struct ProjectArguments : RepairChoiceArguments {
-    bool resolve_self_intersections = false;
     std::optional<std::string> units;
     std::optional<double> scale;
     std::optional<std::filesystem::path> cell;
     std::optional<std::string> preset;
     std::optional<int> min_cuts;
     std::optional<std::size_t> max_faces;
-    std::optional<Vec3> max_obb;
+    std::optional<std::string> max_obb;  // segment_values.h reads it
     bool fits_cell = false;
     std::optional<std::string> stop;       // any | all
     std::optional<std::string> fragility;  // thinness | thesis
@@ -98,14 +98,8 @@ struct ExplainArguments {
     std::optional<std::filesystem::path> out;  // of the plot
 };
 
-struct ExportArguments {
+struct ExportArguments : ExportRequest {
     std::filesystem::path project;
-    std::string format;          // 3mf | stl | ply | glb
-    std::string pose = "place";  // place | setup
-    std::optional<std::string> piece;
-    std::optional<double> simplify_mm;
-    std::optional<std::size_t> max_faces;
-    std::optional<std::filesystem::path> out;
 };
 
 struct DryRunArguments {
@@ -138,8 +132,5 @@ struct Arguments {
                  ExplainArguments, ExportArguments, DryRunArguments, CellSimArguments, DispatchArguments>
         command;
 };
-
-// Nothing if help or version was asked for: it is on stdout then. Throws InputError (use).
-std::optional<Arguments> parse_arguments(int argc, const char* const* argv);
 
 }  // namespace qchopper

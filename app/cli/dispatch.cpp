@@ -57,8 +57,7 @@ int run(const DispatchArguments& arguments, Terminal& terminal) {
         terminal.say("not confirmed: nothing was sent");
         return exit_demand_broken;
     }
-    return report(hand_over(jobs, bus, options, terminal), jobs.size(), "qchopper-dispatch-1", options.want_simulated,
-                  terminal);
+    return hand_over(jobs, bus, options, "qchopper-dispatch-1", terminal);
 }
 
 }  // namespace qchopper

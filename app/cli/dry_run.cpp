@@ -27,7 +27,7 @@ int run(const DryRunArguments& arguments, Terminal& terminal) {
     dispatch.want_simulated = true;
     dispatch.drop_folder = drop.path();
     dispatch.timings.poll_s = 0.02;
-    return report(hand_over(jobs, bus, dispatch, terminal), jobs.size(), "qchopper-dry-run-1", true, terminal);
+    return hand_over(jobs, bus, dispatch, "qchopper-dry-run-1", terminal);
 }
 
 }  // namespace qchopper

@@ -1,47 +1,16 @@
-// What dry-run and dispatch share: which jobs of a project, one after the other over a bus, and the table at the end.
+// What dry-run and dispatch share on the terminal.
 
 #pragma once
 
-#include <filesystem>
-#include <functional>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "app/cli/terminal.h"
-#include "base/file.h"
-#include "cam/cell/cell.h"
-#include "cam/job/ticket.h"
-#include "devices/dispatch.h"
+#include "app/project/hand_over.h"
 
 namespace qchopper {
 
-// Read once: what was checked is what is sent.
-struct PieceJob {
-    std::string piece;
-    Bytes file;
-    JobTicket ticket;
-};
-struct ProjectJobs {
-    Cell cell;
-    std::vector<PieceJob> jobs;
-};
-// The jobs that the project ordered for its cell, in the order of its pieces; only one piece if it is named.
-// Throws InputError: an unfinished project, no such piece, a job file that is missing, broken or another
-// (ordered_job.h).
-ProjectJobs jobs_of(const std::filesystem::path& project, const std::optional<std::string>& piece);
-
-struct HandedOver {
-    std::string piece;
-    JobOutcome outcome;
-};
-
-// Stops at the first job that did not run to its end: what follows may need the block that it left.
-std::vector<HandedOver> hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options,
-                                  Terminal& terminal);
-
-// Shows table or document; returns the exit code.
-int report(const std::vector<HandedOver>& handed, std::size_t wanted, const std::string& schema, bool simulated,
-           Terminal& terminal);
+// Hands the jobs over, shows table or document, and returns the exit code.
+int hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options,
+              const std::string& schema, Terminal& terminal);
 
 }  // namespace qchopper

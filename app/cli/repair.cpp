@@ -2,7 +2,8 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
-#include "app/cli/segment_project.h"
+#include "app/cli/project_arguments.h"
+#include "app/project/project_folder.h"
 #include "app/report/repair_report.h"
 #include "segment/import/import_scan.h"
 #include "segment/io/write_ply.h"
@@ -61,9 +62,9 @@ int run(const RepairArguments& arguments, Terminal& terminal) {
         scan.warnings.emplace_back("STL holds single precision: points are rounded; a .ply file keeps every bit.");
     }
     write_file(arguments.out, is_stl ? to_stl(scan.mesh) : to_ply(scan.mesh));
-    for (const std::string& warning : scan.warnings) terminal.warn(warning);
+    terminal.warn(scan.warnings);
     const RepairedFile file{arguments.scan, arguments.out, options.scale};
-    for (const std::string& line : lines(scan, file)) terminal.show(line);
+    terminal.show(lines(scan, file));
     terminal.json(document(scan, file));
     return scan.report.is_solid() ? exit_done : exit_demand_broken;
 }

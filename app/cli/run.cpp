@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <new>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
+#include "app/cli/parse_arguments.h"
+#include "app/report/notices.h"
 
 namespace qchopper {
 namespace {
@@ -47,12 +48,7 @@ int report(Terminal& terminal, const std::string& what, const std::string& to_do
     }
     terminal.error(line);
     if (terminal.is_json()) {
-        const nlohmann::ordered_json document{{"schema", "qchopper-error-1"},
-                                              {"error", what},
-                                              {"unchanged", terminal.unchanged},
-                                              {"to_do", to_do},
-                                              {"exit_code", code}};
-        terminal.json(document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+        terminal.json(error_document(what, terminal.unchanged, to_do, code));
     }
     return code;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <vector>
 
 #include "segment/io/text.h"
@@ -81,6 +82,16 @@ std::optional<Plane> plane_from(const std::string& text) {
     const std::optional<Vec3> unit = unit_from({v[0], v[1], v[2]});
     if (!unit) return std::nullopt;
     return canonical({*unit, v[3]});
+}
+
+std::optional<Vec3> lengths_from(const std::string& text) {
+    std::istringstream in(text);
+    Vec3 v;
+    char comma[2] = {};
+    if (!(in >> v.x >> comma[0] >> v.y >> comma[1] >> v.z) || comma[0] != ',' || comma[1] != ',') return std::nullopt;
+    char rest = 0;
+    if (in >> rest || !(v.x > 0 && v.y > 0 && v.z > 0)) return std::nullopt;
+    return v;
 }
 
 std::optional<std::size_t> place_from(const std::string& text) {

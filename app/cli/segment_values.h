@@ -27,6 +27,9 @@ std::optional<GivenWeights> weights_from(const std::string& text);
 // "nx,ny,nz,d": a direction of any length but zero, and the distance along it in mm.
 std::optional<Plane> plane_from(const std::string& text);
 
+// "X,Y,Z": three lengths in mm, greater than zero.
+std::optional<Vec3> lengths_from(const std::string& text);
+
 // A whole number from 1, the place in a ranking.
 std::optional<std::size_t> place_from(const std::string& text);
 

@@ -3,7 +3,11 @@
 #include <algorithm>
 
 #include "app/project/price_cache.h"
-#include "app/project/products.h"
+#include "app/project/project_folder.h"
+#include "app/project/project_scan.h"
+#include "app/project/replay.h"
+#include "app/project/shell_word.h"
+#include "base/error.h"
 #include "segment/cut/nudge.h"
 
 namespace qchopper {
@@ -18,8 +22,21 @@ std::optional<Candidate> nudged_off(const Piece& piece, const Plane& plane) {
 
 }  // namespace
 
+bool PreparedProject::all_fit() const {
+    return std::all_of(pieces.begin(), pieces.end(), [](const PieceReport& p) { return !p.job.empty(); });
+}
+
+std::string early_end(const std::string& sentence) {
+    return "the stop rules do not hold: " + sentence;
+}
+
 OpenProject::OpenProject(std::filesystem::path folder, Project project, std::function<TriangleMesh()> take_in_scan)
     : folder_(std::move(folder)), project_(std::move(project)), take_in_scan_(std::move(take_in_scan)) {}
+
+OpenProject::OpenProject(const std::filesystem::path& folder, const Context& context)
+    : OpenProject(folder, load_project(folder), {}) {
+    take_in_scan_ = [this, context] { return std::move(qchopper::take_in_scan(project_, context).mesh); };
+}
 
 const TriangleMesh& OpenProject::scan() {
     if (!scan_) scan_ = take_in_scan_();
@@ -38,6 +55,24 @@ PieceBook& OpenProject::book() {
                                             price_cache(folder_ / "cache", settings.objectives, settings.candidates));
     }
     return *book_;
+}
+
+Setups* OpenProject::setups() {
+    const std::filesystem::path cell = folder_ / "cell.toml";
+    if (!setups_ && std::filesystem::exists(cell)) setups_.emplace(read_cell(cell));
+    return setups_ ? &*setups_ : nullptr;
+}
+
+void OpenProject::check_cell() {
+    if (setups() != nullptr) return;
+    throw InputError(InputFault::use, folder_.string() + " knows no cell yet",
+                     "say --cell FILE, for example cells/foam-1.toml");
+}
+
+FitsCell OpenProject::fits_cell() {
+    Setups* setups = this->setups();
+    if (setups == nullptr) return {};
+    return [setups](const Piece& piece) { return setups->of(piece).envelope.fits(); };
 }
 
 OpenProject::Next OpenProject::next(const FitsCell& fits_cell) {
@@ -91,6 +126,8 @@ void OpenProject::adopt(const Segmentation& segmentation) {
 void OpenProject::adopt(const Segmentation& segmentation, std::optional<BeamState> beam) {
     take_away_products(folder_, project_);
     segmentation_ = segmentation;
+    end_.reset();
+    project_.end_reason.reset();
     project_.ended_because.clear();
     record(project_, *segmentation_);
     project_.beam = std::move(beam);
@@ -172,15 +209,34 @@ SearchEnd OpenProject::search(const FitsCell& fits_cell, const std::function<voi
     };
     const SearchEnd end =
         qchopper::search(working, project_.settings, book(), fits_cell, keep, context, time_limit_s, &progress);
-    const bool goes_on = end.is_out_of_time && !end.is_finished;
-    adopt(working, goes_on ? progress.saved() : std::nullopt);
-    if (goes_on) return end;
-    project_.ended_because = end.reason;
-    if (!end.is_finished) project_.warnings.push_back(rules_do_not_hold + end.reason);
+    adopt(working, end.is_out_of_time() ? progress.saved() : std::nullopt);
+    end_ = end;
+    if (end.is_out_of_time()) return end;
+    record_end(end);
     write_pieces(folder_, working, project_.crumbs);
     project_.stage = Stage::cut;
     save();
     return end;
+}
+
+void OpenProject::record_end(const SearchEnd& end) {
+    project_.end_reason = end.reason;
+    project_.ended_because = end.sentence;
+    if (!end.is_finished()) project_.warnings.push_back(early_end(end.sentence));
+}
+
+PreparedProject OpenProject::prepare(const std::string& program_version, const Context& context) {
+    check_cell();
+    const bool is_out_of_time = end_ && end_->is_out_of_time();
+    if (is_out_of_time) record_end(*end_);
+    if (!end_ || is_out_of_time) write_pieces(folder_, segmentation(), project_.crumbs);
+    PreparedProject prepared{folder_, {}, {}};
+    prepared.pieces = write_jobs(folder_, project_, segmentation(), *setups(), program_version, context);
+    write_pictures(folder_, segmentation().pieces, context);
+    project_.stage = is_out_of_time ? Stage::cutting : Stage::done;
+    save_project(folder_, project_);
+    prepared.project = project_;
+    return prepared;
 }
 
 void OpenProject::keep_pieces_written() {

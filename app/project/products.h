@@ -6,20 +6,37 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "app/project/project.h"
+#include "app/project/setups.h"
+#include "base/context.h"
 
 namespace qchopper {
 
 // Writes pieces/<name>.ply, and pieces/crumbs.ply if crumbs are kept; takes away other files there.
 void write_pieces(const std::filesystem::path& folder, const Segmentation& segmentation, CrumbChoice crumbs);
 
+// A piece as it was prepared.
+struct PieceReport {
+    std::string name;
+    std::size_t faces = 0;
+    double volume_mm3 = 0;
+    Carving carving;
+    std::filesystem::path job;  // empty: it does not fit and has none
+};
+
+// Writes jobs/<name>.qjob of every piece that fits the cell, and records them in the project, which is not saved.
+std::vector<PieceReport> write_jobs(const std::filesystem::path& folder, Project& project,
+                                    const Segmentation& segmentation, Setups& setups,
+                                    const std::string& program_version, const Context& context);
+
+// Writes pictures/segmentation.png and pictures/exploded.png.
+void write_pictures(const std::filesystem::path& folder, const std::vector<Piece>& pieces, const Context& context);
+
 // If anything was made already: first saves the project as being cut, then takes away pieces, jobs and pictures. Killed
 // at any moment it leaves a project that is still right.
 void take_away_products(const std::filesystem::path& folder, Project& project);
-
-// A program that was killed while it wrote may have left files with names like A.ply.tmp.4711. Whoever holds the lock
-// knows that nobody writes them any more.
-void clear_leftovers(const std::filesystem::path& folder);
 
 }  // namespace qchopper

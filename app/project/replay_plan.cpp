@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numeric>
 
+#include "base/text.h"
 #include "segment/cut/nudge.h"
 #include "segment/mesh/containment.h"
 
@@ -14,15 +14,11 @@ namespace qchopper {
 namespace {
 
 std::string percent(double share) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g %%", 100 * share);
-    return text;
+    return significant(100 * share, 3) + " %";
 }
 
 std::string in_mm(double value) {
-    char text[48];
-    std::snprintf(text, sizeof text, "%.6g mm", value);
-    return text;
+    return significant(value, 6) + " mm";
 }
 
 double relative(double a, double b) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/project/value_json.h"
 #include "base/text.h"
 #include "segment/import/import_scan.h"
 
@@ -84,18 +85,14 @@ void add_self_intersections(std::vector<std::string>& text, const Inspection& i)
     for (const Vec3& at : found.places) text.push_back("             around " + place(at));
 }
 
-Json vector(Vec3 v) {
-    return {v.x, v.y, v.z};
-}
-
 Json hole_document(const BorderLoop& hole) {
-    return {{"edges", hole.edges}, {"length", hole.length}, {"centre", vector(hole.centre)}};
+    return {{"edges", hole.edges}, {"length", hole.length}, {"centre", json_of(hole.centre)}};
 }
 
 Json self_intersections_document(const std::optional<SelfIntersected>& found) {
     if (!found) return {};
     Json places = Json::array();
-    for (const Vec3& at : found->places) places.push_back(vector(at));
+    for (const Vec3& at : found->places) places.push_back(json_of(at));
     return {{"pairs", found->pairs}, {"complete", found->is_complete}, {"places", places}};
 }
 
@@ -144,10 +141,10 @@ std::string document(const InspectedFile& file) {
                     {"welded_vertices", i.welded},
                     {"units", file.units ? Json(*file.units) : Json()},
                     {"units_in_file", i.mm_per_unit ? Json(*i.mm_per_unit) : Json()},
-                    {"size", vector(i.box.size())},
+                    {"size", json_of(i.box.size())},
                     {"size_in_words", file.units ? Json(size_line(file)) : Json()},
-                    {"min", vector(i.box.min)},
-                    {"max", vector(i.box.max)},
+                    {"min", json_of(i.box.min)},
+                    {"max", json_of(i.box.max)},
                     {"closed", i.is_closed()},
                     {"volume", i.volume},
                     {"area", i.area},
@@ -171,7 +168,7 @@ std::string document(const InspectedFile& file) {
                     {"self_intersections", self_intersections_document(i.self_intersected)},
                     {"verdict", word_of(judgement.verdict)},
                     {"reasons", judgement.reasons}};
-    return json.dump(1, ' ', false, Json::error_handler_t::replace);
+    return text_of(json);
 }
 
 }  // namespace qchopper

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/project/value_json.h"
 #include "base/text.h"
 #include "segment/mesh/measure.h"
 
@@ -9,10 +10,6 @@ namespace qchopper {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json to_json(Vec3 v) {
-    return Json::array({v.x, v.y, v.z});
-}
 
 std::string verdict(const RepairReport& r) {
     if (r.is_solid()) return "closed: a solid";
@@ -34,14 +31,14 @@ std::string distance_line(const RepairedScan& scan) {
            "result over what changed";
 }
 
-Json to_json(const Farthest& f) {
-    return {{"distance", f.mm}, {"at_most", f.at_most}, {"at", to_json(f.at)}, {"faces_looked_at", f.triangles}};
+Json farthest(const Farthest& f) {
+    return {{"distance", f.mm}, {"at_most", f.at_most}, {"at", json_of(f.at)}, {"faces_looked_at", f.triangles}};
 }
 
 Json holes(const RepairReport& r) {
     Json all = Json::array();
     for (const OpenHole& hole : r.left_open) {
-        all.push_back({{"edges", hole.edges}, {"centre", to_json(hole.centre)}});
+        all.push_back({{"edges", hole.edges}, {"centre", json_of(hole.centre)}});
     }
     return all;
 }
@@ -89,7 +86,7 @@ Json counts(const RepairReport& r) {
 Json resolved(const RepairReport& r) {
     if (!r.resolved) return {};
     Json where = Json::array();
-    for (const Vec3& p : r.resolved->where_left) where.push_back(to_json(p));
+    for (const Vec3& p : r.resolved->where_left) where.push_back(json_of(p));
     return {{"pairs", r.resolved->pairs},   {"left", r.resolved->left},
             {"places", r.resolved->places}, {"removed", r.resolved->removed},
             {"added", r.resolved->added},   {"undone", r.resolving_undone},
@@ -155,12 +152,12 @@ std::string document(const RepairedScan& scan, const RepairedFile& file) {
     if (r.deviation) {
         json["deviation"] = {{"unit", scan.mm_per_unit ? "mm" : "file"},
                              {"largest", r.deviation->largest().mm},
-                             {"from_scan", to_json(r.deviation->from_scan)},
-                             {"from_result", to_json(r.deviation->from_result)}};
+                             {"from_scan", farthest(r.deviation->from_scan)},
+                             {"from_result", farthest(r.deviation->from_result)}};
     }
     json["warnings"] = scan.warnings;
     json["verdict"] = verdict(r);
-    return json.dump(1, ' ', false, Json::error_handler_t::replace);
+    return text_of(json);
 }
 
 }  // namespace qchopper

@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/project/shell_word.h"
+#include "app/project/value_json.h"
 #include "app/report/columns.h"
-#include "app/report/shell_word.h"
 #include "base/text.h"
 
 namespace qchopper {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json to_json(Vec3 v) {
-    return Json::array({v.x, v.y, v.z});
-}
 
 std::string in_words(Vec3 v, int digits) {
     return fixed(v.x, digits) + " " + fixed(v.y, digits) + " " + fixed(v.z, digits);
@@ -99,11 +96,9 @@ std::vector<std::string> standing_lines(const Project& project) {
                         volume_in_words(p.volume_mm3)});
     }
     std::vector<std::string> text = columns(rows);
-    text.push_back(std::to_string(project.pieces.size()) + (project.pieces.size() == 1 ? " piece by " : " pieces by ") +
-                   std::to_string(project.cuts.size()) + (project.cuts.size() == 1 ? " cut, " : " cuts, ") +
-                   with_commas(project.crumb_list.size()) +
-                   (project.crumb_list.size() == 1 ? " crumb. Weights: " : " crumbs. Weights: ") +
-                   weights_in_words(project.settings.objectives.weights) + ".");
+    text.push_back(counted(project.pieces.size(), "piece") + " by " + counted(project.cuts.size(), "cut") + ", " +
+                   counted(project.crumb_list.size(), "crumb") +
+                   ". Weights: " + weights_in_words(project.settings.objectives.weights) + ".");
     add(text, discarded_lines(project));
     for (const auto& [option, what] : {std::pair{"--undo", undo_in_words(project)}, {"--redo", redo_in_words(project)}})
         if (!what.empty()) text.push_back(std::string(option) + ": " + what);
@@ -111,19 +106,13 @@ std::vector<std::string> standing_lines(const Project& project) {
 }
 
 Json plane_json(const Ranked& r, const Project& project) {
-    const Terms& t = r.terms;
-    return {{"normal", to_json(r.plane.normal)},
+    return {{"normal", json_of(r.plane.normal)},
             {"offset_mm", r.plane.offset},
             {"offset_in_scan_mm", r.plane.offset + height(r.plane.normal, project.scan.centre)},
             {"wanted_offset_mm", r.wanted_offset},
             {"normal_number", r.normal},
             {"offset_number", r.offset},
-            {"terms",
-             {{"face_ratio", t.face_ratio},
-              {"fragility", t.fragility},
-              {"piece_count", t.piece_count},
-              {"undercut", t.undercut},
-              {"total", t.total}}}};
+            {"terms", json_of(r.terms)}};
 }
 
 Json proposal_json(const Proposal& p, const Project& project) {
@@ -145,7 +134,7 @@ Json preview_json(const Preview& p, const Project& project) {
     Json loops = Json::array();
     for (const auto& loop : p.outline.loops) {
         Json points = Json::array();
-        for (const Vec3 point : loop) points.push_back(to_json(point));
+        for (const Vec3 point : loop) points.push_back(json_of(point));
         loops.push_back(points);
     }
     Json solids = Json::array();
@@ -160,8 +149,8 @@ Json preview_json(const Preview& p, const Project& project) {
             {"sections_cross", p.sections_cross},
             {"loops", loops},
             {"length_mm", p.outline.length_mm},
-            {"box_min_mm", to_json(p.outline.box.min)},
-            {"box_max_mm", to_json(p.outline.box.max)},
+            {"box_min_mm", json_of(p.outline.box.min)},
+            {"box_max_mm", json_of(p.outline.box.max)},
             {"makes", solids}};
 }
 
@@ -232,7 +221,6 @@ std::string document(const SegmentAnswer& answer, const std::filesystem::path& f
     for (const SolidRecord& p : project.pieces) {
         pieces.push_back({{"name", p.name}, {"cut", p.cut}, {"faces", p.faces}, {"volume_mm3", p.volume_mm3}});
     }
-    const Weights& w = project.settings.objectives.weights;
     Json json{{"schema", "qchopper-segment-1"},
               {"project", folder.string()},
               {"done", text_or_null(answer.done)},
@@ -241,11 +229,7 @@ std::string document(const SegmentAnswer& answer, const std::filesystem::path& f
               {"undo", text_or_null(undo_in_words(project))},
               {"redo", text_or_null(redo_in_words(project))},
               {"ended_because", text_or_null(project.ended_because)},
-              {"weights",
-               {{"face_ratio", w.face_ratio},
-                {"fragility", w.fragility},
-                {"piece_count", w.piece_count},
-                {"undercut", w.undercut}}},
+              {"weights", json_of(project.settings.objectives.weights)},
               {"cuts", cuts_json(project)},
               {"pieces", pieces},
               {"crumbs", project.crumb_list.size()},
@@ -255,7 +239,7 @@ std::string document(const SegmentAnswer& answer, const std::filesystem::path& f
     if (answer.plan) json["plan"] = answer.plan->string();
     if (answer.proposal) json["proposal"] = proposal_json(*answer.proposal, project);
     if (answer.preview) json["preview"] = preview_json(*answer.preview, project);
-    return json.dump(1, ' ', false, Json::error_handler_t::replace);
+    return text_of(json);
 }
 
 }  // namespace qchopper

@@ -9,6 +9,7 @@
 #include "cam/job/sheet.h"
 #include "cam/job/zip.h"
 #include "segment/io/write_stl.h"
+#include "segment/mesh/transform.h"
 
 namespace qchopper {
 namespace {

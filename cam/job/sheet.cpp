@@ -7,6 +7,7 @@
 #include "cam/job/sheet.h"
 
 #include "base/json.h"
+#include "cam/job/job_file.h"
 
 namespace qchopper {
 namespace {

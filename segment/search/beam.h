@@ -5,7 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "segment/search/search.h"
+#include "segment/search/beam_state.h"
+#include "segment/search/piece_book.h"
+#include "segment/search/rank.h"
+#include "segment/search/settings.h"
 
 namespace qchopper {
 

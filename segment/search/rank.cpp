@@ -63,4 +63,35 @@ std::vector<std::size_t> without_near_duplicates(const std::vector<Ranked>& rank
     return kept;
 }
 
+std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
+                         PieceBook& book, const Context& context) {
+    assert(piece < segmentation.pieces.size());
+    const Piece* target = &segmentation.pieces[piece];
+    book.price(std::span(&target, 1), context);
+    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, book);
+    return rank(book.prices(*target), others, settings.objectives);
+}
+
+std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t piece, const Candidate& plane,
+                                 const SearchSettings& settings, PieceBook& book, const Context& context) {
+    const PiecePrices alone{{plane}, {book.price_of(segmentation.pieces[piece], plane, context)}};
+    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, book);
+    const std::vector<Ranked> ranked = rank(alone, others, settings.objectives);
+    return ranked.empty() ? std::nullopt : std::optional(ranked.front());
+}
+
+Cut cut_by(const Segmentation& segmentation, std::size_t piece, const std::vector<Ranked>& ranked, std::size_t k,
+           std::size_t runners_up) {
+    assert(piece < segmentation.pieces.size() && k < ranked.size());
+    Cut cut;
+    cut.number = static_cast<std::int32_t>(segmentation.cuts.size()) + 1;
+    cut.piece = segmentation.pieces[piece].name;
+    cut.candidates = ranked.size();
+    cut.chosen = ranked[k];
+    for (std::size_t i = 0; i < ranked.size() && cut.runners_up.size() < runners_up; ++i) {
+        if (i != k) cut.runners_up.push_back(ranked[i]);
+    }
+    return cut;
+}
+
 }  // namespace qchopper

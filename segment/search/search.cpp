@@ -1,7 +1,6 @@
 #include "segment/search/search.h"
 
 #include <algorithm>
-#include <cassert>
 #include <chrono>
 
 #include "segment/search/beam.h"
@@ -13,11 +12,11 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t priced_together = 2;  // one piece alone does not keep two cores busy to its end
 
-std::string in_words(double seconds) {
+std::string in_digits(double seconds) {
     std::string text = std::to_string(seconds);
     text.erase(text.find_last_not_of('0') + 1);
     if (text.back() == '.') text.pop_back();
-    return text + " s";
+    return text;
 }
 
 // One search from its start to its end.
@@ -146,20 +145,18 @@ class Search {
     SearchEnd end(Segmentation& segmentation, std::optional<double> time_limit_s) {
         const auto finished = std::find_if(beam_.begin(), beam_.end(), [](const Bsp& b) { return b.next.is_finished; });
         const Bsp& best = finished != beam_.end() ? *finished : beam_.empty() ? *stuck_ : beam_.front();
-        SearchEnd end{finished != beam_.end(),
-                      settings_.stop.is_any_set() ? "the stop rules hold" : "no stop rule is set",
-                      time_limit_s.has_value(), best.cost};
-        if (time_limit_s) {
-            end.reason = (end.is_finished ? end.reason + "; " : "") + std::string("the time limit of ") +
-                         in_words(*time_limit_s) + " is reached";
-        } else if (!end.is_finished) {
-            const bool is_safety = static_cast<int>(best.segmentation.cuts.size()) >= settings_.stop.max_cuts;
-            end.reason = is_safety
-                             ? "the safety stop of " + std::to_string(settings_.stop.max_cuts) + " cuts is reached"
-                             : "no plane parts any of the unfinished pieces";
-        }
+        const std::string time = time_limit_s ? describe(EndReason::time_limit, in_digits(*time_limit_s)) : "";
         segmentation = best.segmentation;
-        return end;
+        if (finished != beam_.end()) {
+            const EndReason reason = settings_.stop.is_any_set() ? EndReason::rules_hold : EndReason::no_rule;
+            return {reason, describe(reason) + (time_limit_s ? "; " + time : ""), best.cost};
+        }
+        if (time_limit_s) return {EndReason::time_limit, time, best.cost};
+        const int most = settings_.stop.max_cuts;
+        if (static_cast<int>(best.segmentation.cuts.size()) >= most) {
+            return {EndReason::max_cuts, describe(EndReason::max_cuts, std::to_string(most)), best.cost};
+        }
+        return {EndReason::no_plane, describe(EndReason::no_plane), best.cost};
     }
 
     const SearchSettings& settings_;
@@ -174,37 +171,6 @@ class Search {
 };
 
 }  // namespace
-
-std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
-                         PieceBook& book, const Context& context) {
-    assert(piece < segmentation.pieces.size());
-    const Piece* target = &segmentation.pieces[piece];
-    book.price(std::span(&target, 1), context);
-    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, book);
-    return rank(book.prices(*target), others, settings.objectives);
-}
-
-std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t piece, const Candidate& plane,
-                                 const SearchSettings& settings, PieceBook& book, const Context& context) {
-    const PiecePrices alone{{plane}, {book.price_of(segmentation.pieces[piece], plane, context)}};
-    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, book);
-    const std::vector<Ranked> ranked = rank(alone, others, settings.objectives);
-    return ranked.empty() ? std::nullopt : std::optional(ranked.front());
-}
-
-Cut cut_by(const Segmentation& segmentation, std::size_t piece, const std::vector<Ranked>& ranked, std::size_t k,
-           std::size_t runners_up) {
-    assert(piece < segmentation.pieces.size() && k < ranked.size());
-    Cut cut;
-    cut.number = static_cast<std::int32_t>(segmentation.cuts.size()) + 1;
-    cut.piece = segmentation.pieces[piece].name;
-    cut.candidates = ranked.size();
-    cut.chosen = ranked[k];
-    for (std::size_t i = 0; i < ranked.size() && cut.runners_up.size() < runners_up; ++i) {
-        if (i != k) cut.runners_up.push_back(ranked[i]);
-    }
-    return cut;
-}
 
 SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, PieceBook& book, const FitsCell& fits_cell,
                  const std::function<void(const Segmentation&)>& on_round, const Context& context,

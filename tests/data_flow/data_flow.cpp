@@ -82,7 +82,7 @@ Segmentation cut_up(const TriangleMesh& scan, SearchSettings settings) {
     const auto on_cut = [&](const Segmentation& s) { expect_nothing_is_lost(s, volume); };
     PieceBook book(settings.objectives, settings.candidates);
     const SearchEnd end = search(segmentation, settings, book, {}, on_cut, {});
-    EXPECT_TRUE(end.is_finished) << end.reason;
+    EXPECT_TRUE(end.is_finished()) << end.sentence;
     return segmentation;
 }
 

@@ -6,7 +6,9 @@
 #include <set>
 
 #include "app/project/open_project.h"
+#include "app/project/project_folder.h"
 #include "app/project/project_json.h"
+#include "app/project/replay.h"
 #include "app/project/replay_plan.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -129,7 +131,7 @@ TEST_F(Discarding, IsSaidWithItsVolumeAndSurvivesTheSearch) {
         EXPECT_TRUE(project
                         .search(
                             {}, [](const Segmentation&) {}, {}, std::nullopt)
-                        .is_finished);
+                        .is_finished());
         const Project saved = load_project(folder);
         ASSERT_EQ(saved.discarded.size(), 1U);
         EXPECT_EQ(saved.discarded[0].name, name);

@@ -5,7 +5,9 @@
 
 #include <map>
 
+#include "app/project/project_folder.h"
 #include "app/project/project_json.h"
+#include "app/project/replay.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "segment/mesh/measure.h"
@@ -186,7 +188,7 @@ TEST_F(OpenedProject, ProductsAreNeverStale) {
     OpenProject project = open();
     const SearchEnd end = project.search(
         {}, [](const Segmentation&) {}, {}, std::nullopt);
-    EXPECT_TRUE(end.is_finished);
+    EXPECT_TRUE(end.is_finished());
     EXPECT_EQ(load_project(folder).stage, Stage::cut);
     for (const Piece& piece : project.segmentation().pieces) {
         EXPECT_TRUE(fs::exists(folder / "pieces" / (piece.name + ".ply"))) << piece.name;
@@ -295,15 +297,15 @@ TEST_F(OpenedProject, OutOfTimeItStaysBeingCut) {
     OpenProject project = open();
     const SearchEnd end = project.search(
         {}, [](const Segmentation&) {}, {}, 1e-9);
-    EXPECT_TRUE(end.is_out_of_time);
-    EXPECT_FALSE(end.is_finished);
+    EXPECT_TRUE(end.is_out_of_time());
+    EXPECT_FALSE(end.is_finished());
     const Project saved = load_project(folder);
     EXPECT_EQ(saved.stage, Stage::cutting);
     EXPECT_EQ(saved.cuts.size(), 1U);
     EXPECT_TRUE(open()
                     .search(
                         {}, [](const Segmentation&) {}, {}, std::nullopt)
-                    .is_finished);
+                    .is_finished());
 }
 
 // What the file says of a beam is held against the decisions that stand.

@@ -5,7 +5,8 @@
 #include <map>
 #include <string>
 
-#include "app/project/project.h"
+#include "app/project/project_folder.h"
+#include "app/project/replay.h"
 #include "segment/io/write_ply.h"
 #include "segment/mesh/measure.h"
 

@@ -1,4 +1,5 @@
-#include "app/project/project.h"
+#include "app/project/project_folder.h"
+#include "app/project/replay.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

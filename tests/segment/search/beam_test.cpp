@@ -42,7 +42,7 @@ TEST(Beam, OfOneIsTheGreedySearchOnEveryShape) {
         Segmentation greedy = uncut(mesh, 0);
         const bool is_finished = greedy::search(greedy, settings);
         const Found beam = searched(mesh, settings);
-        EXPECT_EQ(beam.end.is_finished, is_finished) << name;
+        EXPECT_EQ(beam.end.is_finished(), is_finished) << name;
         ASSERT_EQ(beam.segmentation.cuts.size(), greedy.cuts.size()) << name;
         for (std::size_t i = 0; i < greedy.cuts.size(); ++i) {
             EXPECT_TRUE(beam.segmentation.cuts[i] == greedy.cuts[i]) << name << " cut " << i + 1;
@@ -164,11 +164,12 @@ TEST(Beam, WhatIsStoppedForTimeEndsWithTheDecisionBeingMade) {
         std::size_t told = 0;
         const SearchEnd end = search(
             segmentation, settings, book, {}, [&](const Segmentation&) { ++told; }, {}, 1e-9);
-        EXPECT_TRUE(end.is_out_of_time);
-        EXPECT_FALSE(end.is_finished);
+        EXPECT_TRUE(end.is_out_of_time());
+        EXPECT_FALSE(end.is_finished());
         EXPECT_EQ(told, 1U);
         EXPECT_EQ(segmentation.cuts.size(), 1U);
-        EXPECT_NE(end.reason.find("time limit"), std::string::npos);
+        EXPECT_EQ(end.reason, EndReason::time_limit);
+        EXPECT_NE(end.sentence.find("time limit"), std::string::npos);
     }
 }
 
@@ -178,21 +179,23 @@ TEST(Beam, ThatHasNoTimeButIsFinishedSaysSo) {
     PieceBook book(settings.objectives, settings.candidates);
     const SearchEnd end = search(
         segmentation, settings, book, {}, [](const Segmentation&) {}, {}, 1e-9);
-    EXPECT_TRUE(end.is_finished);
-    EXPECT_FALSE(end.is_out_of_time);
+    EXPECT_TRUE(end.is_finished());
+    EXPECT_FALSE(end.is_out_of_time());
 }
 
 TEST(Beam, StopsInWordsWhereNothingCanBeCutOrTheSafetyStopIsReached) {
     for (const std::size_t width : {1U, 3U}) {
         SearchSettings settings = settings_of(2, width, 0);
         const Found stuck = searched(shapes::ball({0, 0, 0}, 10), settings);
-        EXPECT_FALSE(stuck.end.is_finished);
-        EXPECT_EQ(stuck.end.reason, "no plane parts any of the unfinished pieces");
+        EXPECT_FALSE(stuck.end.is_finished());
+        EXPECT_EQ(stuck.end.reason, EndReason::no_plane);
+        EXPECT_EQ(stuck.end.sentence, "no plane parts any of the unfinished pieces");
         settings = settings_of(9, width);
         settings.stop.max_cuts = 2;
         const Found safe = searched(shapes::ball({0, 0, 0}, 10), settings);
-        EXPECT_FALSE(safe.end.is_finished);
-        EXPECT_EQ(safe.end.reason, "the safety stop of 2 cuts is reached");
+        EXPECT_FALSE(safe.end.is_finished());
+        EXPECT_EQ(safe.end.reason, EndReason::max_cuts);
+        EXPECT_EQ(safe.end.sentence, "the safety stop of 2 cuts is reached");
         EXPECT_EQ(safe.segmentation.cuts.size(), 2U);
     }
 }

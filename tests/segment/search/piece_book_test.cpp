@@ -54,7 +54,7 @@ TEST(PieceBook, SearchesNoBoxTwiceAlsoWithARuleOnBoxes) {
         settings.beam = beam;
         Segmentation segmentation = uncut(shapes::torus({0, 0, 0}, 40, 12), 0);
         PieceBook book(settings.objectives, settings.candidates);
-        EXPECT_TRUE(search(segmentation, settings, book, {}, [](const Segmentation&) {}, {}).is_finished);
+        EXPECT_TRUE(search(segmentation, settings, book, {}, [](const Segmentation&) {}, {}).is_finished());
         EXPECT_GT(segmentation.cuts.size(), 2U);
         if (beam == 1) {
             EXPECT_EQ(book.box_count(), segmentation.names_given);

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "app/project/presets.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
 #include "tests/shapes.h"
@@ -28,7 +27,7 @@ Segmentation searched(const TriangleMesh& mesh, const SearchSettings& settings) 
     Segmentation segmentation = uncut(mesh, settings.objectives.crumb_volume_mm3);
     PieceBook book(settings.objectives, settings.candidates);
     const SearchEnd end = search(segmentation, settings, book, {}, [](const Segmentation&) {}, {});
-    EXPECT_TRUE(end.is_finished) << end.reason;
+    EXPECT_TRUE(end.is_finished()) << end.sentence;
     return segmentation;
 }
 
@@ -94,8 +93,9 @@ TEST(Search, StopsInWordsWhenNoPlanePartsAnything) {
     Segmentation segmentation = uncut(mesh, 0);
     PieceBook book(settings.objectives, settings.candidates);
     const SearchEnd end = search(segmentation, settings, book, {}, [](const Segmentation&) {}, {});
-    EXPECT_FALSE(end.is_finished);
-    EXPECT_EQ(end.reason, "no plane parts any of the unfinished pieces");
+    EXPECT_FALSE(end.is_finished());
+    EXPECT_EQ(end.reason, EndReason::no_plane);
+    EXPECT_EQ(end.sentence, "no plane parts any of the unfinished pieces");
 }
 
 TEST(Search, WhenStoppedTheCutsMadeUntilThenStand) {
@@ -130,15 +130,6 @@ TEST(PieceNames, CountOnAfterZ) {
     EXPECT_EQ(piece_name(26), "AA");
     EXPECT_EQ(piece_name(27), "AB");
     EXPECT_EQ(piece_name(26 + 26 * 26), "AAA");
-}
-
-TEST(Presets, TheFourCasesOfTheThesisAreThere) {
-    EXPECT_EQ(preset("bunny")->stop.min_cuts, 3);
-    EXPECT_EQ(preset("bunny")->objectives.weights, (Weights{10, 5, 50, 10}));
-    EXPECT_EQ(preset("skull")->stop.max_faces, 100'000U);
-    EXPECT_EQ(preset("vertebrae")->objectives.weights, (Weights{5, 1, 200, 1}));
-    EXPECT_TRUE(preset("femur"));
-    EXPECT_FALSE(preset("rabbit"));
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
-#include "app/cli/ordered_job.h"
+#include "app/project/ordered_job.h"
 
 #include <algorithm>
 #include <cstdio>
 
-#include "app/report/shell_word.h"
+#include "app/project/shell_word.h"
 #include "base/error.h"
-#include "base/json.h"
+#include "base/hex.h"
 
 namespace qchopper {
 namespace {

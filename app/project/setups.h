@@ -3,15 +3,28 @@
 #pragma once
 
 #include <map>
+#include <memory>
 
-#include "app/report/prepare_report.h"
+#include "cam/cell/cell.h"
+#include "cam/setup/envelope.h"
+#include "cam/setup/setup.h"
 #include "segment/search/stop_rules.h"
 
 namespace qchopper {
 
+// How a piece is carved.
+struct Carving {
+    Setup setup;
+    EnvelopeReport envelope;
+    std::shared_ptr<const TriangleMesh> keeps_alive;
+};
+
 class Setups {
  public:
-    explicit Setups(const Cell& cell) : cell_(cell) {}
+    explicit Setups(Cell cell) : cell_(std::move(cell)) {}
+
+    const Cell& cell() const { return cell_; }
+
     const Carving& of(const Piece& piece) {
         const auto [it, is_new] = known_.try_emplace(piece.mesh.get());
         if (is_new) {
@@ -23,7 +36,7 @@ class Setups {
     }
 
  private:
-    const Cell& cell_;
+    Cell cell_;
     std::map<const TriangleMesh*, Carving> known_;
 };
 

@@ -1,4 +1,4 @@
-#include "app/report/shell_word.h"
+#include "app/project/shell_word.h"
 
 #include <algorithm>
 #include <string_view>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "app/cli/segment_project.h"
+#include "app/project/decisions.h"
 
 namespace qchopper {
 namespace {

@@ -8,7 +8,7 @@
 namespace qchopper {
 
 // The text itself where no shell would read it otherwise, else quoted. Typed in a POSIX shell it is one word again, and
-// no option (tests/app/report/shell_word_test.cpp).
+// no option (tests/app/project/shell_word_test.cpp).
 std::string shell_word(const std::filesystem::path& path);
 
 }  // namespace qchopper

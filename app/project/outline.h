@@ -1,7 +1,7 @@
 // The outline that a plane would cut out of a piece, without cutting it.
 //
 // Closed polylines in mm, counter-clockwise around material seen against the normal; their points are those that the
-// caps of the cut get, to the last bit (tests/app/report/outline_test.cpp).
+// caps of the cut get, to the last bit (tests/app/project/outline_test.cpp).
 
 #pragma once
 

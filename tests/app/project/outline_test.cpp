@@ -1,4 +1,4 @@
-#include "app/report/outline.h"
+#include "app/project/outline.h"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,9 @@
-#include "app/project/project.h"
-
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
+#include "app/project/replay.h"
 
 #include <cassert>
 #include <span>
 
-#include "app/project/project_json.h"
 #include "base/error.h"
-#include "base/file.h"
 #include "segment/mesh/measure.h"
 
 namespace qchopper {
@@ -56,20 +50,6 @@ void record(Project& project, const Segmentation& segmentation) {
     project.warnings.insert(project.warnings.end(), segmentation.warnings.begin(), segmentation.warnings.end());
 }
 
-void save_project(const std::filesystem::path& folder, const Project& project) {
-    write_file(folder / "project.json", to_json(project));
-}
-
-Project load_project(const std::filesystem::path& folder) {
-    const std::filesystem::path file = folder / "project.json";
-    if (!std::filesystem::exists(file)) {
-        throw InputError(InputFault::missing, folder.string() + " holds no project (no project.json)",
-                         "name a folder that prepare has made");
-    }
-    const Bytes bytes = read_file(file, record_limit);
-    return project_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
-}
-
 Segmentation replay(const Project& project, const TriangleMesh& scan) {
     return replay(project, scan, project.cuts.size());
 }
@@ -97,22 +77,6 @@ BeamProgress beam_progress(const Project& project, const Segmentation& standing,
     const bool has_root = progress.state.from == standing.cuts.size();
     progress.root = has_root ? standing : replay(project, scan(), progress.state.from);
     return progress;
-}
-
-ProjectLock::ProjectLock(const std::filesystem::path& folder)
-    : descriptor_(::open((folder / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-    if (descriptor_ < 0) {
-        throw InputError(InputFault::create, folder.string() + " cannot be written", "check the rights of the folder");
-    }
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-        ::close(descriptor_);
-        throw InputError(InputFault::busy, folder.string() + " is being written by another qchopper",
-                         "wait until it has ended, or stop it");
-    }
-}
-
-ProjectLock::~ProjectLock() {
-    ::close(descriptor_);
 }
 
 }  // namespace qchopper
