@@ -2,7 +2,7 @@
 //
 // mm. Which side a point lies on is decided by height() in plane.h alone; at the plane's height counts as above. The
 // point of a crossed edge is computed from its upper end, so that both triangles, and every caller, get the same bits
-// (tests/segment/score/touching_test.cpp, tests/app/report/outline_test.cpp).
+// (tests/segment/score/touching_test.cpp, tests/app/project/outline_test.cpp).
 
 #pragma once
 
