@@ -32,11 +32,6 @@ SimplifyOptions at_most(std::size_t faces) {
 
 using Corners = std::array<Vec3, 3>;
 
-Corners corners_of(const TriangleMesh& mesh, std::size_t t) {
-    const Triangle& c = mesh.triangles[t];
-    return {mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]]};
-}
-
 // Written here once more, and in another way than where it is used: the nearest of the inside and the three sides.
 double distance(Vec3 p, const Corners& c) {
     const Vec3 n = cross(c[1] - c[0], c[2] - c[0]);
