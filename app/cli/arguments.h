@@ -56,11 +56,11 @@ struct ProjectArguments : RepairChoiceArguments {
     std::optional<std::string> preset;
     std::optional<int> min_cuts;
     std::optional<std::size_t> max_faces;
-    std::optional<std::string> max_obb;  // segment_values.h reads it
+    std::optional<std::string> max_obb;  // option_values.h reads it
     bool fits_cell = false;
     std::optional<std::string> stop;       // any | all
     std::optional<std::string> fragility;  // thinness | thesis
-    std::optional<std::string> weights;    // segment_values.h reads it
+    std::optional<std::string> weights;    // option_values.h reads it
     std::optional<int> beam;
     std::optional<double> time_limit_s;
     std::optional<std::string> crumbs;  // keep | drop

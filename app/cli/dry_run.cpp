@@ -1,5 +1,4 @@
 #include "app/cli/commands.h"
-#include "app/cli/hand_over.h"
 #include "app/cli/simulated_limits.h"
 #include "base/temporary_folder.h"
 #include "devices/modbus_tcp.h"

@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "app/cli/examples.h"
-#include "app/cli/option_checks.h"
+#include "app/cli/option_values.h"
 #include "app/cli/project_options.h"
 #include "app/cli/version.h"
 #include "base/edit_distance.h"

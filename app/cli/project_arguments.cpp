@@ -1,6 +1,6 @@
 #include "app/cli/project_arguments.h"
 
-#include "app/cli/segment_values.h"
+#include "app/cli/option_values.h"
 #include "app/project/presets.h"
 #include "base/error.h"
 #include "segment/io/read_mesh.h"

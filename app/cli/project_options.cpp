@@ -2,8 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/cli/option_checks.h"
-#include "app/cli/segment_values.h"
+#include "app/cli/option_values.h"
 
 namespace qchopper {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
+#include "app/cli/option_values.h"
 #include "app/cli/project_arguments.h"
-#include "app/cli/segment_values.h"
 #include "app/project/project_folder.h"
 #include "app/project/replay.h"
 #include "app/project/replay_plan.h"

@@ -293,6 +293,26 @@ TEST_F(OpenedProject, ASearchThatIsInterruptedEndsWithTheSameBytesForEveryWidth)
     }
 }
 
+TEST_F(OpenedProject, KnowsAgainWhyItsSearchEnded) {
+    OpenProject project = open();
+    StopRules rules;
+    rules.min_cuts = 9;
+    rules.max_cuts = 1;
+    project.set_search(rules, 1);
+    const SearchEnd end = project.search(
+        {}, [](const Segmentation&) {}, {}, std::nullopt);
+    const Project saved = load_project(folder);
+    EXPECT_EQ(end.reason, EndReason::max_cuts);
+    EXPECT_EQ(saved.end_reason, EndReason::max_cuts);
+    EXPECT_EQ(saved.ended_because, end.sentence);
+    EXPECT_FALSE(saved.do_rules_hold());
+    EXPECT_EQ(saved.warnings.back(), early_end(end.sentence));
+    EXPECT_EQ(saved, project.project());
+    project.undo();
+    EXPECT_EQ(load_project(folder).end_reason, std::nullopt);
+    EXPECT_TRUE(load_project(folder).do_rules_hold());
+}
+
 TEST_F(OpenedProject, OutOfTimeItStaysBeingCut) {
     OpenProject project = open();
     const SearchEnd end = project.search(

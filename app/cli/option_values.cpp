@@ -1,6 +1,8 @@
-#include "app/cli/segment_values.h"
+#include "app/cli/option_values.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <vector>
@@ -98,6 +100,25 @@ std::optional<std::size_t> place_from(const std::string& text) {
     const std::optional<double> value = number_from(text);
     if (!value || *value < 1 || *value > 1e6 || *value != std::floor(*value)) return std::nullopt;
     return static_cast<std::size_t>(*value);
+}
+
+// Own words instead of those of the option parser, which print type names and 300-digit bounds.
+OptionCheck number_between(double low, double high, const std::string& words) {
+    return [=](const std::string& text) {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool ok = error == std::errc() && end == text.data() + text.size() && value >= low && value <= high;
+        return ok ? std::string() : "\"" + text + "\" is not " + words;
+    };
+}
+
+OptionCheck one_of(const std::vector<std::string>& words) {
+    return [=](const std::string& text) {
+        if (std::find(words.begin(), words.end(), text) != words.end()) return std::string();
+        std::string list;
+        for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+        return "\"" + text + "\" is not one of " + list;
+    };
 }
 
 }  // namespace qchopper

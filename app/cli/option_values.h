@@ -1,10 +1,11 @@
-// Values that segment and prepare are given as one word: weights, planes.
+// Values that options are given as one word, and checks of them.
 
 #pragma once
 
-#include <array>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "segment/mesh/plane.h"
 #include "segment/score/objectives.h"
@@ -32,5 +33,16 @@ std::optional<Vec3> lengths_from(const std::string& text);
 
 // A whole number from 1, the place in a ranking.
 std::optional<std::size_t> place_from(const std::string& text);
+
+// Empty if a text is right, else what is wrong with it, without a full stop.
+using OptionCheck = std::function<std::string(const std::string&)>;
+
+constexpr double many = 1e15;  // more than any count or length that makes sense
+
+OptionCheck number_between(double low, double high, const std::string& words);
+OptionCheck one_of(const std::vector<std::string>& words);
+
+// The formats of scans, as help texts name them.
+constexpr const char* scan_formats = "PLY, STL, OBJ, OFF, GLB, glTF or 3MF, packed by gzip or not";
 
 }  // namespace qchopper
