@@ -4,7 +4,7 @@
 
 #include "app/project/replay.h"
 #include "base/error.h"
-#include "segment/score/pricing.h"
+#include "segment/score/evaluate.h"
 
 namespace qchopper {
 namespace {

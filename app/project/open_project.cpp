@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/project/price_cache.h"
+#include "app/project/evaluation_store.h"
 #include "app/project/project_folder.h"
 #include "app/project/project_scan.h"
 #include "app/project/replay.h"

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "app/project/products.h"
+#include "app/project/outputs.h"
 #include "app/project/project.h"
 #include "segment/search/search.h"
 

@@ -4,7 +4,7 @@
 #include "base/text.h"
 #include "segment/import/inspect.h"
 #include "segment/mesh/measure.h"
-#include "segment/repair/crumbs.h"
+#include "segment/repair/fragments.h"
 
 namespace qchopper {
 namespace {

@@ -18,7 +18,7 @@
 #include <optional>
 
 #include "segment/cut/contact.h"
-#include "segment/cut/ears.h"
+#include "segment/cut/ear_clipping.h"
 
 namespace qchopper {
 namespace {

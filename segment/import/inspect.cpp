@@ -11,8 +11,8 @@
 #include "segment/mesh/links.h"
 #include "segment/mesh/manifold.h"
 #include "segment/mesh/shells.h"
-#include "segment/repair/crumbs.h"
-#include "segment/repair/loose_sheets.h"
+#include "segment/repair/fragments.h"
+#include "segment/repair/open_components.h"
 #include "segment/repair/self_intersections.h"
 #include "segment/repair/weld.h"
 

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "segment/picture/light.h"
+#include "segment/picture/shade.h"
 #include "segment/picture/png.h"
 
 namespace qchopper {

@@ -8,8 +8,8 @@
 #include "base/error.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
-#include "segment/repair/border_weld.h"
-#include "segment/repair/outwards.h"
+#include "segment/repair/snap_borders.h"
+#include "segment/repair/orient_outward.h"
 #include "segment/repair/settle.h"
 #include "segment/repair/weld.h"
 

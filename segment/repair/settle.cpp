@@ -6,11 +6,11 @@
 
 #include "segment/mesh/edges.h"
 #include "segment/repair/balance.h"
-#include "segment/repair/crumbs.h"
+#include "segment/repair/fragments.h"
 #include "segment/repair/faces.h"
-#include "segment/repair/loose_sheets.h"
-#include "segment/repair/no_area.h"
-#include "segment/repair/outwards.h"
+#include "segment/repair/open_components.h"
+#include "segment/repair/degenerate.h"
+#include "segment/repair/orient_outward.h"
 #include "segment/repair/sheets.h"
 #include "segment/repair/weld.h"
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "segment/score/price.h"
+#include "segment/score/cut_evaluation.h"
 
 namespace qchopper {
 

@@ -14,7 +14,7 @@
 
 #include "base/context.h"
 #include "segment/score/prepared.h"
-#include "segment/score/price.h"
+#include "segment/score/cut_evaluation.h"
 
 namespace qchopper {
 

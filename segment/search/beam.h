@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "segment/search/beam_state.h"
-#include "segment/search/piece_book.h"
+#include "segment/search/evaluation_cache.h"
 #include "segment/search/rank.h"
 #include "segment/search/settings.h"
 

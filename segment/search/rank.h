@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/context.h"
-#include "segment/search/piece_book.h"
+#include "segment/search/evaluation_cache.h"
 #include "segment/search/segmentation.h"
 #include "segment/search/settings.h"
 

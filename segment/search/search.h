@@ -16,7 +16,7 @@
 #include "base/context.h"
 #include "segment/search/beam_state.h"
 #include "segment/search/end_reason.h"
-#include "segment/search/piece_book.h"
+#include "segment/search/evaluation_cache.h"
 #include "segment/search/rank.h"
 #include "segment/search/segmentation.h"
 #include "segment/search/settings.h"

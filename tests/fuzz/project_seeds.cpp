@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "app/project/plan.h"
-#include "app/project/price_cache.h"
+#include "app/project/evaluation_store.h"
 #include "app/project/project_json.h"
 #include "tests/fuzz/memory_folder.h"
 #include "tests/fuzz/seeds.h"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "segment/cut/ears.h"
+#include "segment/cut/ear_clipping.h"
 
 namespace qchopper {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "segment/picture/light.h"
+#include "segment/picture/shade.h"
 #include "segment/picture/png.h"
 #include "tests/shapes.h"
 

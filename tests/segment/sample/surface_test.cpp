@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "segment/sample/bones.h"
-#include "tests/segment/sample/laws.h"
+#include "tests/segment/sample/invariants.h"
 #include "tests/segment/sample/self_intersections.h"
 
 namespace qchopper {

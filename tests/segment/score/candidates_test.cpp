@@ -4,7 +4,7 @@
 
 #include "base/parallel.h"
 #include "segment/cut/nudge.h"
-#include "segment/score/pricing.h"
+#include "segment/score/evaluate.h"
 #include "tests/pieces.h"
 #include "tests/shapes.h"
 

@@ -12,9 +12,9 @@
 #include "segment/mesh/solids.h"
 #include "segment/sample/sample.h"
 #include "segment/score/candidates.h"
-#include "segment/score/pricing.h"
+#include "segment/score/evaluate.h"
 #include "tests/real_scans.h"
-#include "tests/segment/score/same_price.h"
+#include "tests/segment/score/same_evaluation.h"
 
 namespace qchopper {
 namespace {

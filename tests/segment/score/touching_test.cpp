@@ -9,7 +9,7 @@
 #include "segment/cut/cut.h"
 #include "segment/mesh/edges.h"
 #include "tests/pieces.h"
-#include "tests/segment/score/same_price.h"
+#include "tests/segment/score/same_evaluation.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "segment/score/pricing.h"
+#include "segment/score/evaluate.h"
 
 namespace qchopper::greedy {
 namespace {

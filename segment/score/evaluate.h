@@ -1,0 +1,19 @@
+// Prices many candidates at once, on all cores; the result does not depend on their number.
+
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/context.h"
+#include "segment/score/candidates.h"
+#include "segment/score/reference.h"
+
+namespace qchopper {
+
+// One price per candidate, in their order.
+std::vector<std::optional<Price>> price_all(const Piece& piece, std::span<const Candidate> candidates,
+                                            const Objectives& objectives, const Context& context);
+
+}  // namespace qchopper
