@@ -7,8 +7,8 @@
 #include "bench/clock.h"
 #include "bench/measures.h"
 #include "segment/cut/cut.h"
-#include "segment/score/reference.h"
 #include "segment/score/evaluate.h"
+#include "segment/score/reference.h"
 #include "segment/score/sweep.h"
 
 namespace qchopper::bench {
@@ -22,10 +22,10 @@ Objectives thesis_form() {
 
 double sweep_s(const PreparedPiece& prepared, const std::vector<Planes>& planes, int runs) {
     return best_of(runs, cpu_s, [&] {
-        std::vector<std::vector<std::optional<Price>>> prices;
-        prices.reserve(planes.size());
-        for (const Planes& p : planes) prices.push_back(sweep(prepared, p.normal, p.offsets, thesis_form()));
-        return prices;
+        std::vector<std::vector<std::optional<CutEvaluation>>> evaluations;
+        evaluations.reserve(planes.size());
+        for (const Planes& p : planes) evaluations.push_back(sweep(prepared, p.normal, p.offsets, thesis_form()));
+        return evaluations;
     });
 }
 
@@ -90,7 +90,8 @@ double performed_s(const Piece& piece, const std::vector<Candidate>& candidates)
     const double started = cpu_s();
     std::size_t solids = 0;
     for (const Candidate& c : candidates) {
-        if (const auto price = price_by_cutting(piece, c.plane, thesis_form())) solids += price->solids.size();
+        if (const auto evaluation = evaluate_by_cutting(piece, c.plane, thesis_form()))
+            solids += evaluation->solids.size();
     }
     return solids > 0 ? cpu_s() - started : 0;
 }
@@ -134,21 +135,22 @@ Piece with_six_caps(const Measured& measured, const std::vector<Planes>& planes)
 
 }  // namespace
 
-double pricing_s(const Measured& measured, int runs) {
+double evaluation_s(const Measured& measured, int runs) {
     const ThreadLimit one_thread(1);
     const std::vector<Planes> planes = by_normal(candidate_planes(measured.piece, {}));
     return sweep_s(prepare(measured.piece, thesis_form()), planes, runs);
 }
 
-Base measure_pricing(const Measured& m, const Effort& effort, Figures& figures) {
+Base measure_evaluation(const Measured& m, const Effort& effort, Figures& figures) {
     const ThreadLimit one_thread(1);
     const std::vector<Candidate> candidates = candidate_planes(m.piece, {});
     const std::vector<Planes> planes = by_normal(candidates);
     const PreparedPiece prepared = prepare(m.piece, thesis_form());
     const Base base{sweep_s(prepared, planes, effort.runs), cut_s(*m.piece.mesh, planes, effort.runs)};
-    figures.tell(m.name, "pricing " + std::to_string(candidates.size()) + " candidates", time_text(base.pricing_s));
+    figures.tell(m.name, "evaluation " + std::to_string(candidates.size()) + " candidates",
+                 time_text(base.evaluation_s));
     figures.tell(m.name, "one cut, both halves", time_text(base.cut_s));
-    figures.at_most(m.name, "pricing / one cut", base.pricing_s / base.cut_s, 2.5);
+    figures.at_most(m.name, "evaluation / one cut", base.evaluation_s / base.cut_s, 2.5);
     const double touched = bytes_to_touch(prepared);
     const Streams streamed = streams(touched, effort.runs);
     const auto rate = [&](double seconds) {
@@ -157,18 +159,18 @@ Base measure_pricing(const Measured& m, const Effort& effort, Figures& figures) 
     const std::string amount = number_text(touched / 1e6) + " MB of one normal";
     figures.tell(m.name, amount + ", copy loop", rate(streamed.copy_s));
     figures.tell(m.name, amount + ", reading loop", rate(streamed.read_s));
-    figures.at_most(m.name, "pricing / copy loop over the bytes of its normals",
-                    base.pricing_s / (static_cast<double>(planes.size()) * streamed.copy_s), 5);
+    figures.at_most(m.name, "evaluation / copy loop over the bytes of its normals",
+                    base.evaluation_s / (static_cast<double>(planes.size()) * streamed.copy_s), 5);
     if (effort.cuts) {
         const double performed = performed_s(m.piece, candidates);
         figures.tell(m.name, "all cuts performed and scored", time_text(performed));
-        figures.at_least(m.name, "cuts performed and scored / pricing", performed / base.pricing_s, 80);
+        figures.at_least(m.name, "cuts performed and scored / evaluation", performed / base.evaluation_s, 80);
     }
     if (effort.clip) {
         const Planes& first = planes.front();
         const ClipResult clip = cgal_clip(*m.piece.mesh, {first.normal, first.offsets[first.offsets.size() / 2]});
         figures.tell(m.name, "CGAL clip of both sides", time_text(clip.cpu_s) + (clip.is_closed ? "" : ", left open"));
-        figures.at_least(m.name, "CGAL clip / pricing", clip.cpu_s / base.pricing_s, 20);
+        figures.at_least(m.name, "CGAL clip / evaluation", clip.cpu_s / base.evaluation_s, 20);
         figures.at_least(m.name, "CGAL clip / one cut", clip.cpu_s / base.cut_s, 50);
     }
     return base;
@@ -178,15 +180,15 @@ void measure_caps(const Measured& m, const Base& base, const Effort& effort, Fig
     const ThreadLimit one_thread(1);
     const Piece capped = with_six_caps(m, by_normal(candidate_planes(m.piece, {})));
     const std::size_t caps = measure(capped).bases.size();
-    const Measured with{m.name, capped, m.crumb_volume_mm3};
-    const double seconds = pricing_s(with, effort.runs);
+    const Measured with{m.name, capped, m.fragment_volume_mm3};
+    const double seconds = evaluation_s(with, effort.runs);
     const double per_face =
-        (seconds / static_cast<double>(with.faces())) / (base.pricing_s / static_cast<double>(m.faces()));
+        (seconds / static_cast<double>(with.faces())) / (base.evaluation_s / static_cast<double>(m.faces()));
     figures.tell(m.name,
-                 "pricing a piece of it with " + std::to_string(caps) + " caps, " +
+                 "evaluate a piece of it with " + std::to_string(caps) + " caps, " +
                      number_text(static_cast<double>(with.faces())) + " faces",
                  time_text(seconds));
-    figures.at_most(m.name, "that, per face / pricing the uncut mesh, per face", per_face, 1.6);
+    figures.at_most(m.name, "that, per face / evaluate the uncut mesh, per face", per_face, 1.6);
 }
 
 void measure_many(const Measured& m, const Base& base, Figures& figures) {
@@ -198,23 +200,23 @@ void measure_many(const Measured& m, const Base& base, Figures& figures) {
         const auto some = candidates_along(m.piece, all[static_cast<std::size_t>(n)], n, offsets);
         candidates.insert(candidates.end(), some.begin(), some.end());
     }
-    const auto price = [&] { return price_all(m.piece, candidates, thesis_form(), Context{}); };
+    const auto evaluation = [&] { return evaluate_all(m.piece, candidates, thesis_form(), Context{}); };
     double cpu = 0;
     double one = 0;
     double two = 0;
     {
         const ThreadLimit one_thread(1);
         const double started = wall_s();
-        cpu = best_of(1, cpu_s, price);
+        cpu = best_of(1, cpu_s, evaluation);
         one = wall_s() - started;
     }
     {
         const ThreadLimit two_threads(2);
-        two = best_of(1, wall_s, price);
+        two = best_of(1, wall_s, evaluation);
     }
     const std::string what = std::to_string(candidates.size()) + " candidates of 132 normals, with preparation";
     figures.tell(m.name, what, time_text(cpu) + "; wall " + time_text(one) + ", two threads " + time_text(two));
-    figures.at_most(m.name, "that / pricing 3 x 40", cpu / base.pricing_s, 160);
+    figures.at_most(m.name, "that / evaluation 3 x 40", cpu / base.evaluation_s, 160);
     figures.at_least(m.name, "that, wall: one thread / two threads", one / two, 1.9);
 }
 

@@ -71,7 +71,7 @@ void measure(const Choice& choice, Figures& figures) {
         Effort effort;
         effort.cuts = choice.wants("cuts");
         effort.clip = choice.wants("clip");
-        const Base base = measure_pricing(m, effort, figures);
+        const Base base = measure_evaluation(m, effort, figures);
         if (choice.wants("caps")) measure_caps(m, base, effort, figures);
         if (choice.wants("decision")) measure_decision(m, base, effort, figures);
         const bool is_one_solid = m.name != "CT head, whole";  // else there are many pieces before the first cut

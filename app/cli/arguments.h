@@ -41,7 +41,7 @@ struct RepairArguments : RepairChoiceArguments {
     std::filesystem::path out;
     std::optional<std::string> units;
     std::optional<double> scale;
-    std::optional<std::string> crumbs;  // keep | drop
+    std::optional<std::string> fragments;  // keep | drop
     bool keep_self_intersections = false;
     std::optional<double> mark_width;  // mm, of the widest mark
     std::optional<double> mark_depth;  // mm, of the deepest
@@ -63,7 +63,7 @@ struct ProjectArguments : RepairChoiceArguments {
     std::optional<std::string> weights;    // option_values.h reads it
     std::optional<int> beam;
     std::optional<double> time_limit_s;
-    std::optional<std::string> crumbs;  // keep | drop
+    std::optional<std::string> fragments;  // keep | drop
     std::optional<double> fragment_volume_mm3;
     std::optional<std::filesystem::path> out;
 };

@@ -26,7 +26,7 @@ void check_options(const PrepareArguments& a, bool is_project) {
         return;
     }
     const bool has_any = a.units || a.scale || a.preset || given_rules(a) || a.stop || a.fragility || a.weights ||
-                         a.beam || a.crumbs || a.fragment_volume_mm3 || a.out || is_any_given(a) ||
+                         a.beam || a.fragments || a.fragment_volume_mm3 || a.out || is_any_given(a) ||
                          (a.cell && fs::exists(a.input / "cell.toml"));
     if (has_any) {
         refuse(a.input.string() + " is a project: its settings were fixed when it was made",
@@ -42,7 +42,7 @@ int finish(OpenProject& open, std::optional<double> time_limit_s, Terminal& term
     };
     keep_words(open.segmentation());
     if (open.segmentation().pieces.empty()) {
-        throw InputError(InputFault::mesh, open.project().scan.path.string() + " holds nothing but crumbs",
+        throw InputError(InputFault::mesh, open.project().scan.path.string() + " holds nothing but fragments",
                          "check the scan");
     }
     if (open.project().stage == Stage::cutting) {
@@ -67,13 +67,13 @@ int start(const PrepareArguments& a, Terminal& terminal) {
     read_cell(*a.cell);  // an impossible one is refused before anything is made
     const Bytes cell_file = read_file(*a.cell, settings_limit);
     const ProjectChoices choices = choices_of(a.input, a);
-    Intake intake = take_in_scan(choices, terminal.context());
-    terminal.warn(intake.report.warnings);
-    Project project = new_project(choices, intake);
+    ImportedScan imported = import_project_scan(choices, terminal.context());
+    terminal.warn(imported.report.warnings);
+    Project project = new_project(choices, imported);
     if (!project.settings.stop.is_any_set()) project.settings.stop.fits_cell = true;
     create_project(out, project, cell_file);
     const ProjectLock lock(out);
-    OpenProject open(out, std::move(project), [&] { return std::move(intake.mesh); });
+    OpenProject open(out, std::move(project), [&] { return std::move(imported.mesh); });
     return finish(open, a.time_limit_s, terminal);
 }
 

@@ -65,8 +65,8 @@ ProjectChoices choices_of(const std::filesystem::path& scan, const ProjectArgume
     choices.repair = repair_choices(a);
     choices.preset = a.preset.value_or("");
     choices.settings = settings_of(a);
-    choices.crumb_volume_mm3 = a.fragment_volume_mm3;
-    if (a.crumbs && *a.crumbs == "drop") choices.crumbs = CrumbChoice::drop;
+    choices.fragment_volume_mm3 = a.fragment_volume_mm3;
+    if (a.fragments && *a.fragments == "drop") choices.fragments = FragmentChoice::drop;
     return choices;
 }
 

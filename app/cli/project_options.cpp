@@ -12,6 +12,15 @@ void add_scale(CLI::App* c, std::optional<double>& scale) {
         ->check(number_between(1e-6, 1e6, "a factor above 0"));
 }
 
+// The older name is taken for one version more; help does not show it.
+void add_fragments(CLI::App* c, std::optional<std::string>& fragments) {
+    for (const char* name : {"--fragments", "--crumbs"}) {
+        c->add_option(name, fragments, "solids too small to be pieces: keep or drop (keep)")
+            ->check(one_of({"keep", "drop"}))
+            ->group(name == std::string("--crumbs") ? "" : "OPTIONS");
+    }
+}
+
 void add_repair_choices(CLI::App* c, RepairChoiceArguments& a) {
     c->add_option("--weld", a.weld_mm, "make one point of border points that lie within so many mm (off)")
         ->check(number_between(0, many, "a length in mm"));
@@ -47,8 +56,7 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
     c->add_option("--stop", a.stop, "stop when any or all of the rules hold (all)")->check(one_of({"any", "all"}));
     c->add_option("--fragility", a.fragility, "form of that objective: thinness or thesis (thinness)")
         ->check(one_of({"thinness", "thesis"}));
-    c->add_option("--crumbs", a.crumbs, "solids too small to be pieces: keep or drop (keep)")
-        ->check(one_of({"keep", "drop"}));
+    add_fragments(c, a.fragments);
     c->add_option("--fragment-volume", a.fragment_volume_mm3,
                   "solids of less than so many mm3 are no pieces (a hundred-thousandth of the scan's volume)")
         ->check(number_between(0, many, "a volume in mm3"));
@@ -81,17 +89,17 @@ void add_repair(CLI::App& app, RepairArguments& repair, Arguments& common) {
         ->check(one_of({"mm", "cm", "m", "in"}));
     add_scale(c, repair.scale);
     add_repair_choices(c, repair);
-    c->add_option("--crumbs", repair.crumbs, "solids too small to be pieces: keep or drop (keep)")
-        ->check(one_of({"keep", "drop"}));
+    add_fragments(c, repair.fragments);
     c->add_flag("--keep-self-intersections", repair.keep_self_intersections,
                 "leave places where the scan runs through itself");
     c->add_option("--mark-width", repair.mark_width, "with --smooth-marks: the widest line, in mm (6)")
         ->check(CLI::PositiveNumber);
     c->add_option("--mark-depth", repair.mark_depth, "with --smooth-marks: the deepest, in mm (1)")
         ->check(CLI::PositiveNumber);
-    c->add_option("--skip", repair.skipped, "leave steps out: faces, split, orient, stitch, no_area, outwards")
+    c->add_option("--skip", repair.skipped, "leave steps out: faces, split, orient, stitch, degenerate, outwards")
         ->delimiter(',')
-        ->check(one_of({"faces", "split", "orient", "stitch", "no_area", "outwards"}));
+        ->transform([](const std::string& step) { return step == "no_area" ? "degenerate" : step; })
+        ->check(one_of({"faces", "split", "orient", "stitch", "degenerate", "outwards"}));
     add_common(c, common);
 }
 

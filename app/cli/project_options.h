@@ -1,4 +1,4 @@
-// The options of the commands that take in a scan to make a solid or a project of it.
+// The options of the commands that import a scan to make a solid or a project of it.
 
 #pragma once
 

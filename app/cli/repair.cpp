@@ -12,7 +12,7 @@
 namespace qchopper {
 namespace {
 
-IntakeOptions options_of(const RepairArguments& a) {
+ImportOptions options_of(const RepairArguments& a) {
     if ((a.mark_width || a.mark_depth) && !a.smooth_marks) {
         throw InputError(InputFault::use, "--mark-width and --mark-depth tell what --smooth-marks looks for",
                          "say --smooth-marks too");
@@ -20,7 +20,7 @@ IntakeOptions options_of(const RepairArguments& a) {
     const auto is_skipped = [&](const std::string& step) {
         return std::find(a.skipped.begin(), a.skipped.end(), step) != a.skipped.end();
     };
-    IntakeOptions options;
+    ImportOptions options;
     if (a.units) options.mm_per_unit = mm_per(unit_named(*a.units));
     options.scale = a.scale.value_or(1);
     options.may_lack_unit = !a.weld_mm && !a.smooth_marks && !a.wrap_mm;  // nothing is said in mm
@@ -33,9 +33,9 @@ IntakeOptions options_of(const RepairArguments& a) {
     options.repair.split = !is_skipped("split");
     options.repair.orient = !is_skipped("orient");
     options.repair.stitch = !is_skipped("stitch");
-    options.repair.remove_no_area = !is_skipped("no_area");
-    options.repair.turn_outwards = !is_skipped("outwards");
-    options.repair.drop_crumbs = a.crumbs && *a.crumbs == "drop";
+    options.repair.remove_degenerate = !is_skipped("degenerate");
+    options.repair.orient_outward = !is_skipped("outwards");
+    options.repair.drop_fragments = a.fragments && *a.fragments == "drop";
     options.repair.measure_deviation = true;
     return options;
 }
@@ -54,7 +54,7 @@ int run(const RepairArguments& arguments, Terminal& terminal) {
         throw InputError(InputFault::use, arguments.out.string() + " ends neither in .ply nor in .stl",
                          "name a .ply file");
     }
-    const IntakeOptions options = options_of(arguments);
+    const ImportOptions options = options_of(arguments);
     check_output(arguments.out);
     RepairedScan scan = repair_scan(arguments.scan, options, terminal.context());
     enlarge(scan, options.scale);

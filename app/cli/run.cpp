@@ -73,10 +73,10 @@ int run_program(int argc, const char* const* argv) {
         return report(terminal, "stopped on request", "", Terminal::cancel_code());
     } catch (const std::bad_alloc&) {
         return report(terminal, "out of memory", "use a scan with fewer faces, or a machine with more memory",
-                      exit_ours);
+                      exit_internal);
     } catch (const std::exception& e) {
-        return report(terminal, std::string("our fault: ") + e.what(), "report this with the command and the scan",
-                      exit_ours);
+        return report(terminal, std::string("internal error: ") + e.what(), "report this with the command and the scan",
+                      exit_internal);
     }
 }
 

@@ -61,7 +61,7 @@ void check_project(const SegmentArguments& a, const std::string& action) {
     const std::pair<bool, const char*> fixed_ones[] = {
         {a.units.has_value(), "--units"},         {a.scale.has_value(), "--scale"},
         {a.preset.has_value(), "--preset"},       {a.fragment_volume_mm3.has_value(), "--fragment-volume"},
-        {a.crumbs.has_value(), "--crumbs"},       {a.out.has_value(), "--out"},
+        {a.fragments.has_value(), "--fragments"}, {a.out.has_value(), "--out"},
         {a.fragility.has_value(), "--fragility"}, {a.replayed.has_value(), "--replay"},
         {is_any_given(a), "a choice of repair"}};
     for (const auto& [is_given, name] : fixed_ones) {
@@ -160,19 +160,19 @@ int start(const SegmentArguments& a, Terminal& terminal) {
     }
     const std::optional<Plan> plan = plan_of(a);
     const ProjectChoices choices = choices_of(a.input, a);
-    Intake intake = take_in_scan(choices, terminal.context());
-    terminal.warn(intake.report.warnings);
-    Project project = new_project(choices, intake);
+    ImportedScan imported = import_project_scan(choices, terminal.context());
+    terminal.warn(imported.report.warnings);
+    Project project = new_project(choices, imported);
     if (plan) {
         take_weights(project, *plan, a);
-        const std::string why = misfit(*plan, project.scan, intake.mesh);
+        const std::string why = misfit(*plan, project.scan, imported.mesh);
         if (!why.empty()) return tell_misfit(why, out, project, terminal);
     }
-    record(project, uncut(intake.mesh, project.settings.objectives.crumb_volume_mm3));
+    record(project, uncut(imported.mesh, project.settings.objectives.fragment_volume_mm3));
     create_project(out, project, cell_file);
     terminal.unchanged = "The project " + out.string() + " is made, with no cut.";
     const ProjectLock lock(out);
-    OpenProject open(out, std::move(project), [&] { return std::move(intake.mesh); });
+    OpenProject open(out, std::move(project), [&] { return std::move(imported.mesh); });
     if (!plan) return decide_in(open, std::nullopt, a, terminal);  // it is made with the weights that were given
     if (a.write_pieces) open.keep_pieces_written();
     return replay_in(open, *plan, terminal);

@@ -75,7 +75,7 @@ class Deciding {
         if (request_.piece) return piece_named(*request_.piece);
         const OpenProject::Next next = project_.next(fits_cell_);
         if (!next.piece) {
-            throw InputError(InputFault::mesh, "the scan holds nothing but crumbs",
+            throw InputError(InputFault::mesh, "the scan holds nothing but fragments",
                              "check the scan, or make the project again with a smaller --fragment-volume");
         }
         rules_hold_ = next.rules_hold;
@@ -123,7 +123,7 @@ class Deciding {
     void tell_why_not(std::size_t p, const Plane& plane) {
         const Piece& target = project_.segmentation().pieces[p];
         const Extent range = extent(*target.mesh, plane.normal);
-        const double limit = project_.project().settings.objectives.crumb_volume_mm3;
+        const double limit = project_.project().settings.objectives.fragment_volume_mm3;
         const std::string why = project_.misses(p, plane)
                                     ? "misses piece " + target.name
                                     : "makes only fragments of piece " + target.name + " on one side (solids below " +
@@ -139,7 +139,7 @@ class Deciding {
         if (!project_.decide_cut(
                 cut_by(project_.segmentation(), p, ranked, k, project_.project().settings.runners_up))) {
             return refuse("The plane does not part piece " + project_.segmentation().pieces[p].name +
-                          ", although its price says so: the scan runs through itself there. Nothing was cut.");
+                          ", although its evaluation says so: the scan runs through itself there. Nothing was cut.");
         }
         const std::vector<std::string>& warnings = project_.segmentation().warnings;
         for (std::size_t i = warned; i < warnings.size(); ++i) answer_.warnings.push_back(warnings[i]);
@@ -161,7 +161,7 @@ class Deciding {
         }
         const Ranked& r = preview.plane;
         const Candidate candidate{r.plane, r.wanted_offset, r.normal, r.offset};
-        preview.solids = project_.book().price_of(target, candidate, context_)->solids;
+        preview.solids = project_.book().evaluation_of(target, candidate, context_)->solids;
         preview.outline = outline(*target.mesh, r.plane);
         preview.sections_cross = crossing_regions(*target.mesh, r.plane) > 0;
         answer_.preview = std::move(preview);

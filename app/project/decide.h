@@ -56,7 +56,7 @@ struct Preview {
     std::string piece;
     Ranked plane;
     Outline outline;
-    std::vector<SolidPrice> solids;
+    std::vector<SolidEvaluation> solids;
     bool sections_cross = false;  // the piece runs through itself in this plane
 };
 

@@ -33,7 +33,7 @@ std::string cut_line(const Cut& cut) {
 std::string makes(const Cut& cut) {
     std::string made;
     for (const std::string& name : cut.pieces) made += (made.empty() ? "" : ", ") + name;
-    return made + (cut.crumbs > 0 ? " and " + std::to_string(cut.crumbs) + " crumbs" : "");
+    return made + (cut.fragments > 0 ? " and " + std::to_string(cut.fragments) + " fragments" : "");
 }
 
 std::vector<Cut> standing_cuts(const History& history) {

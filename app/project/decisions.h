@@ -48,7 +48,7 @@ std::string words(const Decision& decision);
 // "cut 2 on piece B: best of 120 planes, total 3.929 (...); makes D, E".
 std::string cut_line(const Cut& cut);
 
-// "D, E and 2 crumbs": what a cut made.
+// "D, E and 2 fragments": what a cut made.
 std::string makes(const Cut& cut);
 
 std::vector<Cut> standing_cuts(const History& history);

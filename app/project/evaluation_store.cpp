@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// To be raised whenever candidates or prices come out differently for the same piece.
-constexpr std::uint32_t version_of_prices = 2;
+// To be raised whenever candidates or evaluations come out differently for the same piece.
+constexpr std::uint32_t version_of_evaluations = 2;
 
 class Writer {
  public:
@@ -80,11 +80,11 @@ void put(Writer& out, const BaseShare& b) {
     for (const double x : {b.down_mm2, b.all_mm2, b.down_count, b.all_count}) out.put(x);
 }
 
-void put(Writer& out, const Price& price) {
-    out.put(price.cap_area_mm2);
-    out.put(price.fragility);
-    out.put(price.solids.size());
-    for (const SolidPrice& solid : price.solids) {
+void put(Writer& out, const CutEvaluation& evaluation) {
+    out.put(evaluation.cap_area_mm2);
+    out.put(evaluation.fragility);
+    out.put(evaluation.solids.size());
+    for (const SolidEvaluation& solid : evaluation.solids) {
         out.put(solid.faces);
         out.put(solid.volume_mm3);
         out.put(static_cast<std::uint8_t>(solid.above));
@@ -93,12 +93,12 @@ void put(Writer& out, const Price& price) {
     }
 }
 
-Price price_from(Reader& in) {
-    Price price;
-    price.cap_area_mm2 = in.get<double>();
-    price.fragility = in.get<double>();
-    price.solids.resize(in.count());
-    for (SolidPrice& solid : price.solids) {
+CutEvaluation evaluation_from(Reader& in) {
+    CutEvaluation evaluation;
+    evaluation.cap_area_mm2 = in.get<double>();
+    evaluation.fragility = in.get<double>();
+    evaluation.solids.resize(in.count());
+    for (SolidEvaluation& solid : evaluation.solids) {
         solid.faces = in.get<std::size_t>();
         solid.volume_mm3 = in.get<double>();
         solid.above = in.get<std::uint8_t>() != 0;
@@ -108,45 +108,45 @@ Price price_from(Reader& in) {
             for (double* x : {&b.down_mm2, &b.all_mm2, &b.down_count, &b.all_count}) *x = in.get<double>();
         }
     }
-    return price;
+    return evaluation;
 }
 
-Bytes to_bytes(const PiecePrices& prices) {
+Bytes to_bytes(const PieceEvaluations& evaluations) {
     Writer out;
-    assert(prices.candidates.size() == prices.prices.size());
-    out.put(prices.candidates.size());
-    for (std::size_t i = 0; i < prices.candidates.size(); ++i) {
-        const Candidate& c = prices.candidates[i];
+    assert(evaluations.candidates.size() == evaluations.evaluations.size());
+    out.put(evaluations.candidates.size());
+    for (std::size_t i = 0; i < evaluations.candidates.size(); ++i) {
+        const Candidate& c = evaluations.candidates[i];
         out.put(c.plane);
         out.put(c.wanted_offset);
         out.put(c.normal);
         out.put(c.offset);
-        out.put(static_cast<std::uint8_t>(prices.prices[i].has_value()));
-        if (prices.prices[i]) put(out, *prices.prices[i]);
+        out.put(static_cast<std::uint8_t>(evaluations.evaluations[i].has_value()));
+        if (evaluations.evaluations[i]) put(out, *evaluations.evaluations[i]);
     }
     const Sha256 digest = sha256(out.bytes());
     out.bytes().insert(out.bytes().end(), digest.begin(), digest.end());
     return std::move(out.bytes());
 }
 
-std::optional<PiecePrices> from_bytes(std::span<const std::uint8_t> bytes) {
+std::optional<PieceEvaluations> from_bytes(std::span<const std::uint8_t> bytes) {
     if (bytes.size() < sizeof(Sha256)) return std::nullopt;
     const auto body = bytes.first(bytes.size() - sizeof(Sha256));
     const Sha256 digest = sha256(body);
     if (std::memcmp(digest.data(), bytes.data() + body.size(), digest.size()) != 0) return std::nullopt;
     Reader in(body);
-    PiecePrices prices;
-    prices.candidates.resize(in.count());
-    for (Candidate& c : prices.candidates) {
+    PieceEvaluations evaluations;
+    evaluations.candidates.resize(in.count());
+    for (Candidate& c : evaluations.candidates) {
         for (double* x : {&c.plane.normal.x, &c.plane.normal.y, &c.plane.normal.z, &c.plane.offset, &c.wanted_offset})
             *x = in.get<double>();
         c.normal = in.get<int>();
         c.offset = in.get<int>();
-        prices.prices.emplace_back();
-        if (in.get<std::uint8_t>() != 0) prices.prices.back() = price_from(in);
+        evaluations.evaluations.emplace_back();
+        if (in.get<std::uint8_t>() != 0) evaluations.evaluations.back() = evaluation_from(in);
     }
     if (!in.is_whole()) return std::nullopt;
-    return prices;
+    return evaluations;
 }
 
 std::string name_of_file(const std::string& settings, const Piece& piece) {
@@ -160,32 +160,33 @@ std::string name_of_file(const std::string& settings, const Piece& piece) {
         out.put(bound.plane);
         out.put(static_cast<std::uint8_t>(bound.above));
     }
-    return to_hex(sha256(out.bytes())) + ".prices";
+    return to_hex(sha256(out.bytes())) + ".evaluations";
 }
 
 }  // namespace
 
-PriceStore price_cache(const fs::path& folder, const Objectives& objectives, const CandidateOptions& options) {
+EvaluationStore evaluation_store(const fs::path& folder, const Objectives& objectives,
+                                 const CandidateOptions& options) {
     Writer w;
-    w.put(version_of_prices);
+    w.put(version_of_evaluations);
     w.put(static_cast<int>(objectives.fragility_form));
     w.put(objectives.fragility_distance);
     w.put(static_cast<std::uint8_t>(objectives.undercut_by_area));
     w.put(options.offsets_per_normal);
     const std::string settings(w.bytes().begin(), w.bytes().end());
-    PriceStore store;
-    store.find = [=](const Piece& piece) -> std::optional<PiecePrices> {
+    EvaluationStore store;
+    store.find = [=](const Piece& piece) -> std::optional<PieceEvaluations> {
         try {
             return from_bytes(read_file(folder / name_of_file(settings, piece)));
         } catch (const InputError&) {
             return std::nullopt;
         }
     };
-    store.keep = [=](const Piece& piece, const PiecePrices& prices) {
+    store.keep = [=](const Piece& piece, const PieceEvaluations& evaluations) {
         std::error_code error;
         fs::create_directories(folder, error);
         try {
-            write_file(folder / name_of_file(settings, piece), to_bytes(prices));
+            write_file(folder / name_of_file(settings, piece), to_bytes(evaluations));
         } catch (const InputError&) {  // a full disk costs time, not work
         }
     };

@@ -44,11 +44,11 @@ Before before(const Project& project, const Cut& cut, const TriangleMesh& scan) 
 }
 
 // The candidates along a normal of the operator's own.
-std::vector<Ranked> beside(const Before& b, const Plane& own, const SearchSettings& settings, PieceBook& book,
+std::vector<Ranked> beside(const Before& b, const Plane& own, const SearchSettings& settings, EvaluationCache& book,
                            const Context& context) {
     const Piece& piece = b.segmentation.pieces[b.piece];
-    PiecePrices along{candidates_along(piece, own.normal, -1, settings.candidates.offsets_per_normal), {}};
-    along.prices = price_all(piece, along.candidates, settings.objectives, context);
+    PieceEvaluations along{candidates_along(piece, own.normal, -1, settings.candidates.offsets_per_normal), {}};
+    along.evaluations = evaluate_all(piece, along.candidates, settings.objectives, context);
     const auto others = shares_of_others(b.segmentation, b.piece, settings.objectives, book);
     std::vector<Ranked> planes = rank(along, others, settings.objectives);
     std::sort(planes.begin(), planes.end(), [](const Ranked& x, const Ranked& y) { return x.offset < y.offset; });
@@ -72,7 +72,7 @@ const Cut& cut_to_explain(const Project& project, std::optional<int> number) {
 Explanation explain(OpenProject& project, const Cut& cut, const Context& context) {
     const SearchSettings settings = settings_at(project.project(), cut);
     const Before b = before(project.project(), cut, project.scan());
-    PieceBook& book = project.book();
+    EvaluationCache& book = project.book();
     Explanation e;
     e.cut = cut;
     e.objectives = settings.objectives;
@@ -86,8 +86,8 @@ Explanation explain(OpenProject& project, const Cut& cut, const Context& context
         return e;
     }
     const Candidate own{cut.chosen.plane, cut.chosen.wanted_offset, cut.chosen.normal, cut.chosen.offset};
-    const std::optional<Ranked> priced = rank_plane(b.segmentation, b.piece, own, settings, book, context);
-    if (priced) e.chosen = *priced;
+    const std::optional<Ranked> evaluated = rank_plane(b.segmentation, b.piece, own, settings, book, context);
+    if (evaluated) e.chosen = *evaluated;
     e.beside = beside(b, own.plane, settings, book, context);
     return e;
 }

@@ -30,16 +30,17 @@ std::string early_end(const std::string& sentence) {
     return "the stop rules do not hold: " + sentence;
 }
 
-OpenProject::OpenProject(std::filesystem::path folder, Project project, std::function<TriangleMesh()> take_in_scan)
-    : folder_(std::move(folder)), project_(std::move(project)), take_in_scan_(std::move(take_in_scan)) {}
+OpenProject::OpenProject(std::filesystem::path folder, Project project,
+                         std::function<TriangleMesh()> import_project_scan)
+    : folder_(std::move(folder)), project_(std::move(project)), import_scan_(std::move(import_project_scan)) {}
 
 OpenProject::OpenProject(const std::filesystem::path& folder, const Context& context)
     : OpenProject(folder, load_project(folder), {}) {
-    take_in_scan_ = [this, context] { return std::move(qchopper::take_in_scan(project_, context).mesh); };
+    import_scan_ = [this, context] { return std::move(qchopper::import_project_scan(project_, context).mesh); };
 }
 
 const TriangleMesh& OpenProject::scan() {
-    if (!scan_) scan_ = take_in_scan_();
+    if (!scan_) scan_ = import_scan_();
     return *scan_;
 }
 
@@ -48,11 +49,12 @@ const Segmentation& OpenProject::segmentation() {
     return *segmentation_;
 }
 
-PieceBook& OpenProject::book() {
+EvaluationCache& OpenProject::book() {
     if (!book_) {
         const SearchSettings& settings = project_.settings;
-        book_ = std::make_unique<PieceBook>(settings.objectives, settings.candidates,
-                                            price_cache(folder_ / "cache", settings.objectives, settings.candidates));
+        book_ = std::make_unique<EvaluationCache>(
+            settings.objectives, settings.candidates,
+            evaluation_store(folder_ / "cache", settings.objectives, settings.candidates));
     }
     return *book_;
 }
@@ -109,12 +111,12 @@ std::optional<Ranked> OpenProject::own_plane(std::size_t piece, const Plane& pla
 bool OpenProject::misses(std::size_t piece, const Plane& plane) {
     const Piece& target = segmentation().pieces[piece];
     const std::optional<Candidate> candidate = nudged_off(target, plane);
-    return !candidate || !book().price_of(target, *candidate, {});
+    return !candidate || !book().evaluation_of(target, *candidate, {});
 }
 
 bool OpenProject::decide_cut(Cut cut) {
     Segmentation after = segmentation();
-    if (!apply(after, std::move(cut), project_.settings.objectives.crumb_volume_mm3)) return false;
+    if (!apply(after, std::move(cut), project_.settings.objectives.fragment_volume_mm3)) return false;
     adopt(after);
     return true;
 }
@@ -124,7 +126,7 @@ void OpenProject::adopt(const Segmentation& segmentation) {
 }
 
 void OpenProject::adopt(const Segmentation& segmentation, std::optional<BeamState> beam) {
-    take_away_products(folder_, project_);
+    remove_outputs(folder_, project_);
     segmentation_ = segmentation;
     end_.reset();
     project_.end_reason.reset();
@@ -152,7 +154,7 @@ bool OpenProject::decide_discard(const std::string& piece) {
 
 bool OpenProject::decide_reset() {
     if (project_.cuts.empty() && project_.discards.empty()) return false;
-    take_away_products(folder_, project_);
+    remove_outputs(folder_, project_);
     decide(project_.history, Reset{});
     stand_at(project_.history.standing);
     return true;
@@ -161,7 +163,7 @@ bool OpenProject::decide_reset() {
 std::optional<Decision> OpenProject::undo() {
     const Decision* last = to_undo(project_.history);
     if (last == nullptr) return std::nullopt;
-    if (!std::holds_alternative<WeightsChange>(*last)) take_away_products(folder_, project_);
+    if (!std::holds_alternative<WeightsChange>(*last)) remove_outputs(folder_, project_);
     stand_at(project_.history.standing - 1);
     return project_.history.decisions[project_.history.standing];
 }
@@ -169,7 +171,7 @@ std::optional<Decision> OpenProject::undo() {
 std::optional<Decision> OpenProject::redo() {
     const Decision* next = to_redo(project_.history);
     if (next == nullptr) return std::nullopt;
-    if (!std::holds_alternative<WeightsChange>(*next)) take_away_products(folder_, project_);
+    if (!std::holds_alternative<WeightsChange>(*next)) remove_outputs(folder_, project_);
     stand_at(project_.history.standing + 1);
     return project_.history.decisions[project_.history.standing - 1];
 }
@@ -200,7 +202,7 @@ void OpenProject::set_search(const StopRules& stop, std::size_t beam) {
 
 SearchEnd OpenProject::search(const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
                               const Context& context, std::optional<double> time_limit_s) {
-    take_away_products(folder_, project_);
+    remove_outputs(folder_, project_);
     Segmentation working = segmentation();
     BeamProgress progress = beam_progress(project_, working, [this]() -> const TriangleMesh& { return scan(); });
     const auto keep = [&](const Segmentation& best) {
@@ -213,7 +215,7 @@ SearchEnd OpenProject::search(const FitsCell& fits_cell, const std::function<voi
     end_ = end;
     if (end.is_out_of_time()) return end;
     record_end(end);
-    write_pieces(folder_, working, project_.crumbs);
+    write_pieces(folder_, working, project_.fragments);
     project_.stage = Stage::cut;
     save();
     return end;
@@ -229,7 +231,7 @@ PreparedProject OpenProject::prepare(const std::string& program_version, const C
     check_cell();
     const bool is_out_of_time = end_ && end_->is_out_of_time();
     if (is_out_of_time) record_end(*end_);
-    if (!end_ || is_out_of_time) write_pieces(folder_, segmentation(), project_.crumbs);
+    if (!end_ || is_out_of_time) write_pieces(folder_, segmentation(), project_.fragments);
     PreparedProject prepared{folder_, {}, {}};
     prepared.pieces = write_jobs(folder_, project_, segmentation(), *setups(), program_version, context);
     write_pictures(folder_, segmentation().pieces, context);
@@ -241,12 +243,12 @@ PreparedProject OpenProject::prepare(const std::string& program_version, const C
 
 void OpenProject::keep_pieces_written() {
     pieces_are_written_ = true;
-    write_pieces(folder_, segmentation(), project_.crumbs);
+    write_pieces(folder_, segmentation(), project_.fragments);
 }
 
 void OpenProject::save() {
     save_project(folder_, project_);
-    if (pieces_are_written_) write_pieces(folder_, segmentation(), project_.crumbs);
+    if (pieces_are_written_) write_pieces(folder_, segmentation(), project_.fragments);
 }
 
 }  // namespace qchopper

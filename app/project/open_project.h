@@ -1,6 +1,6 @@
 // The engine that makes a project advance: cut by cut with undo, redo and reset, or by the search, to pieces and jobs.
 //
-// Every decision is saved before the next is thought about, and what was priced is kept in the folder's cache.
+// Every decision is saved before the next is thought about, and what was evaluated is kept in the folder's cache.
 // Memory and project.json never differ, and killing the program at any moment leaves the decisions before or after the
 // last one. Undo gives back the exact project of before but for its history; redo returns
 // (tests/app/project/open_project_test.cpp). The scan is taken in, and cut again, only when something asks for it.
@@ -33,8 +33,8 @@ std::string early_end(const std::string& sentence);
 
 class OpenProject {
  public:
-    // The caller holds the lock of the folder. `take_in_scan` gives the scan as ScanSource says.
-    OpenProject(std::filesystem::path folder, Project project, std::function<TriangleMesh()> take_in_scan);
+    // The caller holds the lock of the folder. `import_project_scan` gives the scan as ScanSource says.
+    OpenProject(std::filesystem::path folder, Project project, std::function<TriangleMesh()> import_project_scan);
 
     // The project of a folder, whose scan is taken in with the context when it is needed. Only who holds the lock may
     // decide. Throws what load_project throws.
@@ -47,7 +47,7 @@ class OpenProject {
     const Project& project() const { return project_; }
     const TriangleMesh& scan();
     const Segmentation& segmentation();
-    PieceBook& book();
+    EvaluationCache& book();
 
     // How pieces are carved in the project's cell; nothing: it knows none. Throws InputError (config) for a cell file
     // that is wrong.
@@ -66,10 +66,10 @@ class OpenProject {
     // Nothing if no piece has that name.
     std::optional<std::size_t> piece_named(const std::string& name);
 
-    // Rankings price what is not priced yet, and neither cut nor change anything but the cache.
+    // Rankings evaluate what is not evaluated yet, and neither cut nor change anything but the cache.
     std::vector<Ranked> ranking(std::size_t piece, const Context& context);
-    // The operator's own plane, nudged once. Nothing if it misses, or leaves fewer than two pieces that are no crumbs.
-    // Its normal and offset have the number -1.
+    // The operator's own plane, nudged once. Nothing if it misses, or leaves fewer than two pieces that are no
+    // fragments. Its normal and offset have the number -1.
     std::optional<Ranked> own_plane(std::size_t piece, const Plane& plane, const Context& context);
 
     // Why not: true if it misses the piece, or runs so near to its end or to a cut that bounds it that it parts
@@ -112,10 +112,10 @@ class OpenProject {
 
     std::filesystem::path folder_;
     Project project_;
-    std::function<TriangleMesh()> take_in_scan_;
+    std::function<TriangleMesh()> import_scan_;
     std::optional<TriangleMesh> scan_;
     std::optional<Segmentation> segmentation_;
-    std::unique_ptr<PieceBook> book_;
+    std::unique_ptr<EvaluationCache> book_;
     std::optional<Setups> setups_;
     std::optional<SearchEnd> end_;  // of the last search, until something else is decided
     bool pieces_are_written_ = false;

@@ -18,15 +18,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TriangleMesh together(const std::vector<Crumb>& crumbs) {
+TriangleMesh together(const std::vector<Fragment>& fragments) {
     TriangleMesh all;
-    for (const Crumb& crumb : crumbs) {
+    for (const Fragment& fragment : fragments) {
         const auto first = static_cast<std::uint32_t>(all.points.size());
-        all.points.insert(all.points.end(), crumb.mesh->points.begin(), crumb.mesh->points.end());
-        for (std::size_t t = 0; t < crumb.mesh->triangles.size(); ++t) {
-            const Triangle& v = crumb.mesh->triangles[t];
+        all.points.insert(all.points.end(), fragment.mesh->points.begin(), fragment.mesh->points.end());
+        for (std::size_t t = 0; t < fragment.mesh->triangles.size(); ++t) {
+            const Triangle& v = fragment.mesh->triangles[t];
             all.triangles.push_back({v[0] + first, v[1] + first, v[2] + first});
-            all.cap_of.push_back(cap_of(*crumb.mesh, t));
+            all.cap_of.push_back(cap_of(*fragment.mesh, t));
         }
     }
     assert(is_consistent(all));
@@ -45,7 +45,7 @@ void remove_but(const fs::path& folder, const std::set<std::string>& keep) {
 
 }  // namespace
 
-void write_pieces(const fs::path& folder, const Segmentation& segmentation, CrumbChoice crumbs) {
+void write_pieces(const fs::path& folder, const Segmentation& segmentation, FragmentChoice fragments) {
     fs::create_directories(folder / "pieces");
     std::set<std::string> written;
     for (const Piece& piece : segmentation.pieces) {
@@ -54,9 +54,9 @@ void write_pieces(const fs::path& folder, const Segmentation& segmentation, Crum
         write_file(folder / "pieces" / name, to_ply(*piece.mesh));
         written.insert(name);
     }
-    if (!segmentation.crumbs.empty() && crumbs == CrumbChoice::keep) {
-        write_file(folder / "pieces" / "crumbs.ply", to_ply(together(segmentation.crumbs)));
-        written.insert("crumbs.ply");
+    if (!segmentation.fragments.empty() && fragments == FragmentChoice::keep) {
+        write_file(folder / "pieces" / "fragments.ply", to_ply(together(segmentation.fragments)));
+        written.insert("fragments.ply");
     }
     remove_but(folder / "pieces", written);
 }
@@ -103,7 +103,7 @@ void write_pictures(const fs::path& folder, const std::vector<Piece>& pieces, co
     write_file(folder / "pictures" / "exploded.png", render_png(coloured(pieces, shifts), {}, context));
 }
 
-void take_away_products(const fs::path& folder, Project& project) {
+void remove_outputs(const fs::path& folder, Project& project) {
     if (project.stage != Stage::cutting || !project.jobs.empty()) {
         project.jobs.clear();
         project.stage = Stage::cutting;

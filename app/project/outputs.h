@@ -15,8 +15,8 @@
 
 namespace qchopper {
 
-// Writes pieces/<name>.ply, and pieces/crumbs.ply if crumbs are kept; takes away other files there.
-void write_pieces(const std::filesystem::path& folder, const Segmentation& segmentation, CrumbChoice crumbs);
+// Writes pieces/<name>.ply, and pieces/fragments.ply if fragments are kept; takes away other files there.
+void write_pieces(const std::filesystem::path& folder, const Segmentation& segmentation, FragmentChoice fragments);
 
 // A piece as it was prepared.
 struct PieceReport {
@@ -37,6 +37,6 @@ void write_pictures(const std::filesystem::path& folder, const std::vector<Piece
 
 // If anything was made already: first saves the project as being cut, then takes away pieces, jobs and pictures. Killed
 // at any moment it leaves a project that is still right.
-void take_away_products(const std::filesystem::path& folder, Project& project);
+void remove_outputs(const std::filesystem::path& folder, Project& project);
 
 }  // namespace qchopper

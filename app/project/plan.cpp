@@ -59,12 +59,12 @@ Plan make_plan(const Project& project, const TriangleMesh& scan) {
                  s.volume_mm3,
                  {box.min + s.centre, box.max + s.centre}};
     plan.weights = project.settings.objectives.weights;
-    const double crumb_volume = project.settings.objectives.crumb_volume_mm3;
-    Segmentation segmentation = uncut(scan, crumb_volume);
+    const double fragment_volume = project.settings.objectives.fragment_volume_mm3;
+    Segmentation segmentation = uncut(scan, fragment_volume);
     add_discards(plan, segmentation, project.discards);
     for (const Cut& cut : project.cuts) {
         PlanCut p = plan_cut(cut, piece_named(segmentation, cut.piece), s.centre);
-        apply(segmentation, cut, crumb_volume);
+        apply(segmentation, cut, fragment_volume);
         for (const std::string& name : segmentation.cuts.back().pieces) {
             p.makes_mm3.push_back(volume_mm3(*piece_named(segmentation, name).mesh));
         }

@@ -16,7 +16,7 @@
 
 namespace qchopper {
 
-enum class CrumbChoice { keep, drop };  // keep: written to pieces/crumbs.ply; drop: only listed
+enum class FragmentChoice { keep, drop };  // keep: written to pieces/fragments.ply; drop: only listed
 
 // Which scan, and how its numbers became millimetres.
 struct ScanSource {
@@ -27,14 +27,14 @@ struct ScanSource {
     Vec3 centre;  // mm, subtracted from all points
     std::size_t faces = 0;
     double volume_mm3 = 0;
-    std::vector<std::string> warnings = {};  // what intake said
+    std::vector<std::string> warnings = {};  // what import said
     RepairChoices repair = {};               // how it was made a solid
     bool operator==(const ScanSource&) const = default;
 };
 
-// What the project says about a leaf or a crumb. Derived from scan and cuts; kept for whoever reads the file.
+// What the project says about a leaf or a fragment. Derived from scan and cuts; kept for whoever reads the file.
 struct SolidRecord {
-    std::string name;      // empty for a crumb
+    std::string name;      // empty for a fragment
     std::int32_t cut = 0;  // the cut that made it; 0: it was in the scan
     std::size_t faces = 0;
     double volume_mm3 = 0;
@@ -60,7 +60,7 @@ struct Project {
     ScanSource scan;
     std::string preset;       // empty: none
     SearchSettings settings;  // their weights are those that stand now
-    CrumbChoice crumbs = CrumbChoice::keep;
+    FragmentChoice fragments = FragmentChoice::keep;
     Stage stage = Stage::cutting;
     std::optional<EndReason> end_reason;  // of the search; nothing: it has not ended
     std::string ended_because;            // the same as a sentence with its figure
@@ -68,7 +68,7 @@ struct Project {
     // What follows from the above; kept for whoever reads the file.
     std::vector<Cut> cuts;  // those that stand
     std::vector<SolidRecord> pieces;
-    std::vector<SolidRecord> crumb_list;
+    std::vector<SolidRecord> fragment_list;
     std::vector<Discard> discards;       // those that stand
     std::vector<SolidRecord> discarded;  // what they took out, in their order
     std::vector<std::string> warnings;

@@ -1,12 +1,12 @@
 // The project folder NAME.qch: made whole, locked, saved after every decision.
 //
 //   NAME.qch/
-//     project.json      scan, settings, decisions with their terms and runners-up, pieces, crumbs
+//     project.json      scan, settings, decisions with their terms and runners-up, pieces, fragments
 //     cell.toml         the cell file as it was when it was named; none: the project knows no cell yet
 //     pieces/A.ply ...  the pieces (binary PLY, double, face property cap = number of the cut)
 //     jobs/A.qjob ...   one job file per piece
 //     pictures/*.png
-//     cache/            prices that are known already; may be deleted at any time
+//     cache/            evaluations that are known already; may be deleted at any time
 //     lock              held while a program writes
 //
 // project.json alone decides. Pieces, jobs and pictures are never stale: they are taken away before a decision changes

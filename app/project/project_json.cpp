@@ -12,12 +12,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* schema = "qchopper-project-2";
-constexpr const char* schema_before = "qchopper-project-1";  // no record of job files, no beam; still read
+constexpr const char* schema = "qchopper-project-3";
 
 // Names of the enumerations, as they stand in the file.
 constexpr EnumWord<Stage> stage_words[] = {{Stage::cutting, "cutting"}, {Stage::cut, "cut"}, {Stage::done, "done"}};
-constexpr EnumWord<CrumbChoice> crumb_words[] = {{CrumbChoice::keep, "keep"}, {CrumbChoice::drop, "drop"}};
+constexpr EnumWord<FragmentChoice> fragment_words[] = {{FragmentChoice::keep, "keep"}, {FragmentChoice::drop, "drop"}};
 
 std::vector<SolidRecord> solids_from(const Json& json) {
     std::vector<SolidRecord> solids;
@@ -176,15 +175,15 @@ BeamState beam_from(const Json& json, const History& history) {
 }
 
 Project from_json(const Json& json) {
-    const bool is_older = json.at("schema") == schema_before;
-    if (!is_older && json.at("schema") != schema) {
-        throw InputError(InputFault::config, "its schema is not " + std::string(schema));
+    if (json.at("schema") != schema) {
+        throw InputError(InputFault::config, "its schema is not " + std::string(schema) +
+                                                 ": it was written by another version of qchopper");
     }
     Project project;
     project.scan = scan_from(json.at("scan"));
     project.preset = json.at("preset").get<std::string>();
     project.settings = settings_from(json.at("settings"));
-    project.crumbs = value_of(crumb_words, json.at("crumb_choice"));
+    project.fragments = value_of(fragment_words, json.at("fragment_choice"));
     project.stage = value_of(stage_words, json.at("stage"));
     project.ended_because = json.at("ended_because").get<std::string>();
     project.end_reason = end_reason_of(project.ended_because);
@@ -197,9 +196,9 @@ Project from_json(const Json& json) {
     }
     if (json.contains("beam")) project.beam = beam_from(json.at("beam"), project.history);
     project.pieces = solids_from(json.at("pieces"));
-    project.crumb_list = solids_from(json.at("crumbs"));
+    project.fragment_list = solids_from(json.at("fragments"));
     project.warnings = json.at("warnings").get<std::vector<std::string>>();
-    if (!is_older) project.jobs = jobs_from(json.at("jobs"));
+    project.jobs = jobs_from(json.at("jobs"));
     return project;
 }
 
@@ -210,12 +209,12 @@ std::string to_json(const Project& project) {
               {"scan", to_json(project.scan)},
               {"preset", project.preset},
               {"settings", json_of(project.settings)},
-              {"crumb_choice", word_of(crumb_words, project.crumbs)},
+              {"fragment_choice", word_of(fragment_words, project.fragments)},
               {"stage", word_of(stage_words, project.stage)},
               {"ended_because", project.ended_because},
               {"history", to_json(project.history)},
               {"pieces", list_of(project.pieces)},
-              {"crumbs", list_of(project.crumb_list)},
+              {"fragments", list_of(project.fragment_list)},
               {"discarded", list_of(project.discarded)},
               {"warnings", project.warnings},
               {"jobs", list_of(project.jobs)}};

@@ -17,19 +17,19 @@ struct ProjectChoices {
     std::optional<double> mm_per_unit;  // of the scan; nothing: what its file says
     double scale = 1;
     RepairChoices repair = {};
-    std::string preset = {};                      // the name of the settings; empty: none
-    SearchSettings settings = {};                 // all but the volume below which solids are no pieces
-    std::optional<double> crumb_volume_mm3 = {};  // that one; nothing: a share of the scan's volume
-    CrumbChoice crumbs = CrumbChoice::keep;
+    std::string preset = {};                         // the name of the settings; empty: none
+    SearchSettings settings = {};                    // all but the volume below which solids are no pieces
+    std::optional<double> fragment_volume_mm3 = {};  // that one; nothing: a share of the scan's volume
+    FragmentChoice fragments = FragmentChoice::keep;
 };
 
-// A message says what was done to the scan. Throws what take_in throws, and InputError (use) for standard input.
-Intake take_in_scan(const ProjectChoices& choices, const Context& context);
+// A message says what was done to the scan. Throws what import_scan throws, and InputError (use) for standard input.
+ImportedScan import_project_scan(const ProjectChoices& choices, const Context& context);
 
 // The project of a scan before its first cut.
-Project new_project(const ProjectChoices& choices, const Intake& intake);
+Project new_project(const ProjectChoices& choices, const ImportedScan& imported);
 
 // Likewise; throws InputError (mesh) if the file is another scan by now.
-Intake take_in_scan(const Project& project, const Context& context);
+ImportedScan import_project_scan(const Project& project, const Context& context);
 
 }  // namespace qchopper

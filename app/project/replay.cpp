@@ -42,9 +42,10 @@ void record(Project& project, const Segmentation& segmentation) {
     for (const Piece& piece : segmentation.pieces) project.pieces.push_back(record_of(piece));
     project.discarded.clear();
     for (const Discarded& discarded : segmentation.discarded) project.discarded.push_back(record_of(discarded.piece));
-    project.crumb_list.clear();
-    for (const Crumb& crumb : segmentation.crumbs) {
-        project.crumb_list.push_back({"", crumb.cut, crumb.mesh->triangles.size(), crumb.volume_mm3, crumb.centre});
+    project.fragment_list.clear();
+    for (const Fragment& fragment : segmentation.fragments) {
+        project.fragment_list.push_back(
+            {"", fragment.cut, fragment.mesh->triangles.size(), fragment.volume_mm3, fragment.centre});
     }
     project.warnings = project.scan.warnings;
     project.warnings.insert(project.warnings.end(), segmentation.warnings.begin(), segmentation.warnings.end());
@@ -55,11 +56,11 @@ Segmentation replay(const Project& project, const TriangleMesh& scan) {
 }
 
 Segmentation replay(const Project& project, const TriangleMesh& scan, std::size_t cuts) {
-    const double crumb_volume = project.settings.objectives.crumb_volume_mm3;
-    Segmentation segmentation = uncut(scan, crumb_volume);
+    const double fragment_volume = project.settings.objectives.fragment_volume_mm3;
+    Segmentation segmentation = uncut(scan, fragment_volume);
     discard_now(segmentation, project.discards);
     for (const Cut& cut : std::span(project.cuts).first(cuts)) {
-        if (!apply(segmentation, cut, crumb_volume)) {
+        if (!apply(segmentation, cut, fragment_volume)) {
             throw InputError(InputFault::config,
                              "cut " + std::to_string(cut.number) + " of the project does not part piece " + cut.piece,
                              "prepare the scan again");

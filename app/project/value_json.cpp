@@ -76,7 +76,7 @@ Json json_of(const SearchSettings& s) {
             {"fragility_form", word_of(fragility_words, o.fragility_form)},
             {"fragility_distance_mm", o.fragility_distance},
             {"undercut_by_area", o.undercut_by_area},
-            {"crumb_volume_mm3", o.crumb_volume_mm3},
+            {"fragment_volume_mm3", o.fragment_volume_mm3},
             {"offsets_per_normal", s.candidates.offsets_per_normal},
             {"runners_up", s.runners_up},
             {"beam", s.beam},
@@ -91,7 +91,7 @@ SearchSettings settings_from(const Json& json) {
     s.objectives.fragility_form = value_of(fragility_words, json.at("fragility_form"));
     s.objectives.fragility_distance = json.at("fragility_distance_mm").get<double>();
     s.objectives.undercut_by_area = json.at("undercut_by_area").get<bool>();
-    s.objectives.crumb_volume_mm3 = json.at("crumb_volume_mm3").get<double>();
+    s.objectives.fragment_volume_mm3 = json.at("fragment_volume_mm3").get<double>();
     s.candidates.offsets_per_normal = json.at("offsets_per_normal").get<int>();
     s.runners_up = json.at("runners_up").get<std::size_t>();
     s.beam = json.at("beam").get<std::size_t>();
@@ -123,7 +123,7 @@ Json json_of(const Cut& cut) {
     Json runners_up = Json::array();
     for (const Ranked& r : cut.runners_up) runners_up.push_back(json_of(r));
     return {{"number", cut.number},         {"piece", cut.piece},   {"chosen", json_of(cut.chosen)},
-            {"candidates", cut.candidates}, {"pieces", cut.pieces}, {"crumbs", cut.crumbs},
+            {"candidates", cut.candidates}, {"pieces", cut.pieces}, {"fragments", cut.fragments},
             {"runners_up", runners_up}};
 }
 
@@ -134,7 +134,7 @@ Cut cut_from(const Json& json) {
     cut.chosen = ranked_from(json.at("chosen"));
     cut.candidates = json.at("candidates").get<std::size_t>();
     cut.pieces = json.at("pieces").get<std::vector<std::string>>();
-    cut.crumbs = json.at("crumbs").get<std::size_t>();
+    cut.fragments = json.at("fragments").get<std::size_t>();
     for (const Json& r : json.at("runners_up")) cut.runners_up.push_back(ranked_from(r));
     return cut;
 }

@@ -122,11 +122,11 @@ std::vector<std::string> warnings(const Explanation& e) {
 std::string document(const Explanation& e, const Project& project, const std::string& picture) {
     Json best = Json::array();
     for (std::size_t i = 0; i < std::min(e.ranked.size(), shown); ++i) best.push_back(to_json(e.ranked[i]));
-    const Json json{{"schema", "qchopper-explain-1"},
+    const Json json{{"schema", "qchopper-explain-2"},
                     {"cut", e.cut.number},
                     {"piece", e.cut.piece},
                     {"pieces", e.cut.pieces},
-                    {"crumbs", e.cut.crumbs},
+                    {"fragments", e.cut.fragments},
                     {"discarded", discarded_json(project)},
                     {"weights", json_of(e.objectives.weights)},
                     {"chosen", to_json(e.chosen)},

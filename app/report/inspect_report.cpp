@@ -20,10 +20,10 @@ const char* word_of(Verdict verdict) {
             return "ready";
         case Verdict::to_repair:
             return "to repair";
-        case Verdict::hopeless:
+        case Verdict::unrepairable:
             break;
     }
-    return "hopeless";
+    return "unrepairable";
 }
 
 // "(1.2, 0.5, -3)"
@@ -53,9 +53,9 @@ void add_faults(std::vector<std::string>& text, const Inspection& i) {
     const std::pair<const char*, std::size_t> faults[] = {
         {"edges of more than two faces", i.non_manifold},
         {"edges with faces turned against each other", i.inconsistent},
-        {"points where surfaces only touch", i.pinched},
+        {"points where surfaces only touch", i.non_manifold_vertices},
         {"faces collapsed to a line or point", i.collapsed},
-        {"faces without area", i.no_area},
+        {"faces without area", i.degenerate},
         {"faces that lie on another one", i.repeated},
         {"open sheets, with more missing than there is", i.sheets},
         {"points in no face", i.unreferenced}};
@@ -107,9 +107,9 @@ std::vector<std::string> lines(const InspectedFile& file) {
     text.push_back("size         " + size_line(file));
     text.push_back("shells       " + with_commas(i.shells) + " (" + with_commas(i.cavities) + " cavities, " +
                    with_commas(i.inside_out) + " inside out)");
-    if (i.crumbs > 0) {
-        text.push_back("crumbs       " + with_commas(i.crumbs) + " too small to be pieces, with " +
-                       percent(i.crumb_area_share) + " of the surface");
+    if (i.fragments > 0) {
+        text.push_back("fragments    " + with_commas(i.fragments) + " too small to be pieces, with " +
+                       percent(i.fragment_area_share) + " of the surface");
     }
     add_holes(text, i, unit);
     text.push_back("volume       " + volume_line(file) + (i.is_closed() ? "" : " (not closed)"));
@@ -130,7 +130,7 @@ std::string document(const InspectedFile& file) {
     for (const BorderLoop& hole : i.holes) holes.push_back(hole_document(hole));
     const BorderLoop* const longest = i.longest_hole();
     const Judgement judgement = judge(i);
-    const Json json{{"schema", "qchopper-inspect-2"},
+    const Json json{{"schema", "qchopper-inspect-3"},
                     {"file", file.name},
                     {"format", name_of(i.format)},
                     {"warnings", i.warnings},
@@ -151,7 +151,7 @@ std::string document(const InspectedFile& file) {
                     {"shells", i.shells},
                     {"cavities", i.cavities},
                     {"inside_out", i.inside_out},
-                    {"crumbs", {{"count", i.crumbs}, {"area_share", i.crumb_area_share}}},
+                    {"fragments", {{"count", i.fragments}, {"area_share", i.fragment_area_share}}},
                     {"sheets", {{"count", i.sheets}, {"area_share", i.sheet_area_share}}},
                     {"open_edges", i.open_edges},
                     {"holes", holes},
@@ -159,10 +159,10 @@ std::string document(const InspectedFile& file) {
                     {"non_manifold_edges", i.non_manifold},
                     {"touching_edges", i.touching},
                     {"inconsistent_edges", i.inconsistent},
-                    {"pinched_vertices", i.pinched},
+                    {"non_manifold_vertices", i.non_manifold_vertices},
                     {"repeated_faces", i.repeated},
                     {"collapsed_faces", i.collapsed},
-                    {"faces_without_area", i.no_area},
+                    {"faces_without_area", i.degenerate},
                     {"faces_without_corners", i.faces_without_area},
                     {"unreferenced_vertices", i.unreferenced},
                     {"self_intersections", self_intersections_document(i.self_intersected)},

@@ -25,7 +25,7 @@ Json cut_json(const Cut& cut) {
             {"offset_mm", cut.chosen.plane.offset},
             {"terms", json_of(cut.chosen.terms)},
             {"pieces", cut.pieces},
-            {"crumbs", cut.crumbs}};
+            {"fragments", cut.fragments}};
 }
 
 Json piece_json(const PieceReport& piece, const Cell& cell) {
@@ -66,13 +66,13 @@ std::vector<std::string> table(const PreparedProject& prepared, const Cell& cell
                         fixed(s.undercut, 3), p.job.empty() ? "no" : "yes"});
     }
     std::vector<std::string> lines = columns(rows);
-    const std::size_t crumbs = prepared.project.crumb_list.size();
-    if (crumbs > 0) {
+    const std::size_t fragments = prepared.project.fragment_list.size();
+    if (fragments > 0) {
         double volume = 0;
-        for (const SolidRecord& c : prepared.project.crumb_list) volume += c.volume_mm3;
+        for (const SolidRecord& c : prepared.project.fragment_list) volume += c.volume_mm3;
         lines.push_back(
-            counted(crumbs, "crumb") + " (" + volume_in_words(volume) + " in all), listed in project.json" +
-            (prepared.project.crumbs == CrumbChoice::keep ? " and kept in pieces/crumbs.ply" : ", dropped"));
+            counted(fragments, "fragment") + " (" + volume_in_words(volume) + " in all), listed in project.json" +
+            (prepared.project.fragments == FragmentChoice::keep ? " and kept in pieces/fragments.ply" : ", dropped"));
     }
     for (const std::string& line : discarded_lines(prepared.project)) lines.push_back(line);
     const auto jobs = std::count_if(prepared.pieces.begin(), prepared.pieces.end(),
@@ -92,9 +92,9 @@ std::string document(const PreparedProject& prepared, const Cell& cell) {
     for (const Cut& cut : p.cuts) cuts.push_back(cut_json(cut));
     Json pieces = Json::array();
     for (const PieceReport& piece : prepared.pieces) pieces.push_back(piece_json(piece, cell));
-    Json crumbs = Json::array();
-    for (const SolidRecord& c : p.crumb_list) crumbs.push_back(json_of(c));
-    const Json json{{"schema", "qchopper-prepare-1"},
+    Json fragments = Json::array();
+    for (const SolidRecord& c : p.fragment_list) fragments.push_back(json_of(c));
+    const Json json{{"schema", "qchopper-prepare-2"},
                     {"project", prepared.folder.string()},
                     {"scan",
                      {{"path", p.scan.path.string()},
@@ -108,7 +108,7 @@ std::string document(const PreparedProject& prepared, const Cell& cell) {
                     {"all_fit", prepared.all_fit()},
                     {"cuts", cuts},
                     {"pieces", pieces},
-                    {"crumbs", crumbs},
+                    {"fragments", fragments},
                     {"discarded", discarded_json(p)},
                     {"warnings", p.warnings}};
     return text_of(json);

@@ -55,7 +55,7 @@ Json counts(const RepairReport& r) {
     return {{"points_welded", r.welded},
             {"faces_collapsed", r.collapsed},
             {"points_unused", r.unreferenced},
-            {"border_points_welded", r.border_welded},
+            {"border_points_welded", r.borders_snapped},
             {"border_moved_mm", r.border_moved_mm},
             {"faces_repeated", r.repeated},
             {"faces_of_double_sheets", r.of_double_sheets},
@@ -64,23 +64,23 @@ Json counts(const RepairReport& r) {
             {"points_copied", r.points_copied},
             {"faces_turned", r.faces_turned},
             {"edges_stitched", r.stitched},
-            {"no_area_removed", r.no_area_removed},
-            {"no_area_left", r.no_area_left},
+            {"degenerate_removed", r.degenerate_removed},
+            {"degenerate_left", r.degenerate_left},
             {"holes_filled", r.holes_filled},
             {"holes_faired", r.holes_faired},
             {"faces_added", r.faces_added},
             {"points_added", r.points_added},
             {"added_area_share", r.added_area_share},
-            {"loose_sheets", r.loose_sheets},
-            {"loose_sheet_faces", r.loose_sheet_faces},
+            {"open_components", r.open_components},
+            {"open_component_faces", r.open_component_faces},
             {"shells", r.shells},
             {"cavities", r.cavities},
             {"shells_turned", r.shells_turned},
             {"shells_overlapping", r.overlapping},
-            {"crumbs", r.crumbs},
-            {"crumb_faces", r.crumb_faces},
-            {"crumb_area_share", r.crumb_area_share},
-            {"crumbs_dropped", r.crumbs_dropped}};
+            {"fragments", r.fragments},
+            {"fragment_faces", r.fragment_faces},
+            {"fragment_area_share", r.fragment_area_share},
+            {"fragments_dropped", r.fragments_dropped}};
 }
 
 Json resolved(const RepairReport& r) {
@@ -126,7 +126,7 @@ std::vector<std::string> lines(const RepairedScan& scan, const RepairedFile& fil
 std::string document(const RepairedScan& scan, const RepairedFile& file) {
     const RepairReport& r = scan.report;
     Json json{
-        {"schema", "qchopper-repair-1"},
+        {"schema", "qchopper-repair-2"},
         {"file", file.scan.string()},
         {"out", file.out.string()},
         {"format", name_of(scan.format)},

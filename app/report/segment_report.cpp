@@ -22,8 +22,8 @@ std::string weights_in_words(const Weights& w) {
            fixed(w.piece_count, 3) + ", undercut " + fixed(w.undercut, 3);
 }
 
-bool is_crumb(const SolidPrice& solid, const Project& project) {
-    return solid.volume_mm3 < project.settings.objectives.crumb_volume_mm3;
+bool is_fragment(const SolidEvaluation& solid, const Project& project) {
+    return solid.volume_mm3 < project.settings.objectives.fragment_volume_mm3;
 }
 
 // Of planes in which the piece runs through itself; the cut says it too (cut_piece.cpp).
@@ -79,9 +79,9 @@ std::vector<std::string> preview_lines(const Preview& p, const Project& project)
                    " mm long, within " + in_words(p.outline.box.min, 1) + " to " + in_words(p.outline.box.max, 1) +
                    " mm");
     std::vector<std::vector<std::string>> rows{{"would make", "side", "faces", "volume"}};
-    for (const SolidPrice& s : p.solids) {
-        rows.push_back({is_crumb(s, project) ? "crumb" : "piece", s.above ? "above" : "below", with_commas(s.faces),
-                        volume_in_words(s.volume_mm3)});
+    for (const SolidEvaluation& s : p.solids) {
+        rows.push_back({is_fragment(s, project) ? "fragment" : "piece", s.above ? "above" : "below",
+                        with_commas(s.faces), volume_in_words(s.volume_mm3)});
     }
     add(text, columns(rows));
     if (p.sections_cross) text.push_back(sections_cross("this plane"));
@@ -97,7 +97,7 @@ std::vector<std::string> standing_lines(const Project& project) {
     }
     std::vector<std::string> text = columns(rows);
     text.push_back(counted(project.pieces.size(), "piece") + " by " + counted(project.cuts.size(), "cut") + ", " +
-                   counted(project.crumb_list.size(), "crumb") +
+                   counted(project.fragment_list.size(), "fragment") +
                    ". Weights: " + weights_in_words(project.settings.objectives.weights) + ".");
     add(text, discarded_lines(project));
     for (const auto& [option, what] : {std::pair{"--undo", undo_in_words(project)}, {"--redo", redo_in_words(project)}})
@@ -138,11 +138,11 @@ Json preview_json(const Preview& p, const Project& project) {
         loops.push_back(points);
     }
     Json solids = Json::array();
-    for (const SolidPrice& s : p.solids) {
+    for (const SolidEvaluation& s : p.solids) {
         solids.push_back({{"side", s.above ? "above" : "below"},
                           {"faces", s.faces},
                           {"volume_mm3", s.volume_mm3},
-                          {"crumb", is_crumb(s, project)}});
+                          {"fragment", is_fragment(s, project)}});
     }
     return {{"piece", p.piece},
             {"plane", plane_json(p.plane, project)},
@@ -160,7 +160,7 @@ Json cuts_json(const Project& project) {
         Json json{{"number", cut.number}, {"piece", cut.piece}};
         json.update(plane_json(cut.chosen, project));
         json["pieces"] = cut.pieces;
-        json["crumbs"] = cut.crumbs;
+        json["fragments"] = cut.fragments;
         cuts.push_back(json);
     }
     return cuts;
@@ -221,7 +221,7 @@ std::string document(const SegmentAnswer& answer, const std::filesystem::path& f
     for (const SolidRecord& p : project.pieces) {
         pieces.push_back({{"name", p.name}, {"cut", p.cut}, {"faces", p.faces}, {"volume_mm3", p.volume_mm3}});
     }
-    Json json{{"schema", "qchopper-segment-1"},
+    Json json{{"schema", "qchopper-segment-2"},
               {"project", folder.string()},
               {"done", text_or_null(answer.done)},
               {"demand_met", answer.is_demand_met},
@@ -232,7 +232,7 @@ std::string document(const SegmentAnswer& answer, const std::filesystem::path& f
               {"weights", json_of(project.settings.objectives.weights)},
               {"cuts", cuts_json(project)},
               {"pieces", pieces},
-              {"crumbs", project.crumb_list.size()},
+              {"fragments", project.fragment_list.size()},
               {"discarded", discarded_json(project)},
               {"warnings", project.warnings}};
     if (answer.pieces_written) json["pieces_written"] = (folder / "pieces").string();

@@ -160,7 +160,7 @@ class Parter {
             }
         }
         if (!own) return std::nullopt;
-        if (!in_material && !in_void) {  // only edges along its own: pinched is what is not there a little farther
+        if (!in_material && !in_void) {  // only edges along its own: non-manifold is what is not there a little farther
             const bool has_material = is_material(along(c.at, own->into_material(), probe_share * size_));
             (has_material ? in_void : in_material) = true;
         }

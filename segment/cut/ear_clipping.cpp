@@ -167,8 +167,8 @@ class EarCutter {
 
 }  // namespace
 
-std::vector<std::array<std::uint32_t, 3>> cut_ears(std::span<const Point2> points, const Loop& outer,
-                                                   std::span<const Loop> holes) {
+std::vector<std::array<std::uint32_t, 3>> clip_ears(std::span<const Point2> points, const Loop& outer,
+                                                    std::span<const Loop> holes) {
     Loop ring = outer;
     // From right to left: the rightmost point of a hole then sees the ring, not a hole that is not yet joined.
     std::vector<const Loop*> order;

@@ -13,7 +13,7 @@
 
 namespace qchopper {
 
-std::vector<std::array<std::uint32_t, 3>> cut_ears(std::span<const Point2> points, const Loop& outer,
-                                                   std::span<const Loop> holes);
+std::vector<std::array<std::uint32_t, 3>> clip_ears(std::span<const Point2> points, const Loop& outer,
+                                                    std::span<const Loop> holes);
 
 }  // namespace qchopper

@@ -1,4 +1,4 @@
-// The solids that the two halves of a cut fall into: one answer for the cut and for the price by cutting.
+// The solids that the two halves of a cut fall into: one answer for the cut and for the evaluation by cutting.
 //
 // A cavity that the plane does not touch belongs to the solid that it belonged to before the cut, as in the sweep: so
 // what the sweep predicts is what the cut makes, also of solids that touch (tests/segment/score/touching_test.cpp).

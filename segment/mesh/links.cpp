@@ -95,7 +95,7 @@ class Closely {
         }
         std::sort(neighbours_.begin(), neighbours_.end());
         DisjointSets fans(count);
-        bool is_faulty = false;
+        bool is_non_manifold = false;
         for (auto group = neighbours_.begin(); group != neighbours_.end();) {
             auto end = group;
             while (end != neighbours_.end() && end->point == group->point) ++end;
@@ -103,15 +103,15 @@ class Closely {
             if (size == 2 && group->is_next != (group + 1)->is_next) {
                 fans.unite(group->place, (group + 1)->place);
             } else {
-                is_faulty |= size > 1;
+                is_non_manifold |= size > 1;
                 if (point < group->point) tell(size, corner[group->place] / 3);
                 for (auto it = group; it != end; ++it) {
-                    if (it->is_next) (size == 1 ? links_.open : links_.faulty).push_back(corner[it->place]);
+                    if (it->is_next) (size == 1 ? links_.open : links_.non_manifold).push_back(corner[it->place]);
                 }
             }
             group = end;
         }
-        if (!is_faulty) tell_fans(fans, corner, count);
+        if (!is_non_manifold) tell_fans(fans, corner, count);
     }
 
     // Equal triangles have all their corners at points whose triangles are no ring of three or more.
@@ -169,7 +169,7 @@ Links links(const TriangleMesh& mesh) {
         if (count > 0 && !is_one_ring(mesh, &corners.corner[begin], count)) closely.look_at(point);
     }
     std::sort(result.open.begin(), result.open.end());
-    std::sort(result.faulty.begin(), result.faulty.end());
+    std::sort(result.non_manifold.begin(), result.non_manifold.end());
     result.repeated = closely.count_repeated();
     return result;
 }

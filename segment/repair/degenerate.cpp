@@ -34,12 +34,12 @@ class Removal {
     Removal(TriangleMesh& mesh, SourceFaces* sources)
         : mesh_(mesh), sources_(sources), twin_(edges(mesh).twin), is_kept_(mesh.triangles.size(), true) {}
 
-    NoArea run(std::vector<std::uint32_t> flat) {
+    Degenerate run(std::vector<std::uint32_t> flat) {
         for (int round = 0; round < most_rounds && !flat.empty(); ++round) {
             std::vector<std::uint32_t> again;
             bool is_any = false;
             for (const std::uint32_t t : flat) {
-                if (!is_kept_[t] || !has_no_area(mesh_, t)) continue;
+                if (!is_kept_[t] || !is_degenerate(mesh_, t)) continue;
                 const std::uint32_t longest = longest_edge(t);
                 const std::uint32_t other = twin_[longest];
                 if (other == no_twin) {
@@ -49,7 +49,7 @@ class Removal {
                     continue;
                 } else {
                     for (const std::uint32_t changed : {t, other / 3}) {
-                        if (has_no_area(mesh_, changed)) again.push_back(changed);
+                        if (is_degenerate(mesh_, changed)) again.push_back(changed);
                     }
                 }
                 is_any = true;
@@ -118,7 +118,7 @@ class Removal {
         const auto is_flat = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
             return is_on_a_line(mesh_.points[i], mesh_.points[j], mesh_.points[k]);
         };
-        const int before = 1 + static_cast<int>(has_no_area(mesh_, g / 3));
+        const int before = 1 + static_cast<int>(is_degenerate(mesh_, g / 3));
         const int after = static_cast<int>(is_flat(a, b, d)) + static_cast<int>(is_flat(b, c, d));
         const auto length = [&](std::uint32_t i, std::uint32_t j) { return norm(mesh_.points[i] - mesh_.points[j]); };
         // Two of them in a row change places as long as their edges become shorter, so that there is an end to it.
@@ -146,21 +146,21 @@ class Removal {
     SourceFaces* sources_;
     std::vector<std::uint32_t> twin_;
     std::vector<bool> is_kept_;
-    NoArea counts_;
+    Degenerate counts_;
 };
 
 }  // namespace
 
-bool has_no_area(const TriangleMesh& mesh, std::size_t triangle) {
+bool is_degenerate(const TriangleMesh& mesh, std::size_t triangle) {
     const Triangle& t = mesh.triangles[triangle];
     return is_on_a_line(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
 }
 
-NoArea remove_no_area(TriangleMesh& mesh, SourceFaces* sources) {
+Degenerate remove_degenerate(TriangleMesh& mesh, SourceFaces* sources) {
     assert(mesh.cap_of.empty());
     std::vector<std::uint32_t> flat;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (has_no_area(mesh, t)) flat.push_back(t);
+        if (is_degenerate(mesh, t)) flat.push_back(t);
     }
     if (flat.empty()) return {};
     return Removal(mesh, sources).run(std::move(flat));

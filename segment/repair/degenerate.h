@@ -13,15 +13,15 @@
 namespace qchopper {
 
 // Whether the height of the triangle is nothing but rounding: below 1e-15 of its longest edge.
-bool has_no_area(const TriangleMesh& mesh, std::size_t triangle);
+bool is_degenerate(const TriangleMesh& mesh, std::size_t triangle);
 
-struct NoArea {
+struct Degenerate {
     std::size_t flipped = 0;  // gone, and the neighbour at the longest edge split
     std::size_t dropped = 0;  // gone at an open border
     std::size_t left = 0;     // the surface around them allows neither
 };
 
 // The mesh must be manifold apart from its borders (sheets.h) and have no caps. Triangles that changed are new.
-NoArea remove_no_area(TriangleMesh& mesh, SourceFaces* sources = nullptr);
+Degenerate remove_degenerate(TriangleMesh& mesh, SourceFaces* sources = nullptr);
 
 }  // namespace qchopper

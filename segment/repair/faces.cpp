@@ -48,7 +48,7 @@ std::vector<Corners> sorted_by_corners(const TriangleMesh& mesh) {
     return all;
 }
 
-// Without faulty edges two faces can only be one on the other when they are each other's neighbours three times.
+// Without non-manifold edges two faces can only be one on the other when they are each other's neighbours three times.
 bool may_repeat(const TriangleMesh& mesh, const Edges& found) {
     if (found.faults.non_manifold + found.faults.inconsistent > 0) return true;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

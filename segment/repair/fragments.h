@@ -1,6 +1,6 @@
 // Finds the solids of a scan that are too small to become pieces: dust that the scanner saw.
 //
-// A crumb goes whole, with the cavities in it (tests/segment/repair/fragments_test.cpp).
+// A fragment goes whole, with the cavities in it (tests/segment/repair/fragments_test.cpp).
 
 #pragma once
 
@@ -11,18 +11,18 @@
 
 namespace qchopper {
 
-constexpr double crumb_share = 1e-5;  // of the volume: a solid with less is too small to be a piece
+constexpr double fragment_share = 1e-5;  // of the volume: a solid with less is too small to be a piece
 
-struct CrumbCounts {
-    std::size_t crumbs = 0;
+struct FragmentCounts {
+    std::size_t fragments = 0;
     std::size_t faces = 0;
     double area_share = 0;  // of the surface of the mesh
 };
 
 // Solids with less volume than this share of the whole. The mesh must be closed and face outwards.
-CrumbCounts count_crumbs(const TriangleMesh& mesh, double volume_share);
+FragmentCounts count_fragments(const TriangleMesh& mesh, double volume_share);
 
-// The same counts, and the crumbs are gone.
-CrumbCounts drop_crumbs(TriangleMesh& mesh, double volume_share, SourceFaces* sources = nullptr);
+// The same counts, and the fragments are gone.
+FragmentCounts drop_fragments(TriangleMesh& mesh, double volume_share, SourceFaces* sources = nullptr);
 
 }  // namespace qchopper

@@ -12,8 +12,8 @@
 
 namespace qchopper {
 
-constexpr double most_fill_of_surface = 0.8;  // of a shell's area: beyond this it is a sheet, not a solid
-constexpr double loose_sheet_share = 0.01;    // of the scanned surface: so much may go as loose sheets
+constexpr double most_fill_of_surface = 0.8;   // of a shell's area: beyond this it is a sheet, not a solid
+constexpr double open_component_share = 0.01;  // of the scanned surface: so much may go as open components
 
 struct Sheets {
     std::size_t dropped = 0;        // small ones beside a solid: taken away with what closed them

@@ -86,7 +86,7 @@ bool is_much_left(const Shells& found, const std::vector<bool>& is_turned) {
     return sum > least_left * all;
 }
 
-Outwards turned(TriangleMesh& mesh, bool turn, bool by_groups) {
+Outward turned(TriangleMesh& mesh, bool turn, bool by_groups) {
     const Shells found = shells(mesh);
     const IndexLists around = shells_around(mesh, found);
     std::vector<bool> is_turned(found.count());
@@ -97,7 +97,7 @@ Outwards turned(TriangleMesh& mesh, bool turn, bool by_groups) {
             is_turned = inside_out(found, each_by_itself(found), around);
         }
     }
-    Outwards result;
+    Outward result;
     result.shells = found.count();
     for (std::size_t s = 0; s < found.count(); ++s) {
         const bool is_outer = !(found.volume[s] < 0);
@@ -116,11 +116,11 @@ Outwards turned(TriangleMesh& mesh, bool turn, bool by_groups) {
 
 }  // namespace
 
-Outwards turn_outwards(TriangleMesh& mesh, bool turn) {
+Outward orient_outward(TriangleMesh& mesh, bool turn) {
     return turned(mesh, turn, false);
 }
 
-Outwards turn_touching_outwards(TriangleMesh& mesh, bool turn) {
+Outward orient_touching_outward(TriangleMesh& mesh, bool turn) {
     return turned(mesh, turn, true);
 }
 

@@ -11,7 +11,7 @@
 
 namespace qchopper {
 
-struct Outwards {
+struct Outward {
     std::size_t shells = 0;
     std::size_t cavities = 0;     // that face inwards, after
     std::size_t turned = 0;       // shells that were inside out
@@ -20,11 +20,11 @@ struct Outwards {
 };
 
 // For a closed mesh; only counts when `turn` is false.
-Outwards turn_outwards(TriangleMesh& mesh, bool turn = true);
+Outward orient_outward(TriangleMesh& mesh, bool turn = true);
 
 // The same for a mesh whose faces were taken as they are: shells that share a place (points with the same coordinates)
 // turn together or not at all, by their volume in sum, so a fold that hangs on a solid stays as it is. Where nothing
 // would be left of the volume every shell turns by itself.
-Outwards turn_touching_outwards(TriangleMesh& mesh, bool turn = true);
+Outward orient_touching_outward(TriangleMesh& mesh, bool turn = true);
 
 }  // namespace qchopper

@@ -269,7 +269,7 @@ SheetCounts separate_sheets(TriangleMesh& mesh, const SheetOptions& options) {
     const Edges found = edges(mesh);
     if (found.faults.non_manifold + found.faults.inconsistent == 0) {
         SheetCounts counts;
-        counts.copies = split_pinched(mesh, found);
+        counts.copies = split_non_manifold_vertices(mesh, found);
         return counts;
     }
     return Separation(mesh, options).run();

@@ -88,8 +88,8 @@ class Clusters {
 
 }  // namespace
 
-BorderWeld weld_borders(TriangleMesh& mesh, double tolerance, SourceFaces* sources) {
-    BorderWeld result;
+SnapBorders weld_borders(TriangleMesh& mesh, double tolerance, SourceFaces* sources) {
+    SnapBorders result;
     if (!(tolerance > 0) || edges(mesh).faults.open == 0) return result;
     std::vector<Vec3> moved = mesh.points;
     for (const std::vector<std::uint32_t>& cluster : Clusters(mesh, tolerance).members) {

@@ -12,12 +12,12 @@
 
 namespace qchopper {
 
-struct BorderWeld {
+struct SnapBorders {
     std::size_t welded = 0;  // points that became one with an earlier point
     double farthest = 0;     // that one of them moved
 };
 
 // Equal points must have been welded. The tolerance is in units of the mesh.
-BorderWeld weld_borders(TriangleMesh& mesh, double tolerance, SourceFaces* sources = nullptr);
+SnapBorders weld_borders(TriangleMesh& mesh, double tolerance, SourceFaces* sources = nullptr);
 
 }  // namespace qchopper

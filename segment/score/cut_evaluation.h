@@ -1,6 +1,6 @@
 // What a cut would make: the ingredients from which all objectives follow without cutting again.
 //
-// A change of weights, thresholds or of the other pieces needs no new price.
+// A change of weights, thresholds or of the other pieces needs no new evaluation.
 
 #pragma once
 
@@ -20,15 +20,15 @@ struct BaseShare {
     double all_count = 0;
 };
 
-struct SolidPrice {
+struct SolidEvaluation {
     std::size_t faces = 0;
     double volume_mm3 = 0;
     bool above = false;
     std::vector<BaseShare> bases;  // only cuts whose cap the solid still owns, ascending
 };
 
-struct Price {
-    std::vector<SolidPrice> solids;  // those above first
+struct CutEvaluation {
+    std::vector<SolidEvaluation> solids;  // those above first
     double cap_area_mm2 = 0;
     double fragility = 0;  // in the form that was asked for
 };

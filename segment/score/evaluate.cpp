@@ -28,9 +28,9 @@ std::vector<Group> groups_of(std::span<const Candidate> candidates) {
 
 }  // namespace
 
-std::vector<std::optional<Price>> price_all(const Piece& piece, std::span<const Candidate> candidates,
-                                            const Objectives& objectives, const Context& context) {
-    std::vector<std::optional<Price>> prices(candidates.size());
+std::vector<std::optional<CutEvaluation>> evaluate_all(const Piece& piece, std::span<const Candidate> candidates,
+                                                       const Objectives& objectives, const Context& context) {
+    std::vector<std::optional<CutEvaluation>> evaluations(candidates.size());
     context.check_cancelled();
     const PreparedPiece prepared = prepare(piece, objectives);
     std::mutex reporting;
@@ -43,11 +43,11 @@ std::vector<std::optional<Price>> price_all(const Piece& piece, std::span<const 
         for (std::size_t i = first; i < last; ++i) offsets.push_back(candidates[i].plane.offset);
         auto swept = sweep(prepared, candidates[first].plane.normal, offsets, objectives);
         assert(swept.size() == last - first);
-        std::move(swept.begin(), swept.end(), prices.begin() + static_cast<std::ptrdiff_t>(first));
+        std::move(swept.begin(), swept.end(), evaluations.begin() + static_cast<std::ptrdiff_t>(first));
         const std::lock_guard lock(reporting);
-        context.progress("planes priced", done += last - first, candidates.size());
+        context.progress("planes evaluated", done += last - first, candidates.size());
     });
-    return prices;
+    return evaluations;
 }
 
 }  // namespace qchopper

@@ -1,4 +1,4 @@
-// Prices many candidates at once, on all cores; the result does not depend on their number.
+// Evaluations many candidates at once, on all cores; the result does not depend on their number.
 
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace qchopper {
 
-// One price per candidate, in their order.
-std::vector<std::optional<Price>> price_all(const Piece& piece, std::span<const Candidate> candidates,
-                                            const Objectives& objectives, const Context& context);
+// One evaluation per candidate, in their order.
+std::vector<std::optional<CutEvaluation>> evaluate_all(const Piece& piece, std::span<const Candidate> candidates,
+                                                       const Objectives& objectives, const Context& context);
 
 }  // namespace qchopper

@@ -32,11 +32,11 @@ std::vector<Vec3> triangle_normals(const TriangleMesh& mesh, const std::vector<B
 }
 
 // Adds up the solids of one mesh, given as a solid number per triangle.
-std::vector<SolidPrice> measure_solids(const TriangleMesh& mesh, const std::vector<Vec3>& normals,
-                                       const std::vector<std::uint32_t>& solid_of, std::size_t count,
-                                       const std::vector<Bound>& bounds) {
+std::vector<SolidEvaluation> measure_solids(const TriangleMesh& mesh, const std::vector<Vec3>& normals,
+                                            const std::vector<std::uint32_t>& solid_of, std::size_t count,
+                                            const std::vector<Bound>& bounds) {
     assert(normals.size() == mesh.triangles.size() && solid_of.size() == mesh.triangles.size());
-    std::vector<SolidPrice> solids(count);
+    std::vector<SolidEvaluation> solids(count);
     std::vector<std::map<std::int32_t, BaseShare>> bases(count);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {  // which caps does each solid still own?
         const std::int32_t cap = cap_of(mesh, t);
@@ -44,7 +44,7 @@ std::vector<SolidPrice> measure_solids(const TriangleMesh& mesh, const std::vect
     }
     const Vec3 origin = mesh.points.empty() ? Vec3{} : mesh.points.front();
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        SolidPrice& solid = solids[solid_of[t]];
+        SolidEvaluation& solid = solids[solid_of[t]];
         const Triangle& v = mesh.triangles[t];
         ++solid.faces;
         solid.volume_mm3 +=
@@ -70,37 +70,39 @@ std::vector<SolidPrice> measure_solids(const TriangleMesh& mesh, const std::vect
     return solids;
 }
 
-std::vector<SolidPrice> measure_half(const Half& half, const HalfSolids& solids, const Piece& piece,
-                                     const Bound& bound) {
+std::vector<SolidEvaluation> measure_half(const Half& half, const HalfSolids& solids, const Piece& piece,
+                                          const Bound& bound) {
     std::vector<Bound> bounds = piece.bounds;
     bounds.push_back(bound);
     const std::vector<std::uint32_t> solid_of = solid_of_triangle(solids.shells, solids.solids);
     const std::vector<Vec3> normals = triangle_normals(half.mesh, bounds, &half.parent, piece.mesh.get());
-    std::vector<SolidPrice> prices = measure_solids(half.mesh, normals, solid_of, solids.solids.count, bounds);
-    for (SolidPrice& price : prices) price.above = bound.above;
-    return prices;
+    std::vector<SolidEvaluation> evaluations =
+        measure_solids(half.mesh, normals, solid_of, solids.solids.count, bounds);
+    for (SolidEvaluation& evaluation : evaluations) evaluation.above = bound.above;
+    return evaluations;
 }
 
 }  // namespace
 
-std::optional<Price> price_by_cutting(const Piece& piece, const Plane& plane, const Objectives& objectives) {
+std::optional<CutEvaluation> evaluate_by_cutting(const Piece& piece, const Plane& plane, const Objectives& objectives) {
     const std::optional<CutHalves> halves = cut(*piece.mesh, plane, new_cut);
     if (!halves) return std::nullopt;
-    Price price;
-    price.cap_area_mm2 = halves->cap_area_mm2;
+    CutEvaluation evaluation;
+    evaluation.cap_area_mm2 = halves->cap_area_mm2;
     const SolidsOfHalves solids = solids_of_halves(*piece.mesh, plane, *halves);
-    price.solids = measure_half(halves->above, solids.above, piece, {new_cut, plane, true});
-    const std::vector<SolidPrice> below = measure_half(halves->below, solids.below, piece, {new_cut, plane, false});
-    price.solids.insert(price.solids.end(), below.begin(), below.end());
-    if (price.cap_area_mm2 > 0) {
-        price.fragility = objectives.fragility_form == FragilityForm::thinness
-                              ? thinness(piece, plane, price.cap_area_mm2, objectives.fragility_distance)
-                              : thesis_fragility(piece, plane, objectives.fragility_distance);
+    evaluation.solids = measure_half(halves->above, solids.above, piece, {new_cut, plane, true});
+    const std::vector<SolidEvaluation> below =
+        measure_half(halves->below, solids.below, piece, {new_cut, plane, false});
+    evaluation.solids.insert(evaluation.solids.end(), below.begin(), below.end());
+    if (evaluation.cap_area_mm2 > 0) {
+        evaluation.fragility = objectives.fragility_form == FragilityForm::thinness
+                                   ? thinness(piece, plane, evaluation.cap_area_mm2, objectives.fragility_distance)
+                                   : thesis_fragility(piece, plane, objectives.fragility_distance);
     }
-    return price;
+    return evaluation;
 }
 
-SolidPrice measure(const Piece& piece) {
+SolidEvaluation measure(const Piece& piece) {
     const std::vector<Vec3> normals = triangle_normals(*piece.mesh, piece.bounds, nullptr, nullptr);
     const std::vector<std::uint32_t> solid_of(piece.mesh->triangles.size(), 0);
     return measure_solids(*piece.mesh, normals, solid_of, 1, piece.bounds).front();

@@ -47,13 +47,14 @@ class Side {
         }
     }
 
-    // Adds this side's solids to the prices of all planes that have loops.
-    void run(std::vector<std::optional<Price>>& prices, const std::vector<std::vector<SectionRegion>>& regions) {
+    // Adds this side's solids to the evaluations of all planes that have loops.
+    void run(std::vector<std::optional<CutEvaluation>>& evaluations,
+             const std::vector<std::vector<SectionRegion>>& regions) {
         for (std::size_t step = 0; step < planes_; ++step) {
             const std::size_t slab = above_ ? planes_ - step : step;
             const std::size_t plane = above_ ? slab - 1 : slab;
-            take_in(slab);
-            if (prices[plane]) read_parts(plane, regions[plane], *prices[plane]);
+            import_scan(slab);
+            if (evaluations[plane]) read_parts(plane, regions[plane], *evaluations[plane]);
         }
     }
 
@@ -67,7 +68,7 @@ class Side {
         edges.push_back({a, b});
     }
 
-    void take_in(std::size_t slab) {
+    void import_scan(std::size_t slab) {
         live_.insert(live_.end(), nodes_at_[slab].begin(), nodes_at_[slab].end());
         for (const GraphEdge& edge : edges_at_[slab]) {
             const std::uint32_t a = sets_.root(edge.a);
@@ -79,7 +80,7 @@ class Side {
         std::erase_if(live_, [&](std::uint32_t n) { return sets_.root(n) != n; });
     }
 
-    void read_parts(std::size_t plane, const std::vector<SectionRegion>& regions, Price& price) {
+    void read_parts(std::size_t plane, const std::vector<SectionRegion>& regions, CutEvaluation& evaluation) {
         const std::size_t first = section_.first_loop[plane];
         const std::size_t count = section_.first_loop[plane + 1] - first;
         assert(count > 0);
@@ -115,11 +116,11 @@ class Side {
             if (region.triangles > 0) has_cap[owner] = true;
         }
         for (std::uint32_t i = 0; i < count; ++i) {
-            if (part.root(i) == i) price.solids.push_back(solid(sums, i, has_cap[i]));
+            if (part.root(i) == i) evaluation.solids.push_back(solid(sums, i, has_cap[i]));
         }
         for (const std::uint32_t n : live_) {  // shells that the plane does not touch and nothing ties
             const auto at = std::lower_bound(roots.begin(), roots.end(), std::pair{n, 0U});
-            if (at == roots.end() || at->first != n) price.solids.push_back(solid(sums_, n, false));
+            if (at == roots.end() || at->first != n) evaluation.solids.push_back(solid(sums_, n, false));
         }
     }
 
@@ -136,8 +137,8 @@ class Side {
         }
     }
 
-    SolidPrice solid(const SumTable& sums, std::size_t part, bool has_cap) const {
-        SolidPrice s;
+    SolidEvaluation solid(const SumTable& sums, std::size_t part, bool has_cap) const {
+        SolidEvaluation s;
         const PartSums& all = sums.part(part);
         s.faces = static_cast<std::size_t>(all.faces);
         s.volume_mm3 = all.volume;
@@ -173,10 +174,10 @@ class Side {
 
 }  // namespace
 
-std::vector<std::optional<Price>> sweep_solids(const PreparedPiece& prepared, Vec3 normal,
-                                               std::span<const double> offsets) {
-    std::vector<std::optional<Price>> prices(offsets.size());
-    if (offsets.empty()) return prices;
+std::vector<std::optional<CutEvaluation>> sweep_solids(const PreparedPiece& prepared, Vec3 normal,
+                                                       std::span<const double> offsets) {
+    std::vector<std::optional<CutEvaluation>> evaluations(offsets.size());
+    if (offsets.empty()) return evaluations;
     const Slabs all_slabs = slabs(prepared, normal, offsets);
     const Section section = find_section(prepared, all_slabs, offsets);
     assert(section.first_loop.size() == offsets.size() + 1 && section.first_loop.back() == section.loops.size());
@@ -184,32 +185,32 @@ std::vector<std::optional<Price>> sweep_solids(const PreparedPiece& prepared, Ve
     std::vector<std::vector<SectionRegion>> all_regions(offsets.size());
     for (std::size_t plane = 0; plane < offsets.size(); ++plane) {
         if (section.first_loop[plane] == section.first_loop[plane + 1]) continue;
-        prices[plane].emplace();
+        evaluations[plane].emplace();
         for (std::size_t i = section.first_loop[plane]; i < section.first_loop[plane + 1]; ++i) {
-            prices[plane]->cap_area_mm2 += section.loops[i].area_mm2;
+            evaluations[plane]->cap_area_mm2 += section.loops[i].area_mm2;
         }
         all_regions[plane] = regions(section, all_slabs, plane);
     }
     const std::vector<CavityLink> links = cavity_links(*prepared.piece->mesh, prepared.shells, normal);
     for (const bool above : {true, false}) {
-        Side(prepared, all_slabs, section, normal, offsets, links, above).run(prices, all_regions);
+        Side(prepared, all_slabs, section, normal, offsets, links, above).run(evaluations, all_regions);
     }
-    return prices;
+    return evaluations;
 }
 
-std::vector<std::optional<Price>> sweep(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
-                                        const Objectives& objectives) {
-    std::vector<std::optional<Price>> prices = sweep_solids(prepared, normal, offsets);
+std::vector<std::optional<CutEvaluation>> sweep(const PreparedPiece& prepared, Vec3 normal,
+                                                std::span<const double> offsets, const Objectives& objectives) {
+    std::vector<std::optional<CutEvaluation>> evaluations = sweep_solids(prepared, normal, offsets);
     const bool by_rays = objectives.fragility_form == FragilityForm::thinness;
     const double d = objectives.fragility_distance;
     const std::vector<double> sums =
         by_rays ? sweep_thinness(prepared, normal, offsets, d) : sweep_thesis_fragility(prepared, normal, offsets, d);
-    assert(sums.size() == prices.size());
-    for (std::size_t j = 0; j < prices.size(); ++j) {
-        if (!prices[j] || prices[j]->cap_area_mm2 <= 0) continue;
-        prices[j]->fragility = by_rays ? sums[j] / prices[j]->cap_area_mm2 : sums[j];
+    assert(sums.size() == evaluations.size());
+    for (std::size_t j = 0; j < evaluations.size(); ++j) {
+        if (!evaluations[j] || evaluations[j]->cap_area_mm2 <= 0) continue;
+        evaluations[j]->fragility = by_rays ? sums[j] / evaluations[j]->cap_area_mm2 : sums[j];
     }
-    return prices;
+    return evaluations;
 }
 
 }  // namespace qchopper

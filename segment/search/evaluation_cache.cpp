@@ -36,16 +36,16 @@ class SharedProgress {
 
 }  // namespace
 
-PieceBook::PieceBook(const Objectives& objectives, const CandidateOptions& options, PriceStore store)
+EvaluationCache::EvaluationCache(const Objectives& objectives, const CandidateOptions& options, EvaluationStore store)
     : objectives_(objectives), options_(options), store_(std::move(store)) {}
 
-PieceBook::Entry& PieceBook::entry(const Piece& piece) {
+EvaluationCache::Entry& EvaluationCache::entry(const Piece& piece) {
     Entry& e = entries_[piece.mesh.get()];
     e.mesh = piece.mesh;
     return e;
 }
 
-const OrientedBox& PieceBook::box(const Piece& piece) {
+const OrientedBox& EvaluationCache::box(const Piece& piece) {
     Entry& e = entry(piece);
     if (!e.box) {
         e.box = oriented_box(piece.mesh->points);
@@ -54,23 +54,23 @@ const OrientedBox& PieceBook::box(const Piece& piece) {
     return *e.box;
 }
 
-const SolidPrice& PieceBook::own(const Piece& piece) {
+const SolidEvaluation& EvaluationCache::own(const Piece& piece) {
     Entry& e = entry(piece);
     if (!e.own) e.own = measure(piece);
     return *e.own;
 }
 
-bool PieceBook::is_known(const Piece& piece, Entry& e) {
-    if (e.prices) return true;
+bool EvaluationCache::is_known(const Piece& piece, Entry& e) {
+    if (e.evaluations) return true;
     if (!store_.find) return false;
-    if (std::optional<PiecePrices> found = store_.find(piece)) {
-        e.prices = std::make_shared<const PiecePrices>(std::move(*found));
+    if (std::optional<PieceEvaluations> found = store_.find(piece)) {
+        e.evaluations = std::make_shared<const PieceEvaluations>(std::move(*found));
     }
-    return e.prices != nullptr;
+    return e.evaluations != nullptr;
 }
 
 // What candidate_planes() gives, from the box that is known already.
-std::vector<Candidate> PieceBook::candidates_of(const Piece& piece, const OrientedBox& box) const {
+std::vector<Candidate> EvaluationCache::candidates_of(const Piece& piece, const OrientedBox& box) const {
     std::vector<Candidate> all;
     for (int axis = 0; axis < 3; ++axis) {
         const std::vector<Candidate> some =
@@ -80,11 +80,11 @@ std::vector<Candidate> PieceBook::candidates_of(const Piece& piece, const Orient
     return all;
 }
 
-void PieceBook::price(std::span<const Piece* const> pieces, const Context& context) {
+void EvaluationCache::evaluate(std::span<const Piece* const> pieces, const Context& context) {
     struct Task {
         const Piece* piece;
         Entry* entry;
-        PiecePrices prices;
+        PieceEvaluations evaluations;
     };
     std::vector<Task> tasks;
     for (const Piece* piece : pieces) {
@@ -97,37 +97,39 @@ void PieceBook::price(std::span<const Piece* const> pieces, const Context& conte
     parallel_for(0, tasks.size(), [&](std::size_t i) {
         Task& task = tasks[i];
         if (!task.entry->box) task.entry->box = oriented_box(task.piece->mesh->points);
-        task.prices.candidates = candidates_of(*task.piece, *task.entry->box);
+        task.evaluations.candidates = candidates_of(*task.piece, *task.entry->box);
     });
     std::size_t planes = 0;
-    for (const Task& task : tasks) planes += task.prices.candidates.size();
+    for (const Task& task : tasks) planes += task.evaluations.candidates.size();
     SharedProgress progress(context, planes);
     parallel_for(0, tasks.size(), [&](std::size_t i) {
         Task& task = tasks[i];
-        task.prices.prices = price_all(*task.piece, task.prices.candidates, objectives_, progress.of_one_piece());
+        task.evaluations.evaluations =
+            evaluate_all(*task.piece, task.evaluations.candidates, objectives_, progress.of_one_piece());
     });
     for (Task& task : tasks) {
-        if (store_.keep) store_.keep(*task.piece, task.prices);
-        task.entry->prices = std::make_shared<const PiecePrices>(std::move(task.prices));
-        ++priced_count_;
+        if (store_.keep) store_.keep(*task.piece, task.evaluations);
+        task.entry->evaluations = std::make_shared<const PieceEvaluations>(std::move(task.evaluations));
+        ++evaluated_count_;
     }
 }
 
-bool PieceBook::is_priced(const Piece& piece) const {
+bool EvaluationCache::is_evaluated(const Piece& piece) const {
     const auto found = entries_.find(piece.mesh.get());
-    return found != entries_.end() && found->second.prices != nullptr;
+    return found != entries_.end() && found->second.evaluations != nullptr;
 }
 
-const PiecePrices& PieceBook::prices(const Piece& piece) const {
-    assert(is_priced(piece));
-    return *entries_.at(piece.mesh.get()).prices;
+const PieceEvaluations& EvaluationCache::evaluations(const Piece& piece) const {
+    assert(is_evaluated(piece));
+    return *entries_.at(piece.mesh.get()).evaluations;
 }
 
-std::optional<Price> PieceBook::price_of(const Piece& piece, const Candidate& plane, const Context& context) {
-    return price_all(piece, std::span(&plane, 1), objectives_, context).front();
+std::optional<CutEvaluation> EvaluationCache::evaluation_of(const Piece& piece, const Candidate& plane,
+                                                            const Context& context) {
+    return evaluate_all(piece, std::span(&plane, 1), objectives_, context).front();
 }
 
-void PieceBook::keep_only(std::span<const Segmentation* const> segmentations) {
+void EvaluationCache::keep_only(std::span<const Segmentation* const> segmentations) {
     std::set<const TriangleMesh*> held;
     for (const Segmentation* s : segmentations) {
         for (const Piece& piece : s->pieces) held.insert(piece.mesh.get());

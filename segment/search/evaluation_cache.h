@@ -1,7 +1,8 @@
-// What was found out about pieces, each thing once per piece: its box, its share, the prices of all its candidates.
+// What was found out about pieces, each thing once per piece: its box, its share, the evaluations of all its
+// candidates.
 //
-// A piece is known by its mesh, so all BSPs of a beam share what is known of it. Prices hold for every weight and
-// threshold: a change of those ranks anew and prices nothing (tests/segment/search/evaluation_cache_test.cpp).
+// A piece is known by its mesh, so all BSPs of a beam share what is known of it. Evaluations hold for every weight and
+// threshold: a change of those ranks anew and evaluates nothing (tests/segment/search/evaluation_cache_test.cpp).
 
 #pragma once
 
@@ -21,34 +22,34 @@
 namespace qchopper {
 
 // The ingredients of every ranking of one piece.
-struct PiecePrices {
+struct PieceEvaluations {
     std::vector<Candidate> candidates;
-    std::vector<std::optional<Price>> prices;  // one per candidate; nothing: the plane misses
+    std::vector<std::optional<CutEvaluation>> evaluations;  // one per candidate; nothing: the plane misses
 };
 
-// Where prices outlive the program (price_cache.h). Both may be empty; called from one thread.
-struct PriceStore {
-    std::function<std::optional<PiecePrices>(const Piece&)> find;
-    std::function<void(const Piece&, const PiecePrices&)> keep;
+// Where evaluations outlive the program (evaluation_store.h). Both may be empty; called from one thread.
+struct EvaluationStore {
+    std::function<std::optional<PieceEvaluations>(const Piece&)> find;
+    std::function<void(const Piece&, const PieceEvaluations&)> keep;
 };
 
-class PieceBook {
+class EvaluationCache {
  public:
-    PieceBook(const Objectives& objectives, const CandidateOptions& options, PriceStore store = {});
+    EvaluationCache(const Objectives& objectives, const CandidateOptions& options, EvaluationStore store = {});
 
     const OrientedBox& box(const Piece& piece);
-    const SolidPrice& own(const Piece& piece);
+    const SolidEvaluation& own(const Piece& piece);
 
-    // All that were not priced yet, at once, so that all cores are busy. Afterwards prices() answers for each.
-    void price(std::span<const Piece* const> pieces, const Context& context);
-    const PiecePrices& prices(const Piece& piece) const;
-    bool is_priced(const Piece& piece) const;
+    // All that were not evaluated yet, at once, so that all cores are busy. Afterwards evaluations() answers for each.
+    void evaluate(std::span<const Piece* const> pieces, const Context& context);
+    const PieceEvaluations& evaluations(const Piece& piece) const;
+    bool is_evaluated(const Piece& piece) const;
 
     // One plane that is no candidate, such as the operator's own. Not kept.
-    std::optional<Price> price_of(const Piece& piece, const Candidate& plane, const Context& context);
+    std::optional<CutEvaluation> evaluation_of(const Piece& piece, const Candidate& plane, const Context& context);
 
-    // How many pieces were priced and how many boxes were searched since the book was opened.
-    std::size_t priced_count() const { return priced_count_; }
+    // How many pieces were evaluated and how many boxes were searched since the book was opened.
+    std::size_t evaluated_count() const { return evaluated_count_; }
     std::size_t box_count() const { return box_count_; }
 
     // Forgets every piece that none of the segmentations holds.
@@ -58,8 +59,8 @@ class PieceBook {
     struct Entry {
         std::shared_ptr<const TriangleMesh> mesh;  // keeps the key from being used again
         std::optional<OrientedBox> box;
-        std::optional<SolidPrice> own;
-        std::shared_ptr<const PiecePrices> prices;
+        std::optional<SolidEvaluation> own;
+        std::shared_ptr<const PieceEvaluations> evaluations;
     };
 
     Entry& entry(const Piece& piece);
@@ -68,9 +69,9 @@ class PieceBook {
 
     Objectives objectives_;
     CandidateOptions options_;
-    PriceStore store_;
+    EvaluationStore store_;
     std::map<const TriangleMesh*, Entry> entries_;
-    std::size_t priced_count_ = 0;
+    std::size_t evaluated_count_ = 0;
     std::size_t box_count_ = 0;
 };
 

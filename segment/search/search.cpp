@@ -10,7 +10,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t priced_together = 2;  // one piece alone does not keep two cores busy to its end
+constexpr std::size_t evaluated_together = 2;  // one piece alone does not keep two cores busy to its end
 
 std::string in_digits(double seconds) {
     std::string text = std::to_string(seconds);
@@ -22,7 +22,7 @@ std::string in_digits(double seconds) {
 // One search from its start to its end.
 class Search {
  public:
-    Search(const SearchSettings& settings, PieceBook& book, const FitsCell& fits_cell, const Context& context,
+    Search(const SearchSettings& settings, EvaluationCache& book, const FitsCell& fits_cell, const Context& context,
            BeamProgress* progress)
         : settings_(settings),
           book_(book),
@@ -60,7 +60,7 @@ class Search {
     // The beam of a search that was interrupted.
     void go_on() {
         const BeamState& state = progress_->state;
-        const std::vector<Segmentation> grown = grow(state, progress_->root, settings_.objectives.crumb_volume_mm3);
+        const std::vector<Segmentation> grown = grow(state, progress_->root, settings_.objectives.fragment_volume_mm3);
         const auto made_again = [&](const BeamState::Branch& b) {
             return bsp(b.last == 0 ? progress_->root : grown[b.last - 1], b.passed_over, settings_.objectives, book_);
         };
@@ -86,11 +86,12 @@ class Search {
         return std::any_of(beam_.begin(), beam_.end(), [](const Bsp& b) { return b.is_live(); });
     }
 
-    // Prices what is not priced yet and ranks the children of every BSP that goes on; a piece without candidates is
-    // passed over. BSPs that can neither go on nor are finished leave the beam; the cheapest is remembered.
+    // Evaluations what is not evaluated yet and ranks the children of every BSP that goes on; a piece without
+    // candidates is passed over. BSPs that can neither go on nor are finished leave the beam; the cheapest is
+    // remembered.
     void rank_children() {
         for (bool is_ready = false; !is_ready;) {
-            price_next_pieces();
+            evaluate_next_pieces();
             is_ready = true;
             for (Bsp& b : beam_) {
                 if (!b.is_live() || !b.ranked.empty()) continue;
@@ -109,18 +110,18 @@ class Search {
         std::erase_if(beam_, [](const Bsp& b) { return !b.is_live() && !b.next.is_finished; });
     }
 
-    void price_next_pieces() {
+    void evaluate_next_pieces() {
         std::vector<const Piece*> pieces;
         for (const Bsp& b : beam_) {
             if (!b.is_live() || !b.ranked.empty()) continue;
-            const std::size_t count = settings_.beam > 1 ? 1 : priced_together;
+            const std::size_t count = settings_.beam > 1 ? 1 : evaluated_together;
             for (std::size_t i = 0; i < std::min(count, b.next.waiting.size()); ++i) {
                 const Piece& piece = b.segmentation.pieces[b.next.waiting[i]];
-                if (i > 0 && book_.is_priced(*pieces_front(b))) break;  // the next one is known: nothing to wait for
+                if (i > 0 && book_.is_evaluated(*pieces_front(b))) break;  // the next one is known: nothing to wait for
                 if (!contains(pieces, piece)) pieces.push_back(&piece);
             }
         }
-        book_.price(pieces, context_);
+        book_.evaluate(pieces, context_);
     }
 
     static const Piece* pieces_front(const Bsp& b) { return &b.segmentation.pieces[b.next.waiting.front()]; }
@@ -160,7 +161,7 @@ class Search {
     }
 
     const SearchSettings& settings_;
-    PieceBook& book_;
+    EvaluationCache& book_;
     StopJudge judge_;
     const Context& context_;
     std::vector<Bsp> beam_;  // cheapest first
@@ -172,9 +173,9 @@ class Search {
 
 }  // namespace
 
-SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, PieceBook& book, const FitsCell& fits_cell,
-                 const std::function<void(const Segmentation&)>& on_round, const Context& context,
-                 std::optional<double> time_limit_s, BeamProgress* progress) {
+SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, EvaluationCache& book,
+                 const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
+                 const Context& context, std::optional<double> time_limit_s, BeamProgress* progress) {
     return Search(settings, book, fits_cell, context, progress).run(segmentation, on_round, time_limit_s);
 }
 

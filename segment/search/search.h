@@ -2,9 +2,10 @@
 //
 // Each round expands each of the b best BSPs by the best candidates of its next piece and keeps the b best by one
 // cost: face ratio and mean undercut of the pieces plus fragility and piece count summed over the cuts, all weighted.
-// b = 1 is the greedy search, decision by decision. What is known of a child before it is kept comes from the price
-// of its candidate; only a BSP that is kept is really cut. A wider beam keeps the cheapest it has seen, which is not
-// always cheaper at the end; one as wide as all candidates is, of two cuts (tests/segment/search/beam_test.cpp).
+// b = 1 is the greedy search, decision by decision. What is known of a child before it is kept comes from the
+// evaluation of its candidate; only a BSP that is kept is really cut. A wider beam keeps the cheapest it has seen,
+// which is not always cheaper at the end; one as wide as all candidates is, of two cuts
+// (tests/segment/search/beam_test.cpp).
 
 #pragma once
 
@@ -45,8 +46,9 @@ struct BeamProgress {
 // with the round that is being made. Throws Cancelled when asked to stop; the best of the last round stands then.
 // Interrupted anywhere and gone on with from `progress`, it ends as if it had not been interrupted
 // (tests/app/project/open_project_test.cpp).
-SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, PieceBook& book, const FitsCell& fits_cell,
-                 const std::function<void(const Segmentation&)>& on_round, const Context& context,
-                 std::optional<double> time_limit_s = std::nullopt, BeamProgress* progress = nullptr);
+SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, EvaluationCache& book,
+                 const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
+                 const Context& context, std::optional<double> time_limit_s = std::nullopt,
+                 BeamProgress* progress = nullptr);
 
 }  // namespace qchopper

@@ -10,11 +10,11 @@
 namespace qchopper {
 namespace {
 
-// A file of prices bears the SHA-256 of its piece as name and of itself as end, so it is put where the cache looks for
-// it, once as it is and once with the right end.
+// A file of evaluations bears the SHA-256 of its piece as name and of itself as end, so it is put where the cache looks
+// for it, once as it is and once with the right end.
 struct Cache {
     MemoryFolder folder;
-    PriceStore store = price_cache(folder.path, {}, {});
+    EvaluationStore store = evaluation_store(folder.path, {}, {});
     Piece piece{"A", std::make_shared<const TriangleMesh>(), {}};
     std::filesystem::path file;
 
@@ -25,10 +25,10 @@ struct Cache {
 
     void read(const Bytes& bytes) const {
         write_file(file, bytes);
-        const std::optional<PiecePrices> prices = store.find(piece);
-        if (!prices) return;
-        demand(prices->candidates.size() == prices->prices.size());
-        store.keep(piece, *prices);
+        const std::optional<PieceEvaluations> evaluations = store.find(piece);
+        if (!evaluations) return;
+        demand(evaluations->candidates.size() == evaluations->evaluations.size());
+        store.keep(piece, *evaluations);
         const Bytes again = read_file(file);
         demand(again.size() == bytes.size());
         demand(store.find(piece).has_value());

@@ -61,7 +61,7 @@ TEST_F(SameBytes, ElsewhereAndOnOneCore) {
     const Ended ended = program::run(start(), {folder.path, "", true});
     EXPECT_EQ(ended.code, 0) << ended.err;
     expect_as_prepared();
-    EXPECT_FALSE(fs::is_empty(folder.path / "scan.qch" / "cache")) << "nothing is kept of what was priced";
+    EXPECT_FALSE(fs::is_empty(folder.path / "scan.qch" / "cache")) << "nothing is kept of what was evaluated";
 }
 
 TEST_F(SameBytes, FromAFinishedProjectOnceMore) {

@@ -51,7 +51,7 @@ struct Discarding : ::testing::Test {
     static double volume_of(const Segmentation& s) {
         double volume = 0;
         for (const Piece& p : s.pieces) volume += volume_mm3(*p.mesh);
-        for (const Crumb& c : s.crumbs) volume += c.volume_mm3;
+        for (const Fragment& c : s.fragments) volume += c.volume_mm3;
         for (const Discarded& d : s.discarded) volume += volume_mm3(*d.piece.mesh);
         return volume;
     }

@@ -12,19 +12,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct PriceCache : ::testing::Test {
+struct EvaluationFiles : ::testing::Test {
     fs::path folder = fs::path(testing::TempDir()) / ("cache" + std::to_string(::getpid()));
     void TearDown() override { fs::remove_all(folder); }
 
-    // Ranks every piece by a book of its own that has this cache; says how many it had to price.
-    std::size_t priced(const Segmentation& segmentation, const SearchSettings& settings) const {
-        PieceBook book(settings.objectives, settings.candidates,
-                       price_cache(folder, settings.objectives, settings.candidates));
+    // Ranks every piece by a cache of its own beside these files; returns how many it had to evaluate.
+    std::size_t evaluated(const Segmentation& segmentation, const SearchSettings& settings) const {
+        EvaluationCache book(settings.objectives, settings.candidates,
+                             evaluation_store(folder, settings.objectives, settings.candidates));
         for (std::size_t p = 0; p < segmentation.pieces.size(); ++p) {
-            PieceBook without(settings.objectives, settings.candidates);
+            EvaluationCache without(settings.objectives, settings.candidates);
             EXPECT_EQ(rank(segmentation, p, settings, book, {}), rank(segmentation, p, settings, without, {}));
         }
-        return book.priced_count();
+        return book.evaluated_count();
     }
     std::vector<fs::path> files() const {
         std::vector<fs::path> all;
@@ -35,7 +35,7 @@ struct PriceCache : ::testing::Test {
 
 Segmentation some_pieces(const SearchSettings& settings) {
     Segmentation segmentation = uncut(shapes::linked_tori(), 0);
-    PieceBook book(settings.objectives, settings.candidates);
+    EvaluationCache book(settings.objectives, settings.candidates);
     SearchSettings search_settings = settings;
     search_settings.stop.min_cuts = 2;
     search(segmentation, search_settings, book, {}, [](const Segmentation&) {}, {});
@@ -48,63 +48,63 @@ SearchSettings quick() {
     return settings;
 }
 
-TEST_F(PriceCache, AnotherBookFindsEveryPriceToTheLastBit) {
+TEST_F(EvaluationFiles, AnotherBookFindsEveryEvaluationToTheLastBit) {
     const SearchSettings settings = quick();
     const Segmentation segmentation = some_pieces(settings);
-    EXPECT_EQ(priced(segmentation, settings), segmentation.pieces.size());
-    EXPECT_EQ(priced(segmentation, settings), 0U);
+    EXPECT_EQ(evaluated(segmentation, settings), segmentation.pieces.size());
+    EXPECT_EQ(evaluated(segmentation, settings), 0U);
     SearchSettings other = settings;
     other.objectives.weights = {1, 2, 3, 4};
     other.objectives.face_ratio_threshold = 3;
-    EXPECT_EQ(priced(segmentation, other), 0U) << "weights and thresholds are no part of a price";
+    EXPECT_EQ(evaluated(segmentation, other), 0U) << "weights and thresholds are no part of an evaluation";
 }
 
-TEST_F(PriceCache, OtherSettingsOrPiecesFindNothing) {
+TEST_F(EvaluationFiles, OtherSettingsOrPiecesFindNothing) {
     const SearchSettings settings = quick();
     const Segmentation segmentation = uncut(shapes::linked_tori(), 0);
     const std::size_t count = segmentation.pieces.size();
-    EXPECT_EQ(priced(segmentation, settings), count);
+    EXPECT_EQ(evaluated(segmentation, settings), count);
     SearchSettings other = settings;
     other.objectives.undercut_by_area = false;
-    EXPECT_EQ(priced(segmentation, other), count);
+    EXPECT_EQ(evaluated(segmentation, other), count);
     other = settings;
     other.objectives.fragility_form = FragilityForm::thesis;
-    EXPECT_EQ(priced(segmentation, other), count);
+    EXPECT_EQ(evaluated(segmentation, other), count);
     other = settings;
     other.objectives.fragility_distance = 7;
-    EXPECT_EQ(priced(segmentation, other), count);
+    EXPECT_EQ(evaluated(segmentation, other), count);
     other = settings;
     other.candidates.offsets_per_normal = 6;
-    EXPECT_EQ(priced(segmentation, other), count);
-    EXPECT_EQ(priced(uncut(shapes::moved(shapes::linked_tori(), {0, 0, 1}), 0), settings), count);
+    EXPECT_EQ(evaluated(segmentation, other), count);
+    EXPECT_EQ(evaluated(uncut(shapes::moved(shapes::linked_tori(), {0, 0, 1}), 0), settings), count);
 }
 
-TEST_F(PriceCache, BrokenFilesAreAsIfTheyWereNotThere) {
+TEST_F(EvaluationFiles, BrokenFilesAreAsIfTheyWereNotThere) {
     const SearchSettings settings = quick();
     const Segmentation segmentation = uncut(shapes::torus({0, 0, 0}, 40, 12), 0);
-    priced(segmentation, settings);
+    evaluated(segmentation, settings);
     ASSERT_EQ(files().size(), 1U);
     const fs::path file = files().front();
     const Bytes whole = read_file(file);
     for (std::size_t length = 0; length < whole.size(); length += whole.size() / 7 + 1) {
         write_file(file, Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length)));
-        EXPECT_EQ(priced(segmentation, settings), 1U) << length;
+        EXPECT_EQ(evaluated(segmentation, settings), 1U) << length;
     }
     for (std::size_t at = 0; at < whole.size(); at += whole.size() / 7 + 1) {
         Bytes turned = whole;
         turned[at] ^= 0x10;
         write_file(file, turned);
-        EXPECT_EQ(priced(segmentation, settings), 1U) << at;
+        EXPECT_EQ(evaluated(segmentation, settings), 1U) << at;
     }
     fs::remove_all(folder);
-    EXPECT_EQ(priced(segmentation, settings), 1U) << "deleting is always safe";
-    EXPECT_EQ(priced(segmentation, settings), 0U);
+    EXPECT_EQ(evaluated(segmentation, settings), 1U) << "deleting is always safe";
+    EXPECT_EQ(evaluated(segmentation, settings), 0U);
 }
 
-TEST_F(PriceCache, WhereNothingCanBeWrittenPricesStillCome) {
+TEST_F(EvaluationFiles, WhereNothingCanBeWrittenEvaluationsStillCome) {
     write_file(folder, std::string_view("in the way"));  // a file where the folder should be
     const SearchSettings settings = quick();
-    EXPECT_EQ(priced(uncut(shapes::torus({0, 0, 0}, 40, 12), 0), settings), 1U);
+    EXPECT_EQ(evaluated(uncut(shapes::torus({0, 0, 0}, 40, 12), 0), settings), 1U);
 }
 
 }  // namespace

@@ -151,7 +151,7 @@ TEST_F(OpenedProject, ARankingCutsNothingAndChangesNothingButTheCache) {
     EXPECT_TRUE(fs::exists(folder / "cache"));
     OpenProject third = open();
     EXPECT_EQ(third.ranking(piece, {}), ranked);
-    EXPECT_EQ(third.book().priced_count(), 0U) << "another program need not price again";
+    EXPECT_EQ(third.book().evaluated_count(), 0U) << "another program need not evaluation again";
 }
 
 TEST_F(OpenedProject, AMissChangesNothing) {
@@ -184,7 +184,7 @@ TEST_F(OpenedProject, AnOwnPlaneIsNudgedOnceAndStoredExactly) {
     EXPECT_EQ(load_project(folder).cuts.back().chosen.plane, own->plane);
 }
 
-TEST_F(OpenedProject, ProductsAreNeverStale) {
+TEST_F(OpenedProject, OutputsAreNeverStale) {
     OpenProject project = open();
     const SearchEnd end = project.search(
         {}, [](const Segmentation&) {}, {}, std::nullopt);

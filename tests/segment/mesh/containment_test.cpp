@@ -9,7 +9,7 @@
 namespace qchopper {
 namespace {
 
-TEST(Inside, ADeepPointLiesInItsSolidAndInNoOther) {
+TEST(Inside, AInteriorPointLiesInItsSolidAndInNoOther) {
     for (const auto& [name, mesh, count] : shapes::all_closed()) {
         const Segmentation segmentation = uncut(mesh, 0);
         for (const Piece& piece : segmentation.pieces) {
@@ -51,7 +51,7 @@ TEST(Inside, LinesThroughVerticesAndAlongEdgesCountRight) {
     }
 }
 
-TEST(Inside, ADeepPointIsFarFromTheSurface) {
+TEST(Inside, AInteriorPointIsFarFromTheSurface) {
     const Vec3 of_ball = *interior_point(shapes::ball({3, -2, 5}, 10, 20));
     EXPECT_LT(norm(of_ball - Vec3{3, -2, 5}), 1);
     const Vec3 of_slab = *interior_point(shapes::box({0, 0, 0}, {100, 100, 1}));

@@ -13,7 +13,7 @@ namespace {
 
 std::size_t count_without_area(const TriangleMesh& mesh) {
     std::size_t count = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) count += has_no_area(mesh, t);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) count += is_degenerate(mesh, t);
     return count;
 }
 
@@ -37,23 +37,23 @@ std::vector<TriangleMesh> exact_shapes() {
             shapes::pyramid({0, 0, 0}, 16, 64)};
 }
 
-TEST(NoArea, ShapesHaveNone) {
+TEST(Degenerate, ShapesHaveNone) {
     for (const shapes::Named& shape : shapes::all_closed()) {
         TriangleMesh mesh = shape.mesh;
-        const NoArea counts = remove_no_area(mesh);
+        const Degenerate counts = remove_degenerate(mesh);
         EXPECT_EQ(counts.flipped + counts.dropped + counts.left, 0U) << shape.name;
         EXPECT_EQ(mesh, shape.mesh) << shape.name;
     }
 }
 
-TEST(NoArea, GoesWithoutOpeningTheSurfaceOrMovingAPoint) {
+TEST(Degenerate, GoesWithoutOpeningTheSurfaceOrMovingAPoint) {
     for (const TriangleMesh& shape : exact_shapes()) {
         for (std::uint32_t h = 0; h < 3 * shape.triangles.size(); h += 5) {
             TriangleMesh mesh = shape;
             loosen(mesh, h);
             ASSERT_EQ(count_without_area(mesh), 1U);
             const TriangleMesh before = mesh;
-            const NoArea counts = remove_no_area(mesh);
+            const Degenerate counts = remove_degenerate(mesh);
             EXPECT_EQ(counts.flipped, 1U);
             EXPECT_EQ(counts.left, 0U);
             EXPECT_EQ(mesh.points, before.points);
@@ -65,35 +65,35 @@ TEST(NoArea, GoesWithoutOpeningTheSurfaceOrMovingAPoint) {
     }
 }
 
-TEST(NoArea, RowsOfThemGo) {
+TEST(Degenerate, RowsOfThemGo) {
     for (const TriangleMesh& shape : exact_shapes()) {
         TriangleMesh mesh = shape;
         loosen(mesh, 0);
         for (int i = 0; i < 4; ++i) loosen(mesh, 0);  // halves the first half again and again
         EXPECT_EQ(count_without_area(mesh), 5U);
-        EXPECT_EQ(remove_no_area(mesh).left, 0U);
+        EXPECT_EQ(remove_degenerate(mesh).left, 0U);
         EXPECT_EQ(count_without_area(mesh), 0U);
         EXPECT_TRUE(edges(mesh).faults.is_closed());
         EXPECT_DOUBLE_EQ(volume_mm3(mesh), volume_mm3(shape));
         const TriangleMesh once = mesh;
-        remove_no_area(mesh);
+        remove_degenerate(mesh);
         EXPECT_EQ(mesh, once);
     }
 }
 
-TEST(NoArea, AtABorderItJustGoes) {
+TEST(Degenerate, AtABorderItJustGoes) {
     TriangleMesh mesh;
     mesh.points = {{0, 0, 0}, {4, 0, 0}, {2, 4, 0}, {2, 0, 0}};
     mesh.triangles = {{0, 3, 2}, {3, 1, 2}, {0, 1, 3}};
-    EXPECT_EQ(remove_no_area(mesh).dropped, 1U);
+    EXPECT_EQ(remove_degenerate(mesh).dropped, 1U);
     EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 3, 2}, {3, 1, 2}}));
 }
 
-TEST(NoArea, IsMarkedAsNew) {
+TEST(Degenerate, IsMarkedAsNew) {
     TriangleMesh mesh = exact_shapes().front();
     loosen(mesh, 0);
     SourceFaces sources{std::vector<std::uint32_t>(mesh.triangles.size(), 5)};
-    remove_no_area(mesh, &sources);
+    remove_degenerate(mesh, &sources);
     EXPECT_EQ(count_new(sources), 2U);
 }
 

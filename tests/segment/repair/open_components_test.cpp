@@ -24,7 +24,7 @@ SourceFaces sources_of(const TriangleMesh& mesh, bool has_sheet) {
     return sources;
 }
 
-TEST(LooseSheets, SolidsAreNone) {
+TEST(OpenComponents, SolidsAreNone) {
     for (const shapes::Named& shape : shapes::all_closed()) {
         TriangleMesh mesh = shape.mesh;
         SourceFaces sources = sources_of(mesh, false);
@@ -35,7 +35,7 @@ TEST(LooseSheets, SolidsAreNone) {
     }
 }
 
-TEST(LooseSheets, SmallOnesGoAndLargeOnesAreTold) {
+TEST(OpenComponents, SmallOnesGoAndLargeOnesAreTold) {
     const TriangleMesh solid = shapes::box({0, 0, 0}, {10, 10, 10});
     TriangleMesh small = with_closed_sheet(solid, {20, 20, 20}, 1);
     SourceFaces sources = sources_of(small, true);
@@ -56,7 +56,7 @@ TEST(LooseSheets, SmallOnesGoAndLargeOnesAreTold) {
     EXPECT_EQ(large, before);
 }
 
-TEST(LooseSheets, TheLastThingStays) {
+TEST(OpenComponents, TheLastThingStays) {
     TriangleMesh mesh = with_closed_sheet({}, {0, 0, 0}, 1);
     SourceFaces sources = sources_of(mesh, true);
     EXPECT_EQ(judge_sheets(mesh, sources, 1).left, 1U);

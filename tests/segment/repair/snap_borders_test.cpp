@@ -28,11 +28,11 @@ TriangleMesh torn(const TriangleMesh& mesh, double gap) {
     return both;
 }
 
-TEST(BorderWeld, ClosesATornShape) {
+TEST(SnapBorders, ClosesATornShape) {
     for (const shapes::Named& shape : shapes::all_closed()) {
         TriangleMesh mesh = torn(shape.mesh, 0.01);
         if (edges(mesh).faults.is_closed()) continue;  // two solids that were parted whole
-        const BorderWeld counts = weld_borders(mesh, 0.02);
+        const SnapBorders counts = weld_borders(mesh, 0.02);
         EXPECT_GT(counts.welded, 0U) << shape.name;
         EXPECT_NEAR(counts.farthest, 0.01, 1e-6) << shape.name;
         EXPECT_TRUE(edges(mesh).faults.is_closed()) << shape.name;
@@ -43,7 +43,7 @@ TEST(BorderWeld, ClosesATornShape) {
     }
 }
 
-TEST(BorderWeld, LeavesAWiderGapAndClosedShapesAlone) {
+TEST(SnapBorders, LeavesAWiderGapAndClosedShapesAlone) {
     const TriangleMesh open = torn(shapes::ball({0, 0, 0}, 25), 0.01);
     TriangleMesh mesh = open;
     EXPECT_EQ(weld_borders(mesh, 0.005).welded, 0U);
@@ -56,7 +56,7 @@ TEST(BorderWeld, LeavesAWiderGapAndClosedShapesAlone) {
     }
 }
 
-TEST(BorderWeld, MovesNoPointFartherThanTheToleranceAndCollapsesNoFace) {
+TEST(SnapBorders, MovesNoPointFartherThanTheToleranceAndCollapsesNoFace) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> place(0, 10);
     for (const double tolerance : {0.1, 0.5, 2.0}) {
@@ -67,7 +67,7 @@ TEST(BorderWeld, MovesNoPointFartherThanTheToleranceAndCollapsesNoFace) {
             soup.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
         }
         TriangleMesh mesh = soup;
-        const BorderWeld counts = weld_borders(mesh, tolerance);
+        const SnapBorders counts = weld_borders(mesh, tolerance);
         EXPECT_LE(counts.farthest, tolerance);
         EXPECT_EQ(mesh.triangles.size(), soup.triangles.size());
         EXPECT_EQ(mesh.points.size(), soup.points.size() - counts.welded);

@@ -20,7 +20,7 @@ inline long genus(const TriangleMesh& mesh) {
 }
 
 // Points at which the triangles do not make one fan all around.
-inline std::size_t pinched_points(const TriangleMesh& mesh, const Edges& found) {
+inline std::size_t non_manifold_vertices(const TriangleMesh& mesh, const Edges& found) {
     std::vector<std::size_t> uses(mesh.points.size());
     std::vector<std::uint32_t> any(mesh.points.size());
     for (std::uint32_t h = 0; h < 3 * mesh.triangles.size(); ++h) {
@@ -28,10 +28,10 @@ inline std::size_t pinched_points(const TriangleMesh& mesh, const Edges& found) 
         ++uses[point];
         any[point] = h;
     }
-    std::size_t pinched = 0;
+    std::size_t non_manifold = 0;
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
         if (uses[v] == 0) {
-            ++pinched;
+            ++non_manifold;
             continue;
         }
         std::size_t around = 0;
@@ -41,15 +41,15 @@ inline std::size_t pinched_points(const TriangleMesh& mesh, const Edges& found) 
             h = back % 3 == 2 ? back - 2 : back + 1;
             ++around;
         } while (h != any[v] && around <= uses[v]);
-        pinched += around != uses[v];
+        non_manifold += around != uses[v];
     }
-    return pinched;
+    return non_manifold;
 }
 
 inline void expect_valid_solid(const TriangleMesh& mesh) {
     const Edges found = edges(mesh);
     ASSERT_TRUE(found.faults.is_closed());
-    EXPECT_EQ(pinched_points(mesh, found), 0U);
+    EXPECT_EQ(non_manifold_vertices(mesh, found), 0U);
     EXPECT_EQ(shells(mesh).count(), 1U);
     EXPECT_GT(volume_mm3(mesh), 0);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) ASSERT_GT(norm(area_vector(mesh, t)), 0) << t;

@@ -13,32 +13,32 @@
 namespace qchopper {
 namespace {
 
-TEST(Oracle, AHalvedBoxHasNoUndercut) {
+TEST(Reference, AHalvedBoxHasNoUndercut) {
     const TriangleMesh box = shapes::box({0, 0, 0}, {10, 10, 10}, 2);
-    const auto price = price_by_cutting(piece_of(box), {{0, 0, 1}, 4.0 + 1e-7}, {});
-    ASSERT_TRUE(price);
-    ASSERT_EQ(price->solids.size(), 2U);
-    EXPECT_NEAR(price->cap_area_mm2, 100, 1e-9);
-    for (const SolidPrice& solid : price->solids) {
+    const auto evaluation = evaluate_by_cutting(piece_of(box), {{0, 0, 1}, 4.0 + 1e-7}, {});
+    ASSERT_TRUE(evaluation);
+    ASSERT_EQ(evaluation->solids.size(), 2U);
+    EXPECT_NEAR(evaluation->cap_area_mm2, 100, 1e-9);
+    for (const SolidEvaluation& solid : evaluation->solids) {
         ASSERT_EQ(solid.bases.size(), 1U);
         EXPECT_NEAR(undercut(solid, true), 0, 1e-12);
         EXPECT_NEAR(undercut(solid, false), 0, 1e-12);
     }
-    EXPECT_FALSE(price_by_cutting(piece_of(box), {{0, 0, 1}, 40}, {}));
+    EXPECT_FALSE(evaluate_by_cutting(piece_of(box), {{0, 0, 1}, 40}, {}));
 }
 
-TEST(Oracle, AFullBallOnASmallBaseIsHalfUndercut) {
+TEST(Reference, AFullBallOnASmallBaseIsHalfUndercut) {
     // Cut below the middle, the upper part overhangs: downward surface is the ring between equator and cut.
     const TriangleMesh ball = shapes::ball({0, 0, 0}, 10, 64);
-    const auto price = price_by_cutting(piece_of(ball), {{0, 0, 1}, -6.001}, {});
-    const SolidPrice& upper = price->solids[0];
+    const auto evaluation = evaluate_by_cutting(piece_of(ball), {{0, 0, 1}, -6.001}, {});
+    const SolidEvaluation& upper = evaluation->solids[0];
     // Projected: up-facing disc pi r^2, down-facing pi (r^2 - cap radius^2) with cap radius^2 = 64.
     EXPECT_NEAR(undercut(upper, true), 36.0 / (100 + 36), 2e-3);
-    EXPECT_NEAR(undercut(price->solids[1], true), 0, 1e-12);
+    EXPECT_NEAR(undercut(evaluation->solids[1], true), 0, 1e-12);
 }
 
-// What a price says of its solids is what the pieces that the cut makes say of themselves.
-TEST(Oracle, PricesAgreeWithThePiecesThatTheCutMakes) {
+// What an evaluation says of its solids is what the pieces that the cut makes say of themselves.
+TEST(Reference, EvaluationsAgreeWithThePiecesThatTheCutMakes) {
     std::mt19937 random(4);
     std::normal_distribution<double> normal;
     for (const auto& [name, mesh, count] : shapes::all_closed()) {
@@ -50,27 +50,27 @@ TEST(Oracle, PricesAgreeWithThePiecesThatTheCutMakes) {
             const auto nudged = nudge(piece, n, std::array{range.low + 0.4 * range.size()});
             ASSERT_TRUE(nudged[0]);
             const Plane plane{n, nudged[0]->offset};
-            const auto price = price_by_cutting(piece, plane, {});
+            const auto evaluation = evaluate_by_cutting(piece, plane, {});
             const auto made = cut_piece(piece, plane, number);
-            ASSERT_EQ(price->solids.size(), made->pieces.size()) << name;
+            ASSERT_EQ(evaluation->solids.size(), made->pieces.size()) << name;
             for (std::size_t i = 0; i < made->pieces.size(); ++i) {
-                const SolidPrice own = measure(made->pieces[i]);
-                EXPECT_EQ(price->solids[i].faces, own.faces) << name;
-                EXPECT_NEAR(price->solids[i].volume_mm3, own.volume_mm3, 1e-9 * volume_mm3(mesh)) << name;
-                ASSERT_EQ(price->solids[i].bases.size(), own.bases.size()) << name;
-                EXPECT_NEAR(undercut(price->solids[i], true), undercut(own, true), 1e-9) << name;
+                const SolidEvaluation own = measure(made->pieces[i]);
+                EXPECT_EQ(evaluation->solids[i].faces, own.faces) << name;
+                EXPECT_NEAR(evaluation->solids[i].volume_mm3, own.volume_mm3, 1e-9 * volume_mm3(mesh)) << name;
+                ASSERT_EQ(evaluation->solids[i].bases.size(), own.bases.size()) << name;
+                EXPECT_NEAR(undercut(evaluation->solids[i], true), undercut(own, true), 1e-9) << name;
             }
             pieces = made->pieces;
         }
     }
 }
 
-TEST(Oracle, ByAreaTheUndercutOfAnyClosedSolidIsBelowOneHalf) {
+TEST(Reference, ByAreaTheUndercutOfAnyClosedSolidIsBelowOneHalf) {
     for (const auto& [name, mesh, count] : shapes::all_closed()) {
         const Extent range = extent(mesh, {1, 0, 0});
         const auto nudged = nudge(piece_of(mesh), {1, 0, 0}, std::array{range.low + 0.3 * range.size()});
-        const auto price = price_by_cutting(piece_of(mesh), {{1, 0, 0}, nudged[0]->offset}, {});
-        for (const SolidPrice& solid : price->solids) {
+        const auto evaluation = evaluate_by_cutting(piece_of(mesh), {{1, 0, 0}, nudged[0]->offset}, {});
+        for (const SolidEvaluation& solid : evaluation->solids) {
             for (const BaseShare& base : solid.bases) EXPECT_LT(undercut(base, true), 0.5) << name;
         }
     }

@@ -16,15 +16,16 @@
 
 namespace qchopper {
 
-// Solids have no order that both ways of pricing share.
-inline std::vector<SolidPrice> sorted(std::vector<SolidPrice> solids) {
-    std::sort(solids.begin(), solids.end(), [](const SolidPrice& a, const SolidPrice& b) {
+// Solids have no order that both ways of evaluation share.
+inline std::vector<SolidEvaluation> sorted(std::vector<SolidEvaluation> solids) {
+    std::sort(solids.begin(), solids.end(), [](const SolidEvaluation& a, const SolidEvaluation& b) {
         return std::tuple(a.above, a.faces, a.volume_mm3) < std::tuple(b.above, b.faces, b.volume_mm3);
     });
     return solids;
 }
 
-inline void expect_equal(const Price& fast, const Price& plain, double size, bool by_area, const std::string& what) {
+inline void expect_equal(const CutEvaluation& fast, const CutEvaluation& plain, double size, bool by_area,
+                         const std::string& what) {
     const double area = size * size;
     EXPECT_NEAR(fast.cap_area_mm2, plain.cap_area_mm2, 1e-9 * plain.cap_area_mm2 + 1e-13 * area) << what;
     EXPECT_NEAR(fast.fragility, plain.fragility, 1e-9 * (1 + plain.fragility) + 1e-13 * area / plain.cap_area_mm2)
@@ -49,7 +50,7 @@ inline void expect_equal(const Price& fast, const Price& plain, double size, boo
     }
 }
 
-// Every offset of a normal, priced by the sweep and by cutting.
+// Every offset of a normal, evaluated by the sweep and by cutting.
 inline std::size_t expect_same(const Piece& piece, Vec3 normal, std::vector<double> wanted,
                                const Objectives& objectives, const std::string& what) {
     std::sort(wanted.begin(), wanted.end());
@@ -61,7 +62,7 @@ inline std::size_t expect_same(const Piece& piece, Vec3 normal, std::vector<doub
     const auto fast = sweep(prepare(piece, objectives), normal, offsets, objectives);
     const double size = norm(bounds(*piece.mesh).size());
     for (std::size_t j = 0; j < offsets.size(); ++j) {
-        const auto plain = price_by_cutting(piece, {normal, offsets[j]}, objectives);
+        const auto plain = evaluate_by_cutting(piece, {normal, offsets[j]}, objectives);
         EXPECT_EQ(fast[j].has_value(), plain.has_value()) << what;
         if (!plain || !fast[j]) continue;
         expect_equal(*fast[j], *plain, size, objectives.undercut_by_area, what + " offset " + std::to_string(j));
