@@ -14,11 +14,9 @@ void add_scale(CLI::App* c, std::optional<double>& scale) {
 
 // The older name is taken for one version more; help does not show it.
 void add_fragments(CLI::App* c, std::optional<std::string>& fragments) {
-    for (const char* name : {"--fragments", "--crumbs"}) {
-        c->add_option(name, fragments, "solids too small to be pieces: keep or drop (keep)")
-            ->check(one_of({"keep", "drop"}))
-            ->group(name == std::string("--crumbs") ? "" : "OPTIONS");
-    }
+    c->add_option("--fragments", fragments, "solids too small to be pieces: keep or drop (keep)")
+        ->check(one_of({"keep", "drop"}));
+    c->add_option("--crumbs", fragments)->check(one_of({"keep", "drop"}))->group("");
 }
 
 void add_repair_choices(CLI::App* c, RepairChoiceArguments& a) {
