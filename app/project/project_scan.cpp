@@ -22,6 +22,14 @@ void tell_intake(const fs::path& scan, const Intake& intake, const Context& cont
     context.message(line);
 }
 
+IntakeOptions options_of(const ProjectChoices& choices) {
+    IntakeOptions options;
+    options.mm_per_unit = choices.mm_per_unit;
+    options.scale = choices.scale;
+    options.repair = qchopper::options_of(choices.repair);
+    return options;
+}
+
 }  // namespace
 
 Intake take_in_scan(const ProjectChoices& choices, const Context& context) {
@@ -29,22 +37,19 @@ Intake take_in_scan(const ProjectChoices& choices, const Context& context) {
         throw InputError(InputFault::use, "a project needs its scan again, and standard input is read only once",
                          "save the scan in a file and name that");
     }
-    IntakeOptions options;
-    options.mm_per_unit = choices.mm_per_unit;
-    options.scale = choices.scale;
-    options.repair = options_of(choices.repair);
-    Intake intake = take_in(choices.scan, options, context);
+    Intake intake = take_in(choices.scan, options_of(choices), context);
     tell_intake(choices.scan, intake, context);
     return intake;
 }
 
 Intake take_in_scan(const Project& project, const Context& context) {
     const ScanSource& s = project.scan;
-    Intake intake = take_in_scan(ProjectChoices{s.path, mm_per(s.unit), s.scale, s.repair}, context);
+    Intake intake = take_in(s.path, options_of(ProjectChoices{s.path, mm_per(s.unit), s.scale, s.repair}), context);
     if (to_hex(intake.sha256) != s.sha256) {
         throw InputError(InputFault::mesh, s.path.string() + " is not the scan that the project was made from",
                          "put that scan back, or prepare this one as a new project");
     }
+    tell_intake(s.path, intake, context);
     return intake;
 }
 
