@@ -22,6 +22,14 @@ void report_import(const fs::path& scan, const ImportedScan& imported, const Con
     context.message(line);
 }
 
+ImportOptions options_of(const ProjectChoices& choices) {
+    ImportOptions options;
+    options.mm_per_unit = choices.mm_per_unit;
+    options.scale = choices.scale;
+    options.repair = qchopper::options_of(choices.repair);
+    return options;
+}
+
 }  // namespace
 
 ImportedScan import_project_scan(const ProjectChoices& choices, const Context& context) {
@@ -29,22 +37,19 @@ ImportedScan import_project_scan(const ProjectChoices& choices, const Context& c
         throw InputError(InputFault::use, "a project needs its scan again, and standard input is read only once",
                          "save the scan in a file and name that");
     }
-    ImportOptions options;
-    options.mm_per_unit = choices.mm_per_unit;
-    options.scale = choices.scale;
-    options.repair = options_of(choices.repair);
-    ImportedScan imported = import_scan(choices.scan, options, context);
+    ImportedScan imported = import_scan(choices.scan, options_of(choices), context);
     report_import(choices.scan, imported, context);
     return imported;
 }
 
 ImportedScan import_project_scan(const Project& project, const Context& context) {
     const ScanSource& s = project.scan;
-    ImportedScan imported = import_project_scan(ProjectChoices{s.path, mm_per(s.unit), s.scale, s.repair}, context);
+    ImportedScan imported = import_scan(s.path, options_of(ProjectChoices{s.path, mm_per(s.unit), s.scale, s.repair}), context);
     if (to_hex(imported.sha256) != s.sha256) {
         throw InputError(InputFault::mesh, s.path.string() + " is not the scan that the project was made from",
                          "put that scan back, or prepare this one as a new project");
     }
+    report_import(s.path, imported, context);
     return imported;
 }
 
