@@ -2,6 +2,8 @@
 
 #pragma once
 
+#include <algorithm>
+
 #include "base/vec3.h"
 
 namespace qchopper {
@@ -13,5 +15,10 @@ struct Box {
     Vec3 size() const { return max - min; }
     Vec3 centre() const { return 0.5 * (min + max); }
 };
+
+inline void extend(Box& box, Vec3 p) {
+    box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y), std::min(box.min.z, p.z)};
+    box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y), std::max(box.max.z, p.z)};
+}
 
 }  // namespace qchopper

@@ -10,9 +10,9 @@
 
 namespace qchopper {
 
-// Counts, never guesses: "37 of 120 planes priced".
+// Counts, never guesses: "37 of 120 planes evaluated".
 struct Progress {
-    std::string what;  // "planes priced"
+    std::string what;  // "planes evaluated"
     std::size_t done = 0;
     std::size_t total = 0;  // 0: not known
 };

@@ -18,21 +18,21 @@ struct Step {
 
 SearchSettings settings_of(const Measured& m) {
     SearchSettings settings;
-    settings.objectives.crumb_volume_mm3 = m.crumb_volume_mm3;
+    settings.objectives.fragment_volume_mm3 = m.fragment_volume_mm3;
     return settings;
 }
 
 // As the program does it, and nothing known before.
 std::vector<Ranked> decide(const Measured& m) {
     const SearchSettings settings = settings_of(m);
-    Segmentation s = uncut(*m.piece.mesh, m.crumb_volume_mm3);
+    Segmentation s = uncut(*m.piece.mesh, m.fragment_volume_mm3);
     const auto most = std::max_element(s.pieces.begin(), s.pieces.end(), [](const Piece& a, const Piece& b) {
         return a.mesh->triangles.size() < b.mesh->triangles.size();
     });
     const auto piece = static_cast<std::size_t>(most - s.pieces.begin());
-    PieceBook book(settings.objectives, settings.candidates);
+    EvaluationCache book(settings.objectives, settings.candidates);
     std::vector<Ranked> ranked = rank(s, piece, settings, book, Context{});
-    if (!ranked.empty()) apply(s, cut_by(s, piece, ranked, 0, settings.runners_up), m.crumb_volume_mm3);
+    if (!ranked.empty()) apply(s, cut_by(s, piece, ranked, 0, settings.runners_up), m.fragment_volume_mm3);
     return ranked;
 }
 
@@ -55,7 +55,7 @@ std::vector<Step> profile(const Measured& m, int runs) {
     const auto step = [&](const std::string& what, const auto& work) {
         steps.push_back({what, best_of(runs, cpu_s, work)});
     };
-    step("solids of the scan, in memory order", [&] { return uncut(*m.piece.mesh, m.crumb_volume_mm3); });
+    step("solids of the scan, in memory order", [&] { return uncut(*m.piece.mesh, m.fragment_volume_mm3); });
     step("box", [&] { return oriented_box(m.piece.mesh->points); });
     step("offsets: extent and nudge", all_along);
     step("preparation", [&] { return prepare(m.piece, objectives); });
@@ -82,7 +82,7 @@ std::vector<Step> profile(const Measured& m, int runs) {
         first.piece = "A";
         const Planes& p = planes.front();
         first.chosen.plane = {p.normal, p.offsets[p.offsets.size() / 2]};
-        apply(s, first, m.crumb_volume_mm3);
+        apply(s, first, m.fragment_volume_mm3);
         return s;
     });
     return steps;
@@ -105,17 +105,17 @@ void measure_decision(const Measured& m, const Base& base, const Effort& effort,
     }
     figures.tell(m.name, "- the rest", time_text(std::max(whole - known, 0.0)));
     figures.at_most(m.name, "first decision / one cut", whole / base.cut_s, 25);
-    figures.at_most(m.name, "box / pricing", box / base.pricing_s, 1);
+    figures.at_most(m.name, "box / evaluation", box / base.evaluation_s, 1);
 
     const SearchSettings settings = settings_of(m);
-    PieceBook book(settings.objectives, settings.candidates);
+    EvaluationCache book(settings.objectives, settings.candidates);
     const Piece* piece = &m.piece;
-    book.price(std::span(&piece, 1), Context{});
+    book.evaluate(std::span(&piece, 1), Context{});
     Objectives others = settings.objectives;
     others.weights = {5, 1, 200, 1};
-    const double again = best_of(20, cpu_s, [&] { return rank(book.prices(m.piece), {}, others); });
-    figures.at_most(m.name, "new ranking after a change of weights (" + time_text(again) + ") / pricing",
-                    again / base.pricing_s, 0.01);
+    const double again = best_of(20, cpu_s, [&] { return rank(book.evaluations(m.piece), {}, others); });
+    figures.at_most(m.name, "new ranking after a change of weights (" + time_text(again) + ") / evaluation",
+                    again / base.evaluation_s, 0.01);
 }
 
 }  // namespace qchopper::bench

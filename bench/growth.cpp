@@ -1,6 +1,6 @@
 #include <iostream>
 
-#include "app/project/project.h"
+#include "app/project/project_folder.h"
 #include "base/file.h"
 #include "base/temporary_folder.h"
 #include "bench/child.h"
@@ -14,11 +14,11 @@ namespace fs = std::filesystem;
 
 void measure_growth(const Measured& small, const Base& small_base, std::size_t faces, Figures& figures) {
     const Measured large = one_shell("skull " + number_text(static_cast<double>(faces)), Specimen::skull, faces);
-    const double seconds = pricing_s(large, 3);
+    const double seconds = evaluation_s(large, 3);
     const double growth = static_cast<double>(large.faces()) / static_cast<double>(small.faces());
-    figures.tell(large.name, "pricing", time_text(seconds));
-    figures.at_most(large.name, "growth of pricing / growth of the faces from " + small.name,
-                    seconds / small_base.pricing_s / growth, 1.2);
+    figures.tell(large.name, "evaluation", time_text(seconds));
+    figures.at_most(large.name, "growth of evaluation / growth of the faces from " + small.name,
+                    seconds / small_base.evaluation_s / growth, 1.2);
 }
 
 void measure_memory(const fs::path& program, std::size_t faces, Figures& figures) {

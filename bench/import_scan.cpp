@@ -126,7 +126,7 @@ void measure_stl(const Scan& scan, Figures& figures) {
 void measure_deep(const Scan& scan, Figures& figures) {
     TriangleMesh mesh = read_mesh(scan.file).mesh;
     weld(mesh);
-    split_pinched(mesh, edges(mesh));
+    split_non_manifold_vertices(mesh, edges(mesh));
     const CgalSurface surface(mesh);
     const ThreadLimit one(1);
     const Compared all = compare(

@@ -9,8 +9,8 @@ namespace qchopper::bench {
 
 // What the other figures are ratios to.
 struct Base {
-    double pricing_s = 0;  // 3 x 40 candidates, thesis' fragility, on the prepared piece
-    double cut_s = 0;      // one cut, both halves: mean over nine planes near the middles of the three normals
+    double evaluation_s = 0;  // 3 x 40 candidates, thesis' fragility, on the prepared piece
+    double cut_s = 0;         // one cut, both halves: mean over nine planes near the middles of the three normals
 };
 
 struct Effort {
@@ -19,8 +19,8 @@ struct Effort {
     int runs = 5;       // best of so many
 };
 
-// Pricing against a cut, the stream of its bytes, 120 cuts, CGAL's clip.
-Base measure_pricing(const Measured& measured, const Effort& effort, Figures& figures);
+// Evaluation against a cut, the stream of its bytes, 120 cuts, CGAL's clip.
+Base measure_evaluation(const Measured& measured, const Effort& effort, Figures& figures);
 // A piece with six caps against the uncut mesh, per face.
 void measure_caps(const Measured& measured, const Base& base, const Effort& effort, Figures& figures);
 // 132 normals x 200 offsets, on one and on two threads.
@@ -32,11 +32,11 @@ void measure_decision(const Measured& measured, const Base& base, const Effort& 
 // Until there are so many pieces, on one and on two threads.
 void measure_run(const Measured& measured, std::size_t pieces, Figures& figures);
 
-// How pricing grows with the faces.
+// How evaluation grows with the faces.
 void measure_growth(const Measured& small, const Base& small_base, std::size_t faces, Figures& figures);
 // Peak memory of a program of its own that reads a scan and decides one cut.
 void measure_memory(const std::filesystem::path& program, std::size_t faces, Figures& figures);
 
-double pricing_s(const Measured& measured, int runs);
+double evaluation_s(const Measured& measured, int runs);
 
 }  // namespace qchopper::bench

@@ -17,7 +17,7 @@ constexpr const char* usage = R"(bench_search [--data DIR] [--program QCHOPPER] 
   --data     where bunny_bun_zipper.ply and ct_head_1912k.ply lie
   --program  the program whose memory is measured; without it that figure is left out
   --small    the bunny and 100,000 faces instead: to see that it runs; targets mean nothing there
-  --only     pricing, cuts, clip, caps, many, decision, run, growth or memory; all if none is named
+  --only     evaluation, cuts, clip, caps, many, decision, run, growth or memory; all if none is named
 )";
 
 struct Choice {
@@ -71,7 +71,7 @@ void measure(const Choice& choice, Figures& figures) {
         Effort effort;
         effort.cuts = choice.wants("cuts");
         effort.clip = choice.wants("clip");
-        const Base base = measure_pricing(m, effort, figures);
+        const Base base = measure_evaluation(m, effort, figures);
         if (choice.wants("caps")) measure_caps(m, base, effort, figures);
         if (choice.wants("decision")) measure_decision(m, base, effort, figures);
         const bool is_one_solid = m.name != "CT head, whole";  // else there are many pieces before the first cut

@@ -18,9 +18,9 @@ std::shared_ptr<const TriangleMesh> scan(const std::filesystem::path& file, doub
         std::cerr << file.string() << " is not there: skipped" << std::endl;
         return nullptr;
     }
-    IntakeOptions options;
+    ImportOptions options;
     options.mm_per_unit = mm_per_unit;
-    return std::make_shared<const TriangleMesh>(take_in(file, options).mesh);
+    return std::make_shared<const TriangleMesh>(import_scan(file, options).mesh);
 }
 
 Measured whole(const std::string& name, const TriangleMesh& mesh) {
@@ -32,7 +32,7 @@ Measured whole(const std::string& name, const TriangleMesh& mesh) {
 
 Measured biggest(const std::string& name, const TriangleMesh& mesh) {
     Measured m{name, {}, 1e-5 * volume_mm3(mesh)};
-    const Segmentation start = uncut(mesh, m.crumb_volume_mm3);
+    const Segmentation start = uncut(mesh, m.fragment_volume_mm3);
     m.piece = *std::max_element(start.pieces.begin(), start.pieces.end(), [](const Piece& a, const Piece& b) {
         return a.mesh->triangles.size() < b.mesh->triangles.size();
     });

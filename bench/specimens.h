@@ -16,7 +16,7 @@ namespace qchopper::bench {
 struct Measured {
     std::string name;
     Piece piece;
-    double crumb_volume_mm3 = 0;  // 1e-5 of the scan's
+    double fragment_volume_mm3 = 0;  // 1e-5 of the scan's
     std::size_t faces() const { return piece.mesh->triangles.size(); }
 };
 

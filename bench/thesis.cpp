@@ -50,10 +50,10 @@ Result segment(const Case& which, const TriangleMesh& scan) {
     std::cerr << which.mesh << ": " << scan.triangles.size() << " faces" << std::endl;
     Result result{which, scan.triangles.size(), {}, {}, {}};
     SearchSettings settings = *preset(which.name);
-    settings.objectives.crumb_volume_mm3 = 1e-5 * volume_mm3(scan);
+    settings.objectives.fragment_volume_mm3 = 1e-5 * volume_mm3(scan);
     double before = wall_s();
-    result.segmentation = uncut(scan, settings.objectives.crumb_volume_mm3);
-    PieceBook book(settings.objectives, settings.candidates);
+    result.segmentation = uncut(scan, settings.objectives.fragment_volume_mm3);
+    EvaluationCache book(settings.objectives, settings.candidates);
     const auto on_round = [&](const Segmentation& now) {
         result.wall.push_back(wall_s() - before);
         before = wall_s();
@@ -101,8 +101,8 @@ void print_cuts(const Result& r) {
     double sum = 0;
     for (const double t : r.wall) sum += t;
     std::cout << "\n### " << r.which.name << ": " << r.which.mesh << "\n\n"
-              << s.pieces.size() << " pieces and " << s.crumbs.size() << " crumbs after " << s.cuts.size()
-              << " cuts in " << time_text(sum) << "; " << r.end.reason << ".\n\nFaces of the pieces:";
+              << s.pieces.size() << " pieces and " << s.fragments.size() << " fragments after " << s.cuts.size()
+              << " cuts in " << time_text(sum) << "; " << r.end.sentence << ".\n\nFaces of the pieces:";
     for (const Piece& piece : s.pieces) std::cout << " " << piece.name << " " << piece.mesh->triangles.size();
     std::cout << ".\n\n| cut | piece | makes | face ratio | fragility | piece count | undercut | total | time |\n"
                  "|---|---|---|---|---|---|---|---|---|\n";

@@ -11,7 +11,7 @@ namespace {
 struct Run {
     double first_s = 0;  // to the first cut made
     double whole_s = 0;
-    double pricing_s = 0;  // wall: boxes, offsets and prices
+    double evaluation_s = 0;  // wall: boxes, offsets and evaluations
     std::size_t cuts = 0;
     std::size_t pieces = 0;
 };
@@ -20,23 +20,23 @@ template <class Clock>
 Run run_to(const Measured& m, std::size_t pieces, std::size_t threads, Clock clock) {
     const ThreadLimit limit(threads);
     SearchSettings settings;
-    settings.objectives.crumb_volume_mm3 = m.crumb_volume_mm3;
+    settings.objectives.fragment_volume_mm3 = m.fragment_volume_mm3;
     settings.stop.min_cuts = 10 * static_cast<int>(pieces);
     Run run;
     const double started = clock();
-    Segmentation s = uncut(*m.piece.mesh, m.crumb_volume_mm3);
-    // The store is asked before the book prices and told afterwards, which is a clock for nothing.
+    Segmentation s = uncut(*m.piece.mesh, m.fragment_volume_mm3);
+    // The store is asked before the book evaluations and told afterwards, which is a clock for nothing.
     double asked = 0;
-    PriceStore between;
-    between.find = [&](const Piece&) -> std::optional<PiecePrices> {
+    EvaluationStore between;
+    between.find = [&](const Piece&) -> std::optional<PieceEvaluations> {
         asked = wall_s();
         return std::nullopt;
     };
-    between.keep = [&](const Piece&, const PiecePrices&) {
-        run.pricing_s += asked > 0 ? wall_s() - asked : 0;
+    between.keep = [&](const Piece&, const PieceEvaluations&) {
+        run.evaluation_s += asked > 0 ? wall_s() - asked : 0;
         asked = 0;
     };
-    PieceBook book(settings.objectives, settings.candidates, between);
+    EvaluationCache book(settings.objectives, settings.candidates, between);
     std::atomic<bool> is_enough = false;
     Context context;
     context.cancelled = &is_enough;
@@ -63,9 +63,9 @@ void measure_run(const Measured& m, std::size_t pieces, Figures& figures) {
     figures.at_most(m.name, "whole run / first decision", one.whole_s / one.first_s, 6);
     const Run alone = run_to(m, pieces, 1, wall_s);
     const Run two = run_to(m, pieces, 2, wall_s);
-    figures.tell(m.name, "all pricing of the run, wall",
-                 time_text(alone.pricing_s) + "; two threads " + time_text(two.pricing_s));
-    figures.at_least(m.name, "that: one thread / two threads", alone.pricing_s / two.pricing_s, 1.7);
+    figures.tell(m.name, "all evaluation of the run, wall",
+                 time_text(alone.evaluation_s) + "; two threads " + time_text(two.evaluation_s));
+    figures.at_least(m.name, "that: one thread / two threads", alone.evaluation_s / two.evaluation_s, 1.7);
 }
 
 }  // namespace qchopper::bench

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "devices/hand_off.h"
 #include "devices/hand_off_context.h"
 
 namespace qchopper::hand_off {

@@ -113,7 +113,7 @@ struct CellSim::Parts {
             const FileTask task = std::move(*check);
             check.reset();
             lock.unlock();
-            const FileCheck found = take_in(task);
+            const FileCheck found = import_scan(task);
             const std::uint32_t free_kib = store->free_kib();
             lock.lock();
             cell.store_free_kib = free_kib;
@@ -123,7 +123,7 @@ struct CellSim::Parts {
 
     // The file comes into the cell's own store, and what is hashed are the bytes that are stored: what runs is the
     // copy.
-    FileCheck take_in(const FileTask& task) const {
+    FileCheck import_scan(const FileTask& task) const {
         FileCheck found;
         Bytes bytes = task.chunks;
         const bool from_folder = task.ticket.transfer == Transfer::drop_folder;

@@ -36,7 +36,7 @@ struct Named {
     TriangleMesh mesh;
     std::size_t solids = 1;
 };
-// Every closed, valid shape above, for laws that hold for all of them.
+// Every closed, valid shape above, for invariants that hold for all of them.
 std::vector<Named> all_closed();
 
 }  // namespace qchopper::shapes

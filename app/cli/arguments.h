@@ -1,4 +1,4 @@
-// What the operator typed, as values. The only file that knows the option parser is arguments.cpp.
+// What the operator typed, as values.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/vec3.h"
+#include "app/project/export_pieces.h"
 
 namespace qchopper {
 
@@ -31,6 +31,7 @@ struct InspectArguments {
 struct RepairChoiceArguments {
     std::optional<double> weld_mm;
     std::optional<std::string> fill;  // auto | flat | fair | none
+    bool resolve_self_intersections = false;
     bool smooth_marks = false;
     std::optional<double> wrap_mm;
 };
@@ -40,7 +41,7 @@ struct RepairArguments : RepairChoiceArguments {
     std::filesystem::path out;
     std::optional<std::string> units;
     std::optional<double> scale;
-    std::optional<std::string> crumbs;  // keep | drop
+    std::optional<std::string> fragments;  // keep | drop
     bool keep_self_intersections = false;
     std::optional<double> mark_width;  // mm, of the widest mark
     std::optional<double> mark_depth;  // mm, of the deepest
@@ -49,21 +50,20 @@ struct RepairArguments : RepairChoiceArguments {
 
 // What a new project is told; a stop rule also tells a search how to go on.
 struct ProjectArguments : RepairChoiceArguments {
-    bool resolve_self_intersections = false;
     std::optional<std::string> units;
     std::optional<double> scale;
     std::optional<std::filesystem::path> cell;
     std::optional<std::string> preset;
     std::optional<int> min_cuts;
     std::optional<std::size_t> max_faces;
-    std::optional<Vec3> max_obb;
+    std::optional<std::string> max_obb;  // option_values.h reads it
     bool fits_cell = false;
     std::optional<std::string> stop;       // any | all
     std::optional<std::string> fragility;  // thinness | thesis
-    std::optional<std::string> weights;    // segment_values.h reads it
+    std::optional<std::string> weights;    // option_values.h reads it
     std::optional<int> beam;
     std::optional<double> time_limit_s;
-    std::optional<std::string> crumbs;  // keep | drop
+    std::optional<std::string> fragments;  // keep | drop
     std::optional<double> fragment_volume_mm3;
     std::optional<std::filesystem::path> out;
 };
@@ -98,14 +98,8 @@ struct ExplainArguments {
     std::optional<std::filesystem::path> out;  // of the plot
 };
 
-struct ExportArguments {
+struct ExportArguments : ExportRequest {
     std::filesystem::path project;
-    std::string format;          // 3mf | stl | ply | glb
-    std::string pose = "place";  // place | setup
-    std::optional<std::string> piece;
-    std::optional<double> simplify_mm;
-    std::optional<std::size_t> max_faces;
-    std::optional<std::filesystem::path> out;
 };
 
 struct DryRunArguments {
@@ -138,8 +132,5 @@ struct Arguments {
                  ExplainArguments, ExportArguments, DryRunArguments, CellSimArguments, DispatchArguments>
         command;
 };
-
-// Nothing if help or version was asked for: it is on stdout then. Throws InputError (use).
-std::optional<Arguments> parse_arguments(int argc, const char* const* argv);
 
 }  // namespace qchopper

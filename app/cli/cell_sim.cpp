@@ -4,12 +4,12 @@
 #include <chrono>
 #include <iostream>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
 #include "app/cli/simulated_limits.h"
+#include "app/report/notices.h"
 #include "devices/modbus_tcp.h"
 #include "sim/cell_sim.h"
 
@@ -65,7 +65,7 @@ int run(const CellSimArguments& arguments, Terminal& terminal) {
     const bool is_ipv6 = address.host.find(':') != std::string::npos;
     const std::string where = (is_ipv6 ? "[" + address.host + "]" : address.host) + ":" + std::to_string(sim.port());
     terminal.show("listening " + where);
-    terminal.json(nlohmann::ordered_json{{"schema", "qchopper-cell-sim-1"}, {"listening", where}}.dump());
+    terminal.json(listening_document(where));
     while (!Terminal::is_cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
     sim.stop();
     terminal.say("simulated cell stopped");

@@ -1,9 +1,10 @@
-// The commands: each takes what was typed, calls the rooms in their order, and returns the exit code.
+// The commands: each takes what was typed, calls app/project and app/report, and returns the exit code.
 
 #pragma once
 
 #include "app/cli/arguments.h"
 #include "app/cli/terminal.h"
+#include "app/project/hand_over.h"
 
 namespace qchopper {
 
@@ -17,5 +18,9 @@ int run(const ExportArguments& arguments, Terminal& terminal);
 int run(const DryRunArguments& arguments, Terminal& terminal);
 int run(const CellSimArguments& arguments, Terminal& terminal);
 int run(const DispatchArguments& arguments, Terminal& terminal);
+
+// What dry-run and dispatch share: hands the jobs over, shows table or document, and returns the exit code.
+int hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options,
+              const std::string& schema, Terminal& terminal);
 
 }  // namespace qchopper

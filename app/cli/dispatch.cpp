@@ -6,7 +6,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
-#include "app/cli/hand_over.h"
+#include "app/report/hand_over_report.h"
 #include "cam/cell/cell.h"
 #include "devices/codec.h"
 #include "devices/first_contact.h"
@@ -28,6 +28,19 @@ bool is_confirmed(const std::string& question) {
 }
 
 }  // namespace
+
+int hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options,
+              const std::string& schema, Terminal& terminal) {
+    const auto on_complete = [&](std::size_t count) {  // what an error in the next job has to say of those before it
+        terminal.unchanged = "The " + std::to_string(count) + " jobs before it ended complete; it was not started.";
+    };
+    const HandOverReport report{hand_over(jobs, bus, options, on_complete, terminal.context()), jobs.size(),
+                                options.want_simulated};
+    terminal.show(lines(report));
+    terminal.json(document(report, schema));
+    if (report.is_cancelled()) return Terminal::cancel_code();
+    return report.is_complete() ? exit_done : exit_demand_broken;
+}
 
 int run(const DispatchArguments& arguments, Terminal& terminal) {
     terminal.unchanged = "The project is unchanged, and no job was started.";
@@ -57,8 +70,7 @@ int run(const DispatchArguments& arguments, Terminal& terminal) {
         terminal.say("not confirmed: nothing was sent");
         return exit_demand_broken;
     }
-    return report(hand_over(jobs, bus, options, terminal), jobs.size(), "qchopper-dispatch-1", options.want_simulated,
-                  terminal);
+    return hand_over(jobs, bus, options, "qchopper-dispatch-1", terminal);
 }
 
 }  // namespace qchopper

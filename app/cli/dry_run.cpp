@@ -1,5 +1,4 @@
 #include "app/cli/commands.h"
-#include "app/cli/hand_over.h"
 #include "app/cli/simulated_limits.h"
 #include "base/temporary_folder.h"
 #include "devices/modbus_tcp.h"
@@ -27,7 +26,7 @@ int run(const DryRunArguments& arguments, Terminal& terminal) {
     dispatch.want_simulated = true;
     dispatch.drop_folder = drop.path();
     dispatch.timings.poll_s = 0.02;
-    return report(hand_over(jobs, bus, dispatch, terminal), jobs.size(), "qchopper-dry-run-1", true, terminal);
+    return hand_over(jobs, bus, dispatch, "qchopper-dry-run-1", terminal);
 }
 
 }  // namespace qchopper

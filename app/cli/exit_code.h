@@ -14,7 +14,7 @@ enum ExitCode : int {
     exit_mesh = 65,          // the scan is wrong
     exit_missing = 66,       // input missing or unreadable
     exit_unreachable = 69,   // cell not reachable
-    exit_ours = 70,          // our fault
+    exit_internal = 70,      // internal error
     exit_create = 73,        // cannot create output
     exit_io = 74,            // read or write error
     exit_busy = 75,          // try again later
@@ -41,7 +41,7 @@ constexpr ExitCode exit_code(InputFault fault) {
         case InputFault::config:
             return exit_config;
     }
-    return exit_ours;
+    return exit_internal;
 }
 
 constexpr ExitCode exit_code(DeviceFault fault) {
@@ -55,7 +55,7 @@ constexpr ExitCode exit_code(DeviceFault fault) {
         case DeviceFault::refused:
             return exit_demand_broken;
     }
-    return exit_ours;
+    return exit_internal;
 }
 
 }  // namespace qchopper

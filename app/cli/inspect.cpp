@@ -16,7 +16,7 @@ int run(const InspectArguments& arguments, Terminal& terminal) {
     const std::optional<double> mm = agreed_mm_per_unit(inspection.mm_per_unit, given, name_of_scan(arguments.scan));
     InspectedFile file{name_of_scan(arguments.scan), {}, inspection};
     if (mm) file.units = name_of(unit_of(*mm));
-    for (const std::string& line : lines(file)) terminal.show(line);
+    terminal.show(lines(file));
     terminal.json(document(file));
     return exit_done;
 }

@@ -2,7 +2,8 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
-#include "app/cli/segment_project.h"
+#include "app/cli/project_arguments.h"
+#include "app/project/project_folder.h"
 #include "app/report/repair_report.h"
 #include "segment/import/import_scan.h"
 #include "segment/io/write_ply.h"
@@ -11,7 +12,7 @@
 namespace qchopper {
 namespace {
 
-IntakeOptions options_of(const RepairArguments& a) {
+ImportOptions options_of(const RepairArguments& a) {
     if ((a.mark_width || a.mark_depth) && !a.smooth_marks) {
         throw InputError(InputFault::use, "--mark-width and --mark-depth tell what --smooth-marks looks for",
                          "say --smooth-marks too");
@@ -19,7 +20,7 @@ IntakeOptions options_of(const RepairArguments& a) {
     const auto is_skipped = [&](const std::string& step) {
         return std::find(a.skipped.begin(), a.skipped.end(), step) != a.skipped.end();
     };
-    IntakeOptions options;
+    ImportOptions options;
     if (a.units) options.mm_per_unit = mm_per(unit_named(*a.units));
     options.scale = a.scale.value_or(1);
     options.may_lack_unit = !a.weld_mm && !a.smooth_marks && !a.wrap_mm;  // nothing is said in mm
@@ -32,9 +33,9 @@ IntakeOptions options_of(const RepairArguments& a) {
     options.repair.split = !is_skipped("split");
     options.repair.orient = !is_skipped("orient");
     options.repair.stitch = !is_skipped("stitch");
-    options.repair.remove_no_area = !is_skipped("no_area");
-    options.repair.turn_outwards = !is_skipped("outwards");
-    options.repair.drop_crumbs = a.crumbs && *a.crumbs == "drop";
+    options.repair.remove_degenerate = !is_skipped("degenerate");
+    options.repair.orient_outward = !is_skipped("outwards");
+    options.repair.drop_fragments = a.fragments && *a.fragments == "drop";
     options.repair.measure_deviation = true;
     return options;
 }
@@ -53,7 +54,7 @@ int run(const RepairArguments& arguments, Terminal& terminal) {
         throw InputError(InputFault::use, arguments.out.string() + " ends neither in .ply nor in .stl",
                          "name a .ply file");
     }
-    const IntakeOptions options = options_of(arguments);
+    const ImportOptions options = options_of(arguments);
     check_output(arguments.out);
     RepairedScan scan = repair_scan(arguments.scan, options, terminal.context());
     enlarge(scan, options.scale);
@@ -61,9 +62,9 @@ int run(const RepairArguments& arguments, Terminal& terminal) {
         scan.warnings.emplace_back("STL holds single precision: points are rounded; a .ply file keeps every bit.");
     }
     write_file(arguments.out, is_stl ? to_stl(scan.mesh) : to_ply(scan.mesh));
-    for (const std::string& warning : scan.warnings) terminal.warn(warning);
+    terminal.warn(scan.warnings);
     const RepairedFile file{arguments.scan, arguments.out, options.scale};
-    for (const std::string& line : lines(scan, file)) terminal.show(line);
+    terminal.show(lines(scan, file));
     terminal.json(document(scan, file));
     return scan.report.is_solid() ? exit_done : exit_demand_broken;
 }

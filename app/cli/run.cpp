@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <new>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
+#include "app/cli/parse_arguments.h"
+#include "app/report/notices.h"
 
 namespace qchopper {
 namespace {
@@ -47,12 +48,7 @@ int report(Terminal& terminal, const std::string& what, const std::string& to_do
     }
     terminal.error(line);
     if (terminal.is_json()) {
-        const nlohmann::ordered_json document{{"schema", "qchopper-error-1"},
-                                              {"error", what},
-                                              {"unchanged", terminal.unchanged},
-                                              {"to_do", to_do},
-                                              {"exit_code", code}};
-        terminal.json(document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+        terminal.json(error_document(what, terminal.unchanged, to_do, code));
     }
     return code;
 }
@@ -77,10 +73,10 @@ int run_program(int argc, const char* const* argv) {
         return report(terminal, "stopped on request", "", Terminal::cancel_code());
     } catch (const std::bad_alloc&) {
         return report(terminal, "out of memory", "use a scan with fewer faces, or a machine with more memory",
-                      exit_ours);
+                      exit_internal);
     } catch (const std::exception& e) {
-        return report(terminal, std::string("our fault: ") + e.what(), "report this with the command and the scan",
-                      exit_ours);
+        return report(terminal, std::string("internal error: ") + e.what(), "report this with the command and the scan",
+                      exit_internal);
     }
 }
 

@@ -1,14 +1,9 @@
-#include <nlohmann/json.hpp>
-
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
-#include "app/cli/segment_project.h"
-#include "base/text.h"
-#include "segment/import/inspect.h"
+#include "app/project/project_folder.h"
+#include "app/report/notices.h"
 #include "segment/io/write_ply.h"
 #include "segment/io/write_stl.h"
-#include "segment/mesh/measure.h"
-#include "segment/sample/sample.h"
 
 namespace qchopper {
 
@@ -23,29 +18,11 @@ int run(const SampleArguments& arguments, Terminal& terminal) {
     options.faces = arguments.faces;
     options.holes = arguments.holes;
     options.marks = arguments.marks;
-    DrawnMarks drawn;
-    const TriangleMesh mesh = sample(*specimen_named(arguments.specimen), options, terminal.context(), &drawn);
-    write_file(arguments.out, is_stl ? to_stl(mesh) : to_ply(mesh));
-    const std::string size = size_in_words(bounds(mesh).size());
-    terminal.show(arguments.out.string() + ": " + arguments.specimen + ", " + with_commas(mesh.triangles.size()) +
-                  " faces, " + size + ", in mm");
-    if (arguments.marks > 0) {
-        terminal.show(std::to_string(drawn.lines.size()) + " marks, " + fixed(drawn.width, 1) + " mm wide and " +
-                      fixed(drawn.depth, 2) + " mm deep");
-    }
-    terminal.json(nlohmann::ordered_json{
-        {"schema", "qchopper-sample-1"},
-        {"specimen", arguments.specimen},
-        {"file", arguments.out.string()},
-        {"faces", mesh.triangles.size()},
-        {"vertices", mesh.points.size()},
-        {"holes", arguments.holes},
-        {"marks", drawn.lines.size()},
-        {"mark_width_mm", drawn.width},
-        {"mark_depth_mm", drawn.depth},
-        {"units", "mm"},
-        {"size",
-         size}}.dump(1));
+    WrittenSample made{arguments.specimen, arguments.out.string(), arguments.holes, {}, {}};
+    made.mesh = sample(*specimen_named(arguments.specimen), options, terminal.context(), &made.marks);
+    write_file(arguments.out, is_stl ? to_stl(made.mesh) : to_ply(made.mesh));
+    terminal.show(lines(made));
+    terminal.json(document(made));
     return exit_done;
 }
 

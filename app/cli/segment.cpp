@@ -2,14 +2,13 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
-#include "app/cli/segment_decide.h"
-#include "app/cli/segment_project.h"
-#include "app/cli/segment_setups.h"
-#include "app/cli/segment_values.h"
-#include "app/project/products.h"
+#include "app/cli/option_values.h"
+#include "app/cli/project_arguments.h"
+#include "app/project/project_folder.h"
+#include "app/project/replay.h"
 #include "app/project/replay_plan.h"
+#include "app/project/shell_word.h"
 #include "app/report/segment_report.h"
-#include "app/report/shell_word.h"
 
 namespace qchopper {
 namespace {
@@ -62,7 +61,7 @@ void check_project(const SegmentArguments& a, const std::string& action) {
     const std::pair<bool, const char*> fixed_ones[] = {
         {a.units.has_value(), "--units"},         {a.scale.has_value(), "--scale"},
         {a.preset.has_value(), "--preset"},       {a.fragment_volume_mm3.has_value(), "--fragment-volume"},
-        {a.crumbs.has_value(), "--crumbs"},       {a.out.has_value(), "--out"},
+        {a.fragments.has_value(), "--fragments"}, {a.out.has_value(), "--out"},
         {a.fragility.has_value(), "--fragility"}, {a.replayed.has_value(), "--replay"},
         {is_any_given(a), "a choice of repair"}};
     for (const auto& [is_given, name] : fixed_ones) {
@@ -93,64 +92,62 @@ void check_scan(const SegmentArguments& a, const std::string& action) {
 
 int tell(SegmentAnswer answer, const OpenProject& project, Terminal& terminal) {
     answer.pieces_written = project.are_pieces_written();
-    for (const std::string& line : lines(answer, project.folder(), project.project())) terminal.show(line);
+    terminal.warn(answer.warnings);
+    terminal.show(lines(answer, project.folder(), project.project()));
     terminal.json(document(answer, project.folder(), project.project()));
     return answer.is_demand_met ? exit_done : exit_demand_broken;
 }
 
-// Opens the project in a folder whose lock is held.
-int decide_in(const fs::path& folder, Project project, std::optional<TriangleMesh> scan, const SegmentArguments& a,
+// The lock of the project is held.
+int decide_in(OpenProject& open, const std::optional<GivenWeights>& weights, const SegmentArguments& a,
               Terminal& terminal) {
-    std::optional<Cell> cell;
-    if (fs::exists(folder / "cell.toml")) cell = read_cell(folder / "cell.toml");
-    const Project as_loaded = project;
-    OpenProject open(folder, std::move(project), [&]() -> TriangleMesh {
-        return scan ? std::move(*scan) : std::move(take_in_scan(as_loaded, terminal).mesh);
-    });
-    std::optional<Setups> setups;
-    FitsCell fits_cell;
-    if (cell) {
-        setups.emplace(*cell);
-        fits_cell = [&](const Piece& piece) { return setups->of(piece).envelope.fits(); };
-    }
+    open.setups();  // a cell file that is wrong is told before anything is decided
     if (a.write_pieces) open.keep_pieces_written();
-    return tell(decide(open, a, fits_cell, terminal), open, terminal);
+    SegmentAnswer answer;
+    if (weights) answer = change_weights(open, weights->over(open.project().settings.objectives.weights));
+    if (!answer.done.empty()) terminal.unchanged = "The weights are changed; the cuts are unchanged.";
+    const auto is_beam = [&] { return open.project().settings.beam > 1; };
+    SearchListener listener;
+    listener.on_kept = [&](std::size_t cuts) {
+        terminal.unchanged = kept_cuts(cuts, open.folder(), is_beam()) + "; go on by --auto.";
+    };
+    listener.on_round = [&](const Segmentation& best) {
+        terminal.say((is_beam() ? "best so far: " : "") + cut_line(best.cuts.back()));
+    };
+    return tell(decide(open, request_of(a), listener, terminal.context(), std::move(answer)), open, terminal);
 }
 
-std::string kept_words(const Segmentation& segmentation, const fs::path& folder) {
-    return "The " + std::to_string(segmentation.cuts.size()) + " cuts made so far are kept in " + folder.string() + ".";
-}
-
-int replay_in(const fs::path& folder, Project project, TriangleMesh scan, const Plan& plan, bool write_pieces,
-              Terminal& terminal) {
-    OpenProject open(folder, std::move(project), [&] { return std::move(scan); });
-    if (write_pieces) open.keep_pieces_written();
-    Segmentation segmentation = open.segmentation();
+int replay_in(OpenProject& open, const Plan& plan, Terminal& terminal) {
     std::size_t discarded = 0;
-    const auto keep = [&](const Segmentation& s) {
-        open.adopt(s);
-        terminal.unchanged = kept_words(s, folder);
+    const auto on_decision = [&](const Segmentation& s) {
+        terminal.unchanged = kept_cuts(s.cuts.size(), open.folder()) + ".";
         const bool is_cut = s.discarded.size() == discarded;
         terminal.say(is_cut ? cut_line(s.cuts.back()) : discarded_lines(open.project()).back());
         discarded = s.discarded.size();
     };
-    const PlanReplay replay = replay_plan(plan, open.project().scan, segmentation, open.project().settings, open.book(),
-                                          keep, terminal.context());
+    return tell(make_cuts_of(plan, open, on_decision, terminal.context()), open, terminal);
+}
+
+std::optional<Plan> plan_of(const SegmentArguments& a) {
+    if (!a.replayed) return std::nullopt;
+    const Bytes text = read_file(*a.replayed, record_limit);
+    return plan_from_text({reinterpret_cast<const char*>(text.data()), text.size()}, a.replayed->string());
+}
+
+// The weights of a plan are its project's too, unless a preset or the arguments say others.
+void take_weights(Project& project, const Plan& plan, const SegmentArguments& a) {
+    if (a.preset) return;
+    const Weights weights = a.weights ? weights_from(*a.weights)->over(plan.weights) : plan.weights;
+    project.settings.objectives.weights = project.history.weights_at_start = weights;
+}
+
+int tell_misfit(const std::string& why, const fs::path& out, const Project& project, Terminal& terminal) {
     SegmentAnswer answer;
-    answer.notes = replay.notes;
-    char off[32];
-    std::snprintf(off, sizeof off, "%.3g %%", 100 * replay.largest_volume_off);
-    const std::string until = std::to_string(segmentation.cuts.size()) + " of " + std::to_string(plan.cuts.size());
-    const std::string left_out =
-        std::to_string(segmentation.discarded.size()) + " of " + std::to_string(plan.discards.size());
-    answer.done = until + " cuts of the plan are made" +
-                  (plan.discards.empty() ? "" : ", " + left_out + " pieces of it discarded") +
-                  "; the volumes of the pieces differ by at most " + off + ".";
-    if (!replay.applies) {
-        answer.is_demand_met = false;
-        answer.notes.push_back("The plan does not apply: " + replay.why + ". " + kept_words(segmentation, folder));
-    }
-    return tell(answer, open, terminal);
+    answer.is_demand_met = false;
+    answer.notes = {"The plan does not apply: " + why + ". Nothing was made."};
+    terminal.show(answer.notes);
+    terminal.json(document(answer, out, project));
+    return exit_demand_broken;
 }
 
 int start(const SegmentArguments& a, Terminal& terminal) {
@@ -161,61 +158,47 @@ int start(const SegmentArguments& a, Terminal& terminal) {
         read_cell(*a.cell);  // an impossible one is refused before anything is made
         cell_file = read_file(*a.cell, settings_limit);
     }
-    std::optional<Plan> plan;
-    if (a.replayed) {
-        const Bytes text = read_file(*a.replayed, record_limit);
-        plan = plan_from_text({reinterpret_cast<const char*>(text.data()), text.size()}, a.replayed->string());
-    }
-    Intake intake = take_in_scan(a.input, a, terminal);
-    Project project = new_project(a.input, intake, a);
+    const std::optional<Plan> plan = plan_of(a);
+    const ProjectChoices choices = choices_of(a.input, a);
+    ImportedScan imported = import_project_scan(choices, terminal.context());
+    terminal.warn(imported.report.warnings);
+    Project project = new_project(choices, imported);
     if (plan) {
-        if (!a.preset) {
-            const Weights weights = a.weights ? weights_from(*a.weights)->over(plan->weights) : plan->weights;
-            project.settings.objectives.weights = project.history.weights_at_start = weights;
-        }
-        const std::string why = misfit(*plan, project.scan, intake.mesh);
-        if (!why.empty()) {
-            SegmentAnswer answer;
-            answer.is_demand_met = false;
-            answer.notes = {"The plan does not apply: " + why + ". Nothing was made."};
-            terminal.show(answer.notes.front());
-            terminal.json(document(answer, out, project));
-            return exit_demand_broken;
-        }
+        take_weights(project, *plan, a);
+        const std::string why = misfit(*plan, project.scan, imported.mesh);
+        if (!why.empty()) return tell_misfit(why, out, project, terminal);
     }
-    record(project, uncut(intake.mesh, project.settings.objectives.crumb_volume_mm3));
+    record(project, uncut(imported.mesh, project.settings.objectives.fragment_volume_mm3));
     create_project(out, project, cell_file);
     terminal.unchanged = "The project " + out.string() + " is made, with no cut.";
     const ProjectLock lock(out);
-    if (plan) return replay_in(out, std::move(project), std::move(intake.mesh), *plan, a.write_pieces, terminal);
-    SegmentArguments decisions = a;
-    decisions.weights.reset();  // the project is made with them
-    return decide_in(out, std::move(project), std::move(intake.mesh), decisions, terminal);
+    OpenProject open(out, std::move(project), [&] { return std::move(imported.mesh); });
+    if (!plan) return decide_in(open, std::nullopt, a, terminal);  // it is made with the weights that were given
+    if (a.write_pieces) open.keep_pieces_written();
+    return replay_in(open, *plan, terminal);
 }
 
 }  // namespace
 
 int run(const SegmentArguments& a, Terminal& terminal) {
-    std::error_code error;
-    const bool is_project = fs::is_directory(a.input, error);
     const std::string action = action_of(a);
-    check_together(a, action, is_project);
-    if (!is_project) {
+    std::error_code error;
+    check_together(a, action, fs::is_directory(a.input, error));
+    if (!is_project_folder(a.input)) {
         check_scan(a, action);
         return start(a, terminal);
-    }
-    if (!fs::exists(a.input / "project.json", error)) {
-        throw InputError(InputFault::missing, a.input.string() + " is a folder, but no project",
-                         "name a scan, or a folder that segment or prepare has made");
     }
     check_project(a, action);
     terminal.unchanged = "The project is unchanged.";
     const fs::path folder = without_slash(a.input);
     const ProjectLock lock(folder);
-    Project project = load_project(folder);
+    OpenProject open(folder, terminal.context());
     clear_leftovers(folder);
-    if (a.cell) take_cell(folder, *a.cell, terminal);
-    return decide_in(folder, std::move(project), std::nullopt, a, terminal);
+    if (a.cell) {
+        take_cell(folder, *a.cell, terminal.context());
+        terminal.unchanged = "The project knows its cell now; its decisions are unchanged.";
+    }
+    return decide_in(open, a.weights ? weights_from(*a.weights) : std::nullopt, a, terminal);
 }
 
 }  // namespace qchopper

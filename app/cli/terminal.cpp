@@ -77,6 +77,10 @@ void Terminal::warn(const std::string& line) {
     std::cerr << "warning: " << line << std::endl;
 }
 
+void Terminal::warn(const std::vector<std::string>& lines) {
+    for (const std::string& line : lines) warn(line);
+}
+
 void Terminal::error(const std::string& line) {
     clear_line();
     std::cerr << line << std::endl;
@@ -86,6 +90,10 @@ void Terminal::show(const std::string& text) {
     if (json_) return;
     clear_line();
     std::cout << text << std::endl;
+}
+
+void Terminal::show(const std::vector<std::string>& lines) {
+    for (const std::string& line : lines) show(line);
 }
 
 void Terminal::json(const std::string& document) {

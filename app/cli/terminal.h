@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <string>
+#include <vector>
 
 #include "base/context.h"
 
@@ -19,9 +20,11 @@ class Terminal {
     // A line for the operator, on stderr. Plain ones are left out when quiet.
     void say(const std::string& line);
     void warn(const std::string& line);
+    void warn(const std::vector<std::string>& lines);
     void error(const std::string& line);
     // A result for the operator, on stdout; left out with --json.
     void show(const std::string& text);
+    void show(const std::vector<std::string>& lines);
     // The one JSON document, on stdout; left out without --json.
     void json(const std::string& document);
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cassert>
 
+#include "base/text.h"
+#include "segment/search/rank.h"
+
 namespace qchopper {
 
 std::string words(const Decision& decision) {
@@ -11,6 +14,26 @@ std::string words(const Decision& decision) {
     }
     if (const auto* discard = std::get_if<Discard>(&decision)) return "discard of piece " + discard->piece;
     return std::holds_alternative<WeightsChange>(decision) ? "change of weights" : "reset";
+}
+
+std::string cut_line(const Cut& cut) {
+    const Terms& t = cut.chosen.terms;
+    // Another than the best may have been accepted; the best is then among those that were passed over. Of totals that
+    // differ by a tie none is better.
+    const bool is_best = std::all_of(cut.runners_up.begin(), cut.runners_up.end(),
+                                     [&](const Ranked& r) { return r.terms.total + tie >= t.total; });
+    const std::string which = cut.chosen.normal < 0
+                                  ? "given plane"
+                                  : (is_best ? "best of " : "one of ") + std::to_string(cut.candidates) + " planes";
+    return "cut " + std::to_string(cut.number) + " on piece " + cut.piece + ": " + which + ", total " +
+           fixed(t.total, 3) + " (face ratio " + fixed(t.face_ratio, 2) + ", fragility " + fixed(t.fragility, 3) +
+           ", piece count " + fixed(t.piece_count, 0) + ", undercut " + fixed(t.undercut, 3) + "); makes " + makes(cut);
+}
+
+std::string makes(const Cut& cut) {
+    std::string made;
+    for (const std::string& name : cut.pieces) made += (made.empty() ? "" : ", ") + name;
+    return made + (cut.fragments > 0 ? " and " + std::to_string(cut.fragments) + " fragments" : "");
 }
 
 std::vector<Cut> standing_cuts(const History& history) {

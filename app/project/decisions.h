@@ -45,6 +45,12 @@ struct History {
 // "cut 3 on piece B", "discard of piece C", "change of weights", "reset".
 std::string words(const Decision& decision);
 
+// "cut 2 on piece B: best of 120 planes, total 3.929 (...); makes D, E".
+std::string cut_line(const Cut& cut);
+
+// "D, E and 2 fragments": what a cut made.
+std::string makes(const Cut& cut);
+
 std::vector<Cut> standing_cuts(const History& history);
 std::vector<Discard> standing_discards(const History& history);
 Weights standing_weights(const History& history);

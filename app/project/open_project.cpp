@@ -2,8 +2,12 @@
 
 #include <algorithm>
 
-#include "app/project/price_cache.h"
-#include "app/project/products.h"
+#include "app/project/evaluation_store.h"
+#include "app/project/project_folder.h"
+#include "app/project/project_scan.h"
+#include "app/project/replay.h"
+#include "app/project/shell_word.h"
+#include "base/error.h"
 #include "segment/cut/nudge.h"
 
 namespace qchopper {
@@ -18,11 +22,25 @@ std::optional<Candidate> nudged_off(const Piece& piece, const Plane& plane) {
 
 }  // namespace
 
-OpenProject::OpenProject(std::filesystem::path folder, Project project, std::function<TriangleMesh()> take_in_scan)
-    : folder_(std::move(folder)), project_(std::move(project)), take_in_scan_(std::move(take_in_scan)) {}
+bool PreparedProject::all_fit() const {
+    return std::all_of(pieces.begin(), pieces.end(), [](const PieceReport& p) { return !p.job.empty(); });
+}
+
+std::string early_end(const std::string& sentence) {
+    return "the stop rules do not hold: " + sentence;
+}
+
+OpenProject::OpenProject(std::filesystem::path folder, Project project,
+                         std::function<TriangleMesh()> import_project_scan)
+    : folder_(std::move(folder)), project_(std::move(project)), import_scan_(std::move(import_project_scan)) {}
+
+OpenProject::OpenProject(const std::filesystem::path& folder, const Context& context)
+    : OpenProject(folder, load_project(folder), {}) {
+    import_scan_ = [this, context] { return std::move(qchopper::import_project_scan(project_, context).mesh); };
+}
 
 const TriangleMesh& OpenProject::scan() {
-    if (!scan_) scan_ = take_in_scan_();
+    if (!scan_) scan_ = import_scan_();
     return *scan_;
 }
 
@@ -31,13 +49,32 @@ const Segmentation& OpenProject::segmentation() {
     return *segmentation_;
 }
 
-PieceBook& OpenProject::book() {
+EvaluationCache& OpenProject::book() {
     if (!book_) {
         const SearchSettings& settings = project_.settings;
-        book_ = std::make_unique<PieceBook>(settings.objectives, settings.candidates,
-                                            price_cache(folder_ / "cache", settings.objectives, settings.candidates));
+        book_ = std::make_unique<EvaluationCache>(
+            settings.objectives, settings.candidates,
+            evaluation_store(folder_ / "cache", settings.objectives, settings.candidates));
     }
     return *book_;
+}
+
+Setups* OpenProject::setups() {
+    const std::filesystem::path cell = folder_ / "cell.toml";
+    if (!setups_ && std::filesystem::exists(cell)) setups_.emplace(read_cell(cell));
+    return setups_ ? &*setups_ : nullptr;
+}
+
+void OpenProject::check_cell() {
+    if (setups() != nullptr) return;
+    throw InputError(InputFault::use, folder_.string() + " knows no cell yet",
+                     "say --cell FILE, for example cells/foam-1.toml");
+}
+
+FitsCell OpenProject::fits_cell() {
+    Setups* setups = this->setups();
+    if (setups == nullptr) return {};
+    return [setups](const Piece& piece) { return setups->of(piece).envelope.fits(); };
 }
 
 OpenProject::Next OpenProject::next(const FitsCell& fits_cell) {
@@ -74,12 +111,12 @@ std::optional<Ranked> OpenProject::own_plane(std::size_t piece, const Plane& pla
 bool OpenProject::misses(std::size_t piece, const Plane& plane) {
     const Piece& target = segmentation().pieces[piece];
     const std::optional<Candidate> candidate = nudged_off(target, plane);
-    return !candidate || !book().price_of(target, *candidate, {});
+    return !candidate || !book().evaluation_of(target, *candidate, {});
 }
 
 bool OpenProject::decide_cut(Cut cut) {
     Segmentation after = segmentation();
-    if (!apply(after, std::move(cut), project_.settings.objectives.crumb_volume_mm3)) return false;
+    if (!apply(after, std::move(cut), project_.settings.objectives.fragment_volume_mm3)) return false;
     adopt(after);
     return true;
 }
@@ -89,8 +126,10 @@ void OpenProject::adopt(const Segmentation& segmentation) {
 }
 
 void OpenProject::adopt(const Segmentation& segmentation, std::optional<BeamState> beam) {
-    take_away_products(folder_, project_);
+    remove_outputs(folder_, project_);
     segmentation_ = segmentation;
+    end_.reset();
+    project_.end_reason.reset();
     project_.ended_because.clear();
     record(project_, *segmentation_);
     project_.beam = std::move(beam);
@@ -115,7 +154,7 @@ bool OpenProject::decide_discard(const std::string& piece) {
 
 bool OpenProject::decide_reset() {
     if (project_.cuts.empty() && project_.discards.empty()) return false;
-    take_away_products(folder_, project_);
+    remove_outputs(folder_, project_);
     decide(project_.history, Reset{});
     stand_at(project_.history.standing);
     return true;
@@ -124,7 +163,7 @@ bool OpenProject::decide_reset() {
 std::optional<Decision> OpenProject::undo() {
     const Decision* last = to_undo(project_.history);
     if (last == nullptr) return std::nullopt;
-    if (!std::holds_alternative<WeightsChange>(*last)) take_away_products(folder_, project_);
+    if (!std::holds_alternative<WeightsChange>(*last)) remove_outputs(folder_, project_);
     stand_at(project_.history.standing - 1);
     return project_.history.decisions[project_.history.standing];
 }
@@ -132,7 +171,7 @@ std::optional<Decision> OpenProject::undo() {
 std::optional<Decision> OpenProject::redo() {
     const Decision* next = to_redo(project_.history);
     if (next == nullptr) return std::nullopt;
-    if (!std::holds_alternative<WeightsChange>(*next)) take_away_products(folder_, project_);
+    if (!std::holds_alternative<WeightsChange>(*next)) remove_outputs(folder_, project_);
     stand_at(project_.history.standing + 1);
     return project_.history.decisions[project_.history.standing - 1];
 }
@@ -163,7 +202,7 @@ void OpenProject::set_search(const StopRules& stop, std::size_t beam) {
 
 SearchEnd OpenProject::search(const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
                               const Context& context, std::optional<double> time_limit_s) {
-    take_away_products(folder_, project_);
+    remove_outputs(folder_, project_);
     Segmentation working = segmentation();
     BeamProgress progress = beam_progress(project_, working, [this]() -> const TriangleMesh& { return scan(); });
     const auto keep = [&](const Segmentation& best) {
@@ -172,25 +211,44 @@ SearchEnd OpenProject::search(const FitsCell& fits_cell, const std::function<voi
     };
     const SearchEnd end =
         qchopper::search(working, project_.settings, book(), fits_cell, keep, context, time_limit_s, &progress);
-    const bool goes_on = end.is_out_of_time && !end.is_finished;
-    adopt(working, goes_on ? progress.saved() : std::nullopt);
-    if (goes_on) return end;
-    project_.ended_because = end.reason;
-    if (!end.is_finished) project_.warnings.push_back(rules_do_not_hold + end.reason);
-    write_pieces(folder_, working, project_.crumbs);
+    adopt(working, end.is_out_of_time() ? progress.saved() : std::nullopt);
+    end_ = end;
+    if (end.is_out_of_time()) return end;
+    record_end(end);
+    write_pieces(folder_, working, project_.fragments);
     project_.stage = Stage::cut;
     save();
     return end;
 }
 
+void OpenProject::record_end(const SearchEnd& end) {
+    project_.end_reason = end.reason;
+    project_.ended_because = end.sentence;
+    if (!end.is_finished()) project_.warnings.push_back(early_end(end.sentence));
+}
+
+PreparedProject OpenProject::prepare(const std::string& program_version, const Context& context) {
+    check_cell();
+    const bool is_out_of_time = end_ && end_->is_out_of_time();
+    if (is_out_of_time) record_end(*end_);
+    if (!end_ || is_out_of_time) write_pieces(folder_, segmentation(), project_.fragments);
+    PreparedProject prepared{folder_, {}, {}};
+    prepared.pieces = write_jobs(folder_, project_, segmentation(), *setups(), program_version, context);
+    write_pictures(folder_, segmentation().pieces, context);
+    project_.stage = is_out_of_time ? Stage::cutting : Stage::done;
+    save_project(folder_, project_);
+    prepared.project = project_;
+    return prepared;
+}
+
 void OpenProject::keep_pieces_written() {
     pieces_are_written_ = true;
-    write_pieces(folder_, segmentation(), project_.crumbs);
+    write_pieces(folder_, segmentation(), project_.fragments);
 }
 
 void OpenProject::save() {
     save_project(folder_, project_);
-    if (pieces_are_written_) write_pieces(folder_, segmentation(), project_.crumbs);
+    if (pieces_are_written_) write_pieces(folder_, segmentation(), project_.fragments);
 }
 
 }  // namespace qchopper

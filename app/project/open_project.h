@@ -1,5 +1,6 @@
-// A project on which one decides: cut by cut, with undo, redo and reset; saved after every decision.
+// The engine that makes a project advance: cut by cut with undo, redo and reset, or by the search, to pieces and jobs.
 //
+// Every decision is saved before the next is thought about, and what was evaluated is kept in the folder's cache.
 // Memory and project.json never differ, and killing the program at any moment leaves the decisions before or after the
 // last one. Undo gives back the exact project of before but for its history; redo returns
 // (tests/app/project/open_project_test.cpp). The scan is taken in, and cut again, only when something asks for it.
@@ -13,20 +14,48 @@
 #include <string>
 #include <vector>
 
+#include "app/project/outputs.h"
 #include "app/project/project.h"
+#include "segment/search/search.h"
 
 namespace qchopper {
 
+// A project at the end of its way: how each of its pieces is carved.
+struct PreparedProject {
+    std::filesystem::path folder;
+    Project project;
+    std::vector<PieceReport> pieces;
+    bool all_fit() const;
+};
+
+// "the stop rules do not hold: ...", as it stands in a project whose search ended too early.
+std::string early_end(const std::string& sentence);
+
 class OpenProject {
  public:
-    // The caller holds the lock of the folder. `take_in_scan` gives the scan as ScanSource says.
-    OpenProject(std::filesystem::path folder, Project project, std::function<TriangleMesh()> take_in_scan);
+    // The caller holds the lock of the folder. `import_project_scan` gives the scan as ScanSource says.
+    OpenProject(std::filesystem::path folder, Project project, std::function<TriangleMesh()> import_project_scan);
+
+    // The project of a folder, whose scan is taken in with the context when it is needed. Only who holds the lock may
+    // decide. Throws what load_project throws.
+    OpenProject(const std::filesystem::path& folder, const Context& context);
+
+    OpenProject(const OpenProject&) = delete;
+    OpenProject& operator=(const OpenProject&) = delete;
 
     const std::filesystem::path& folder() const { return folder_; }
     const Project& project() const { return project_; }
     const TriangleMesh& scan();
     const Segmentation& segmentation();
-    PieceBook& book();
+    EvaluationCache& book();
+
+    // How pieces are carved in the project's cell; nothing: it knows none. Throws InputError (config) for a cell file
+    // that is wrong.
+    Setups* setups();
+    // Throws InputError (use) for a project that knows no cell.
+    void check_cell();
+    // What the stop rule asks; empty without a cell.
+    FitsCell fits_cell();
 
     // The piece to be cut next: by the rules, or the one with most faces if they hold already or none is set.
     struct Next {
@@ -37,10 +66,10 @@ class OpenProject {
     // Nothing if no piece has that name.
     std::optional<std::size_t> piece_named(const std::string& name);
 
-    // Rankings price what is not priced yet, and neither cut nor change anything but the cache.
+    // Rankings evaluate what is not evaluated yet, and neither cut nor change anything but the cache.
     std::vector<Ranked> ranking(std::size_t piece, const Context& context);
-    // The operator's own plane, nudged once. Nothing if it misses, or leaves fewer than two pieces that are no crumbs.
-    // Its normal and offset have the number -1.
+    // The operator's own plane, nudged once. Nothing if it misses, or leaves fewer than two pieces that are no
+    // fragments. Its normal and offset have the number -1.
     std::optional<Ranked> own_plane(std::size_t piece, const Plane& plane, const Context& context);
 
     // Why not: true if it misses the piece, or runs so near to its end or to a cut that bounds it that it parts
@@ -68,20 +97,27 @@ class OpenProject {
     SearchEnd search(const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
                      const Context& context, std::optional<double> time_limit_s);
 
+    // Writes pieces, jobs and pictures once the cutting is over. After a search that ran out of time they are written
+    // too, and the project says so and can go on. Throws as check_cell does.
+    PreparedProject prepare(const std::string& program_version, const Context& context);
+
     // Makes the next cut or discarded piece of a segmentation that grows outside of here (replay_plan.h) a decision.
     void adopt(const Segmentation& segmentation);
 
  private:
     void adopt(const Segmentation& segmentation, std::optional<BeamState> beam);
+    void record_end(const SearchEnd& end);
     void stand_at(std::size_t standing);
     void save();
 
     std::filesystem::path folder_;
     Project project_;
-    std::function<TriangleMesh()> take_in_scan_;
+    std::function<TriangleMesh()> import_scan_;
     std::optional<TriangleMesh> scan_;
     std::optional<Segmentation> segmentation_;
-    std::unique_ptr<PieceBook> book_;
+    std::unique_ptr<EvaluationCache> book_;
+    std::optional<Setups> setups_;
+    std::optional<SearchEnd> end_;  // of the last search, until something else is decided
     bool pieces_are_written_ = false;
 };
 

@@ -4,7 +4,7 @@
 #include <cassert>
 
 #include "base/error.h"
-#include "segment/mesh/inside.h"
+#include "segment/mesh/containment.h"
 
 namespace qchopper {
 namespace {
@@ -23,7 +23,7 @@ const Piece& piece_named(const Segmentation& segmentation, const std::string& na
 }
 
 PlanPiece plan_piece(const Piece& piece, Vec3 centre) {
-    const std::optional<Vec3> inside = deep_point(*piece.mesh);
+    const std::optional<Vec3> inside = interior_point(*piece.mesh);
     if (!inside) throw InputError(InputFault::mesh, "piece " + piece.name + " has no inside", "check the scan");
     return {piece.name, path_of(piece), *inside + centre, volume_mm3(*piece.mesh)};
 }
@@ -59,12 +59,12 @@ Plan make_plan(const Project& project, const TriangleMesh& scan) {
                  s.volume_mm3,
                  {box.min + s.centre, box.max + s.centre}};
     plan.weights = project.settings.objectives.weights;
-    const double crumb_volume = project.settings.objectives.crumb_volume_mm3;
-    Segmentation segmentation = uncut(scan, crumb_volume);
+    const double fragment_volume = project.settings.objectives.fragment_volume_mm3;
+    Segmentation segmentation = uncut(scan, fragment_volume);
     add_discards(plan, segmentation, project.discards);
     for (const Cut& cut : project.cuts) {
         PlanCut p = plan_cut(cut, piece_named(segmentation, cut.piece), s.centre);
-        apply(segmentation, cut, crumb_volume);
+        apply(segmentation, cut, fragment_volume);
         for (const std::string& name : segmentation.cuts.back().pieces) {
             p.makes_mm3.push_back(volume_mm3(*piece_named(segmentation, name).mesh));
         }

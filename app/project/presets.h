@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "segment/search/search.h"
+#include "segment/search/settings.h"
 
 namespace qchopper {
 

@@ -1,4 +1,4 @@
-// The text of project.json, schema qchopper-project-2; qchopper-project-1 is read too.
+// The text of project.json, schema qchopper-project-3; others are refused.
 
 #pragma once
 

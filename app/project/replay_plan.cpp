@@ -3,26 +3,22 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numeric>
 
+#include "base/text.h"
 #include "segment/cut/nudge.h"
-#include "segment/mesh/inside.h"
+#include "segment/mesh/containment.h"
 
 namespace qchopper {
 namespace {
 
 std::string percent(double share) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g %%", 100 * share);
-    return text;
+    return significant(100 * share, 3) + " %";
 }
 
 std::string in_mm(double value) {
-    char text[48];
-    std::snprintf(text, sizeof text, "%.6g mm", value);
-    return text;
+    return significant(value, 6) + " mm";
 }
 
 double relative(double a, double b) {
@@ -41,7 +37,7 @@ bool touches_vertex(const TriangleMesh& mesh, const Plane& plane) {
 
 class Replay {
  public:
-    Replay(const Plan& plan, const ScanSource& source, const SearchSettings& settings, PieceBook& book,
+    Replay(const Plan& plan, const ScanSource& source, const SearchSettings& settings, EvaluationCache& book,
            const Context& context, const PlanFit& fit)
         : plan_(plan), source_(source), settings_(settings), book_(book), context_(context), fit_(fit) {}
 
@@ -90,12 +86,12 @@ class Replay {
         const Candidate candidate{*plane, wanted_offset(planned), -1, -1};
         const std::optional<Ranked> ranked = rank_plane(segmentation, *found, candidate, settings_, book_, context_);
         if (!ranked) {
-            return book_.price_of(piece, candidate, context_)
+            return book_.evaluation_of(piece, candidate, context_)
                        ? "its plane leaves only fragments of the piece on one side"
                        : "its plane misses the piece";
         }
         Segmentation after = segmentation;
-        if (!apply(after, cut_by(segmentation, *found, {*ranked}, 0, 0), settings_.objectives.crumb_volume_mm3)) {
+        if (!apply(after, cut_by(segmentation, *found, {*ranked}, 0, 0), settings_.objectives.fragment_volume_mm3)) {
             return "its plane misses the piece";
         }
         why = compare(planned, after);
@@ -128,7 +124,7 @@ class Replay {
             const bool is_there =
                 std::equal(piece.bounds.begin(), piece.bounds.end(), planned.path.begin(), planned.path.end(),
                            [](const Bound& b, const PathSide& s) { return b.cut == s.cut && b.above == s.above; });
-            if (!is_there || !contains(*piece.mesh, inside)) continue;
+            if (!is_there || !is_inside(*piece.mesh, inside)) continue;
             const double off = share_off(volume_mm3(*piece.mesh), planned.volume_mm3);
             if (off <= fit_.most_volume_off) return p;
             why = "piece " + piece.name + " lies there, but its volume differs by " + percent(off);
@@ -152,7 +148,7 @@ class Replay {
             made.push_back(volume_mm3(*piece->mesh));
         }
         std::sort(made.rbegin(), made.rend());
-        if (made.empty()) return "it leaves only crumbs";
+        if (made.empty()) return "it leaves only fragments";
         if (made.size() != planned.makes_mm3.size()) {
             return "it makes " + std::to_string(made.size()) + " pieces here, the smallest of " +
                    std::to_string(made.back()) + " mm3, and " + std::to_string(planned.makes_mm3.size()) +
@@ -171,7 +167,7 @@ class Replay {
     const Plan& plan_;
     const ScanSource& source_;
     const SearchSettings& settings_;
-    PieceBook& book_;
+    EvaluationCache& book_;
     const Context& context_;
     const PlanFit& fit_;
     PlanReplay result_;
@@ -200,7 +196,7 @@ std::string misfit(const Plan& plan, const ScanSource& source, const TriangleMes
 }
 
 PlanReplay replay_plan(const Plan& plan, const ScanSource& source, Segmentation& segmentation,
-                       const SearchSettings& settings, PieceBook& book,
+                       const SearchSettings& settings, EvaluationCache& book,
                        const std::function<void(const Segmentation&)>& on_decision, const Context& context,
                        const PlanFit& fit) {
     return Replay(plan, source, settings, book, context, fit).run(segmentation, on_decision);

@@ -33,10 +33,10 @@ struct PlanReplay {
 };
 
 // Adds the plan's cuts to an uncut segmentation, until one does not apply; that one is not made. The operator's
-// settings price the planes. What the plan discards is discarded at the same place among the cuts. `on_decision` is
+// settings evaluate the planes. What the plan discards is discarded at the same place among the cuts. `on_decision` is
 // told after every cut and every discarded piece.
 PlanReplay replay_plan(const Plan& plan, const ScanSource& source, Segmentation& segmentation,
-                       const SearchSettings& settings, PieceBook& book,
+                       const SearchSettings& settings, EvaluationCache& book,
                        const std::function<void(const Segmentation&)>& on_decision, const Context& context,
                        const PlanFit& fit = {});
 

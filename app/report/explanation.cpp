@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/project/value_json.h"
+#include "app/report/columns.h"
 #include "app/report/segment_report.h"
 #include "base/text.h"
 
@@ -48,20 +50,33 @@ std::string differences(const Terms& a, const Terms& b, const Weights& weights) 
     return text;
 }
 
-Json to_json(const Terms& t) {
-    return {{"face_ratio", t.face_ratio},
-            {"fragility", t.fragility},
-            {"piece_count", t.piece_count},
-            {"undercut", t.undercut},
-            {"total", t.total}};
-}
-
 Json to_json(const Ranked& r) {
-    return {{"normal", {r.plane.normal.x, r.plane.normal.y, r.plane.normal.z}},
+    return {{"normal", json_of(r.plane.normal)},
             {"offset_mm", r.plane.offset},
             {"normal_number", r.normal},
             {"offset_number", r.offset},
-            {"terms", to_json(r.terms)}};
+            {"terms", json_of(r.terms)}};
+}
+
+// Head and rows: the ten best, and the chosen plane if it is not among them.
+std::vector<std::vector<std::string>> table(const Explanation& e) {
+    const Weights& w = e.objectives.weights;
+    std::vector<std::vector<std::string>> rows{{"", "place", "normal", "offset mm", "total"}};
+    for (const Term& term : all_terms) {
+        rows[0].push_back(std::string(term.name) + " x " + short_number(w.*term.weight));
+    }
+    const auto add = [&](const std::string& place, const Ranked& r, bool is_chosen) {
+        std::vector<std::string> row{is_chosen ? "->" : "", place, of_normal(r.plane.normal), fixed(r.plane.offset, 3),
+                                     fixed(r.terms.total, 4)};
+        for (const Term& term : all_terms) row.push_back(fixed(r.terms.*term.value, 4));
+        rows.push_back(row);
+    };
+    for (std::size_t i = 0; i < std::min(e.ranked.size(), shown); ++i) {
+        add(std::to_string(i + 1), e.ranked[i], e.place == i);
+    }
+    if (!e.place) add("own", e.chosen, true);
+    if (e.place && *e.place >= shown) add(std::to_string(*e.place + 1), e.chosen, true);
+    return rows;
 }
 
 }  // namespace
@@ -86,48 +101,41 @@ std::string verdict(const Explanation& e) {
            differences(e.chosen.terms, next.terms, w) + ").";
 }
 
-std::vector<std::vector<std::string>> table(const Explanation& e) {
-    const Weights& w = e.objectives.weights;
-    std::vector<std::vector<std::string>> rows{{"", "place", "normal", "offset mm", "total"}};
-    for (const Term& term : all_terms) {
-        rows[0].push_back(std::string(term.name) + " x " + short_number(w.*term.weight));
-    }
-    const auto add = [&](const std::string& place, const Ranked& r, bool is_chosen) {
-        std::vector<std::string> row{is_chosen ? "->" : "", place, of_normal(r.plane.normal), fixed(r.plane.offset, 3),
-                                     fixed(r.terms.total, 4)};
-        for (const Term& term : all_terms) row.push_back(fixed(r.terms.*term.value, 4));
-        rows.push_back(row);
-    };
-    for (std::size_t i = 0; i < std::min(e.ranked.size(), shown); ++i) {
-        add(std::to_string(i + 1), e.ranked[i], e.place == i);
-    }
-    if (!e.place) add("own", e.chosen, true);
-    if (e.place && *e.place >= shown) add(std::to_string(*e.place + 1), e.chosen, true);
-    return rows;
+std::vector<std::string> lines(const Explanation& e, const Project& project, const std::string& picture) {
+    std::vector<std::string> text{"cut " + std::to_string(e.cut.number) + " on piece " + e.cut.piece + " makes " +
+                                  makes(e.cut)};
+    for (const std::string& line : discarded_lines(project)) text.push_back(line);
+    text.push_back(verdict(e));
+    for (const std::string& line : columns(table(e))) text.push_back(line);
+    text.push_back("plot: " + picture);
+    return text;
+}
+
+std::vector<std::string> warnings(const Explanation& e) {
+    const double was = e.cut.chosen.terms.total;
+    const double now = e.chosen.terms.total;
+    if (std::abs(now - was) <= 1e-6 * (1 + std::abs(now))) return {};
+    return {"cut " + std::to_string(e.cut.number) + " was decided at a total of " + std::to_string(was) +
+            ", which now comes out as " + std::to_string(now)};
 }
 
 std::string document(const Explanation& e, const Project& project, const std::string& picture) {
     Json best = Json::array();
     for (std::size_t i = 0; i < std::min(e.ranked.size(), shown); ++i) best.push_back(to_json(e.ranked[i]));
-    const Weights& w = e.objectives.weights;
-    const Json json{{"schema", "qchopper-explain-1"},
+    const Json json{{"schema", "qchopper-explain-2"},
                     {"cut", e.cut.number},
                     {"piece", e.cut.piece},
                     {"pieces", e.cut.pieces},
-                    {"crumbs", e.cut.crumbs},
+                    {"fragments", e.cut.fragments},
                     {"discarded", discarded_json(project)},
-                    {"weights",
-                     {{"face_ratio", w.face_ratio},
-                      {"fragility", w.fragility},
-                      {"piece_count", w.piece_count},
-                      {"undercut", w.undercut}}},
+                    {"weights", json_of(e.objectives.weights)},
                     {"chosen", to_json(e.chosen)},
                     {"place", e.place ? Json(*e.place + 1) : Json()},
                     {"candidates", e.ranked.size()},
                     {"best", best},
                     {"verdict", verdict(e)},
                     {"picture", picture}};
-    return json.dump(1, ' ', false, Json::error_handler_t::replace);
+    return text_of(json);
 }
 
 }  // namespace qchopper

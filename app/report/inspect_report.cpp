@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/project/value_json.h"
 #include "base/text.h"
 #include "segment/import/import_scan.h"
 
@@ -19,10 +20,10 @@ const char* word_of(Verdict verdict) {
             return "ready";
         case Verdict::to_repair:
             return "to repair";
-        case Verdict::hopeless:
+        case Verdict::unrepairable:
             break;
     }
-    return "hopeless";
+    return "unrepairable";
 }
 
 // "(1.2, 0.5, -3)"
@@ -52,9 +53,9 @@ void add_faults(std::vector<std::string>& text, const Inspection& i) {
     const std::pair<const char*, std::size_t> faults[] = {
         {"edges of more than two faces", i.non_manifold},
         {"edges with faces turned against each other", i.inconsistent},
-        {"points where surfaces only touch", i.pinched},
+        {"points where surfaces only touch", i.non_manifold_vertices},
         {"faces collapsed to a line or point", i.collapsed},
-        {"faces without area", i.no_area},
+        {"faces without area", i.degenerate},
         {"faces that lie on another one", i.repeated},
         {"open sheets, with more missing than there is", i.sheets},
         {"points in no face", i.unreferenced}};
@@ -84,18 +85,14 @@ void add_self_intersections(std::vector<std::string>& text, const Inspection& i)
     for (const Vec3& at : found.places) text.push_back("             around " + place(at));
 }
 
-Json vector(Vec3 v) {
-    return {v.x, v.y, v.z};
-}
-
 Json hole_document(const BorderLoop& hole) {
-    return {{"edges", hole.edges}, {"length", hole.length}, {"centre", vector(hole.centre)}};
+    return {{"edges", hole.edges}, {"length", hole.length}, {"centre", json_of(hole.centre)}};
 }
 
 Json self_intersections_document(const std::optional<SelfIntersected>& found) {
     if (!found) return {};
     Json places = Json::array();
-    for (const Vec3& at : found->places) places.push_back(vector(at));
+    for (const Vec3& at : found->places) places.push_back(json_of(at));
     return {{"pairs", found->pairs}, {"complete", found->is_complete}, {"places", places}};
 }
 
@@ -110,9 +107,9 @@ std::vector<std::string> lines(const InspectedFile& file) {
     text.push_back("size         " + size_line(file));
     text.push_back("shells       " + with_commas(i.shells) + " (" + with_commas(i.cavities) + " cavities, " +
                    with_commas(i.inside_out) + " inside out)");
-    if (i.crumbs > 0) {
-        text.push_back("crumbs       " + with_commas(i.crumbs) + " too small to be pieces, with " +
-                       percent(i.crumb_area_share) + " of the surface");
+    if (i.fragments > 0) {
+        text.push_back("fragments    " + with_commas(i.fragments) + " too small to be pieces, with " +
+                       percent(i.fragment_area_share) + " of the surface");
     }
     add_holes(text, i, unit);
     text.push_back("volume       " + volume_line(file) + (i.is_closed() ? "" : " (not closed)"));
@@ -133,7 +130,7 @@ std::string document(const InspectedFile& file) {
     for (const BorderLoop& hole : i.holes) holes.push_back(hole_document(hole));
     const BorderLoop* const longest = i.longest_hole();
     const Judgement judgement = judge(i);
-    const Json json{{"schema", "qchopper-inspect-2"},
+    const Json json{{"schema", "qchopper-inspect-3"},
                     {"file", file.name},
                     {"format", name_of(i.format)},
                     {"warnings", i.warnings},
@@ -144,17 +141,17 @@ std::string document(const InspectedFile& file) {
                     {"welded_vertices", i.welded},
                     {"units", file.units ? Json(*file.units) : Json()},
                     {"units_in_file", i.mm_per_unit ? Json(*i.mm_per_unit) : Json()},
-                    {"size", vector(i.box.size())},
+                    {"size", json_of(i.box.size())},
                     {"size_in_words", file.units ? Json(size_line(file)) : Json()},
-                    {"min", vector(i.box.min)},
-                    {"max", vector(i.box.max)},
+                    {"min", json_of(i.box.min)},
+                    {"max", json_of(i.box.max)},
                     {"closed", i.is_closed()},
                     {"volume", i.volume},
                     {"area", i.area},
                     {"shells", i.shells},
                     {"cavities", i.cavities},
                     {"inside_out", i.inside_out},
-                    {"crumbs", {{"count", i.crumbs}, {"area_share", i.crumb_area_share}}},
+                    {"fragments", {{"count", i.fragments}, {"area_share", i.fragment_area_share}}},
                     {"sheets", {{"count", i.sheets}, {"area_share", i.sheet_area_share}}},
                     {"open_edges", i.open_edges},
                     {"holes", holes},
@@ -162,16 +159,16 @@ std::string document(const InspectedFile& file) {
                     {"non_manifold_edges", i.non_manifold},
                     {"touching_edges", i.touching},
                     {"inconsistent_edges", i.inconsistent},
-                    {"pinched_vertices", i.pinched},
+                    {"non_manifold_vertices", i.non_manifold_vertices},
                     {"repeated_faces", i.repeated},
                     {"collapsed_faces", i.collapsed},
-                    {"faces_without_area", i.no_area},
+                    {"faces_without_area", i.degenerate},
                     {"faces_without_corners", i.faces_without_area},
                     {"unreferenced_vertices", i.unreferenced},
                     {"self_intersections", self_intersections_document(i.self_intersected)},
                     {"verdict", word_of(judgement.verdict)},
                     {"reasons", judgement.reasons}};
-    return json.dump(1, ' ', false, Json::error_handler_t::replace);
+    return text_of(json);
 }
 
 }  // namespace qchopper

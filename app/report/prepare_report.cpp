@@ -1,40 +1,31 @@
 #include "app/report/prepare_report.h"
-#include "base/text.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/project/shell_word.h"
+#include "app/project/value_json.h"
 #include "app/report/columns.h"
 #include "app/report/segment_report.h"
-#include "app/report/shell_word.h"
+#include "base/text.h"
 
 namespace qchopper {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(Vec3 v) {
-    return Json::array({v.x, v.y, v.z});
-}
-
 std::string lengths(Vec3 v) {
     return fixed(v.x, 0) + " x " + fixed(v.y, 0) + " x " + fixed(v.z, 0);
 }
 
 Json cut_json(const Cut& cut) {
-    const Terms& t = cut.chosen.terms;
     return {{"number", cut.number},
             {"piece", cut.piece},
-            {"normal", to_json(cut.chosen.plane.normal)},
+            {"normal", json_of(cut.chosen.plane.normal)},
             {"offset_mm", cut.chosen.plane.offset},
-            {"terms",
-             {{"face_ratio", t.face_ratio},
-              {"fragility", t.fragility},
-              {"piece_count", t.piece_count},
-              {"undercut", t.undercut},
-              {"total", t.total}}},
+            {"terms", json_of(cut.chosen.terms)},
             {"pieces", cut.pieces},
-            {"crumbs", cut.crumbs}};
+            {"fragments", cut.fragments}};
 }
 
 Json piece_json(const PieceReport& piece, const Cell& cell) {
@@ -44,9 +35,9 @@ Json piece_json(const PieceReport& piece, const Cell& cell) {
     return {{"name", piece.name},
             {"faces", piece.faces},
             {"volume_mm3", piece.volume_mm3},
-            {"box_mm", to_json(s.box.size())},
+            {"box_mm", json_of(s.box.size())},
             {"block", cell.stock[s.stock].name},
-            {"block_mm", to_json(s.block)},
+            {"block_mm", json_of(s.block)},
             {"base_cut", s.base ? Json(*s.base) : Json()},
             {"base", s.base_words},
             {"undercut", s.undercut},
@@ -57,8 +48,12 @@ Json piece_json(const PieceReport& piece, const Cell& cell) {
 
 }  // namespace
 
-bool PreparedProject::all_fit() const {
-    return std::all_of(pieces.begin(), pieces.end(), [](const PieceReport& p) { return !p.job.empty(); });
+std::vector<std::string> warnings(const PreparedProject& prepared) {
+    std::vector<std::string> text;
+    for (const PieceReport& p : prepared.pieces) {
+        if (p.job.empty()) text.push_back(envelope_words(p.name, p.carving.envelope) + "; it gets no job");
+    }
+    return text;
 }
 
 std::vector<std::string> table(const PreparedProject& prepared, const Cell& cell) {
@@ -71,13 +66,13 @@ std::vector<std::string> table(const PreparedProject& prepared, const Cell& cell
                         fixed(s.undercut, 3), p.job.empty() ? "no" : "yes"});
     }
     std::vector<std::string> lines = columns(rows);
-    const std::size_t crumbs = prepared.project.crumb_list.size();
-    if (crumbs > 0) {
+    const std::size_t fragments = prepared.project.fragment_list.size();
+    if (fragments > 0) {
         double volume = 0;
-        for (const SolidRecord& c : prepared.project.crumb_list) volume += c.volume_mm3;
+        for (const SolidRecord& c : prepared.project.fragment_list) volume += c.volume_mm3;
         lines.push_back(
-            counted(crumbs, "crumb") + " (" + volume_in_words(volume) + " in all), listed in project.json" +
-            (prepared.project.crumbs == CrumbChoice::keep ? " and kept in pieces/crumbs.ply" : ", dropped"));
+            counted(fragments, "fragment") + " (" + volume_in_words(volume) + " in all), listed in project.json" +
+            (prepared.project.fragments == FragmentChoice::keep ? " and kept in pieces/fragments.ply" : ", dropped"));
     }
     for (const std::string& line : discarded_lines(prepared.project)) lines.push_back(line);
     const auto jobs = std::count_if(prepared.pieces.begin(), prepared.pieces.end(),
@@ -97,12 +92,9 @@ std::string document(const PreparedProject& prepared, const Cell& cell) {
     for (const Cut& cut : p.cuts) cuts.push_back(cut_json(cut));
     Json pieces = Json::array();
     for (const PieceReport& piece : prepared.pieces) pieces.push_back(piece_json(piece, cell));
-    Json crumbs = Json::array();
-    for (const SolidRecord& c : p.crumb_list) {
-        crumbs.push_back(
-            {{"cut", c.cut}, {"faces", c.faces}, {"volume_mm3", c.volume_mm3}, {"centre_mm", to_json(c.centre)}});
-    }
-    const Json json{{"schema", "qchopper-prepare-1"},
+    Json fragments = Json::array();
+    for (const SolidRecord& c : p.fragment_list) fragments.push_back(json_of(c));
+    const Json json{{"schema", "qchopper-prepare-2"},
                     {"project", prepared.folder.string()},
                     {"scan",
                      {{"path", p.scan.path.string()},
@@ -111,15 +103,15 @@ std::string document(const PreparedProject& prepared, const Cell& cell) {
                       {"scale", p.scan.scale},
                       {"faces", p.scan.faces},
                       {"volume_mm3", p.scan.volume_mm3}}},
-                    {"stop_rules_hold", prepared.rules_hold},
+                    {"stop_rules_hold", p.do_rules_hold()},
                     {"ended_because", p.ended_because},
                     {"all_fit", prepared.all_fit()},
                     {"cuts", cuts},
                     {"pieces", pieces},
-                    {"crumbs", crumbs},
+                    {"fragments", fragments},
                     {"discarded", discarded_json(p)},
                     {"warnings", p.warnings}};
-    return json.dump(1, ' ', false, Json::error_handler_t::replace);
+    return text_of(json);
 }
 
 }  // namespace qchopper

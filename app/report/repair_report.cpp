@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/project/value_json.h"
 #include "base/text.h"
 #include "segment/mesh/measure.h"
 
@@ -9,10 +10,6 @@ namespace qchopper {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json to_json(Vec3 v) {
-    return Json::array({v.x, v.y, v.z});
-}
 
 std::string verdict(const RepairReport& r) {
     if (r.is_solid()) return "closed: a solid";
@@ -34,14 +31,14 @@ std::string distance_line(const RepairedScan& scan) {
            "result over what changed";
 }
 
-Json to_json(const Farthest& f) {
-    return {{"distance", f.mm}, {"at_most", f.at_most}, {"at", to_json(f.at)}, {"faces_looked_at", f.triangles}};
+Json farthest(const Farthest& f) {
+    return {{"distance", f.mm}, {"at_most", f.at_most}, {"at", json_of(f.at)}, {"faces_looked_at", f.triangles}};
 }
 
 Json holes(const RepairReport& r) {
     Json all = Json::array();
     for (const OpenHole& hole : r.left_open) {
-        all.push_back({{"edges", hole.edges}, {"centre", to_json(hole.centre)}});
+        all.push_back({{"edges", hole.edges}, {"centre", json_of(hole.centre)}});
     }
     return all;
 }
@@ -58,7 +55,7 @@ Json counts(const RepairReport& r) {
     return {{"points_welded", r.welded},
             {"faces_collapsed", r.collapsed},
             {"points_unused", r.unreferenced},
-            {"border_points_welded", r.border_welded},
+            {"border_points_welded", r.borders_snapped},
             {"border_moved_mm", r.border_moved_mm},
             {"faces_repeated", r.repeated},
             {"faces_of_double_sheets", r.of_double_sheets},
@@ -67,29 +64,29 @@ Json counts(const RepairReport& r) {
             {"points_copied", r.points_copied},
             {"faces_turned", r.faces_turned},
             {"edges_stitched", r.stitched},
-            {"no_area_removed", r.no_area_removed},
-            {"no_area_left", r.no_area_left},
+            {"degenerate_removed", r.degenerate_removed},
+            {"degenerate_left", r.degenerate_left},
             {"holes_filled", r.holes_filled},
             {"holes_faired", r.holes_faired},
             {"faces_added", r.faces_added},
             {"points_added", r.points_added},
             {"added_area_share", r.added_area_share},
-            {"loose_sheets", r.loose_sheets},
-            {"loose_sheet_faces", r.loose_sheet_faces},
+            {"open_components", r.open_components},
+            {"open_component_faces", r.open_component_faces},
             {"shells", r.shells},
             {"cavities", r.cavities},
             {"shells_turned", r.shells_turned},
             {"shells_overlapping", r.overlapping},
-            {"crumbs", r.crumbs},
-            {"crumb_faces", r.crumb_faces},
-            {"crumb_area_share", r.crumb_area_share},
-            {"crumbs_dropped", r.crumbs_dropped}};
+            {"fragments", r.fragments},
+            {"fragment_faces", r.fragment_faces},
+            {"fragment_area_share", r.fragment_area_share},
+            {"fragments_dropped", r.fragments_dropped}};
 }
 
 Json resolved(const RepairReport& r) {
     if (!r.resolved) return {};
     Json where = Json::array();
-    for (const Vec3& p : r.resolved->where_left) where.push_back(to_json(p));
+    for (const Vec3& p : r.resolved->where_left) where.push_back(json_of(p));
     return {{"pairs", r.resolved->pairs},   {"left", r.resolved->left},
             {"places", r.resolved->places}, {"removed", r.resolved->removed},
             {"added", r.resolved->added},   {"undone", r.resolving_undone},
@@ -129,7 +126,7 @@ std::vector<std::string> lines(const RepairedScan& scan, const RepairedFile& fil
 std::string document(const RepairedScan& scan, const RepairedFile& file) {
     const RepairReport& r = scan.report;
     Json json{
-        {"schema", "qchopper-repair-1"},
+        {"schema", "qchopper-repair-2"},
         {"file", file.scan.string()},
         {"out", file.out.string()},
         {"format", name_of(scan.format)},
@@ -155,12 +152,12 @@ std::string document(const RepairedScan& scan, const RepairedFile& file) {
     if (r.deviation) {
         json["deviation"] = {{"unit", scan.mm_per_unit ? "mm" : "file"},
                              {"largest", r.deviation->largest().mm},
-                             {"from_scan", to_json(r.deviation->from_scan)},
-                             {"from_result", to_json(r.deviation->from_result)}};
+                             {"from_scan", farthest(r.deviation->from_scan)},
+                             {"from_result", farthest(r.deviation->from_result)}};
     }
     json["warnings"] = scan.warnings;
     json["verdict"] = verdict(r);
-    return json.dump(1, ' ', false, Json::error_handler_t::replace);
+    return text_of(json);
 }
 
 }  // namespace qchopper

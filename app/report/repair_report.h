@@ -19,7 +19,7 @@ struct RepairedFile {
 
 // A line for each step that had something to do, the distance, and a verdict.
 std::vector<std::string> lines(const RepairedScan& scan, const RepairedFile& file);
-// The document qchopper-repair-1 (docs/repair.md).
+// The document qchopper-repair-2 (docs/repair.md).
 std::string document(const RepairedScan& scan, const RepairedFile& file);
 
 }  // namespace qchopper

@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/project/shell_word.h"
+#include "app/project/value_json.h"
 #include "app/report/columns.h"
-#include "app/report/shell_word.h"
 #include "base/text.h"
 
 namespace qchopper {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json to_json(Vec3 v) {
-    return Json::array({v.x, v.y, v.z});
-}
 
 std::string in_words(Vec3 v, int digits) {
     return fixed(v.x, digits) + " " + fixed(v.y, digits) + " " + fixed(v.z, digits);
@@ -25,8 +22,8 @@ std::string weights_in_words(const Weights& w) {
            fixed(w.piece_count, 3) + ", undercut " + fixed(w.undercut, 3);
 }
 
-bool is_crumb(const SolidPrice& solid, const Project& project) {
-    return solid.volume_mm3 < project.settings.objectives.crumb_volume_mm3;
+bool is_fragment(const SolidEvaluation& solid, const Project& project) {
+    return solid.volume_mm3 < project.settings.objectives.fragment_volume_mm3;
 }
 
 // Of planes in which the piece runs through itself; the cut says it too (cut_piece.cpp).
@@ -82,9 +79,9 @@ std::vector<std::string> preview_lines(const Preview& p, const Project& project)
                    " mm long, within " + in_words(p.outline.box.min, 1) + " to " + in_words(p.outline.box.max, 1) +
                    " mm");
     std::vector<std::vector<std::string>> rows{{"would make", "side", "faces", "volume"}};
-    for (const SolidPrice& s : p.solids) {
-        rows.push_back({is_crumb(s, project) ? "crumb" : "piece", s.above ? "above" : "below", with_commas(s.faces),
-                        volume_in_words(s.volume_mm3)});
+    for (const SolidEvaluation& s : p.solids) {
+        rows.push_back({is_fragment(s, project) ? "fragment" : "piece", s.above ? "above" : "below",
+                        with_commas(s.faces), volume_in_words(s.volume_mm3)});
     }
     add(text, columns(rows));
     if (p.sections_cross) text.push_back(sections_cross("this plane"));
@@ -99,11 +96,9 @@ std::vector<std::string> standing_lines(const Project& project) {
                         volume_in_words(p.volume_mm3)});
     }
     std::vector<std::string> text = columns(rows);
-    text.push_back(std::to_string(project.pieces.size()) + (project.pieces.size() == 1 ? " piece by " : " pieces by ") +
-                   std::to_string(project.cuts.size()) + (project.cuts.size() == 1 ? " cut, " : " cuts, ") +
-                   with_commas(project.crumb_list.size()) +
-                   (project.crumb_list.size() == 1 ? " crumb. Weights: " : " crumbs. Weights: ") +
-                   weights_in_words(project.settings.objectives.weights) + ".");
+    text.push_back(counted(project.pieces.size(), "piece") + " by " + counted(project.cuts.size(), "cut") + ", " +
+                   counted(project.fragment_list.size(), "fragment") +
+                   ". Weights: " + weights_in_words(project.settings.objectives.weights) + ".");
     add(text, discarded_lines(project));
     for (const auto& [option, what] : {std::pair{"--undo", undo_in_words(project)}, {"--redo", redo_in_words(project)}})
         if (!what.empty()) text.push_back(std::string(option) + ": " + what);
@@ -111,19 +106,13 @@ std::vector<std::string> standing_lines(const Project& project) {
 }
 
 Json plane_json(const Ranked& r, const Project& project) {
-    const Terms& t = r.terms;
-    return {{"normal", to_json(r.plane.normal)},
+    return {{"normal", json_of(r.plane.normal)},
             {"offset_mm", r.plane.offset},
             {"offset_in_scan_mm", r.plane.offset + height(r.plane.normal, project.scan.centre)},
             {"wanted_offset_mm", r.wanted_offset},
             {"normal_number", r.normal},
             {"offset_number", r.offset},
-            {"terms",
-             {{"face_ratio", t.face_ratio},
-              {"fragility", t.fragility},
-              {"piece_count", t.piece_count},
-              {"undercut", t.undercut},
-              {"total", t.total}}}};
+            {"terms", json_of(r.terms)}};
 }
 
 Json proposal_json(const Proposal& p, const Project& project) {
@@ -145,23 +134,23 @@ Json preview_json(const Preview& p, const Project& project) {
     Json loops = Json::array();
     for (const auto& loop : p.outline.loops) {
         Json points = Json::array();
-        for (const Vec3 point : loop) points.push_back(to_json(point));
+        for (const Vec3 point : loop) points.push_back(json_of(point));
         loops.push_back(points);
     }
     Json solids = Json::array();
-    for (const SolidPrice& s : p.solids) {
+    for (const SolidEvaluation& s : p.solids) {
         solids.push_back({{"side", s.above ? "above" : "below"},
                           {"faces", s.faces},
                           {"volume_mm3", s.volume_mm3},
-                          {"crumb", is_crumb(s, project)}});
+                          {"fragment", is_fragment(s, project)}});
     }
     return {{"piece", p.piece},
             {"plane", plane_json(p.plane, project)},
             {"sections_cross", p.sections_cross},
             {"loops", loops},
             {"length_mm", p.outline.length_mm},
-            {"box_min_mm", to_json(p.outline.box.min)},
-            {"box_max_mm", to_json(p.outline.box.max)},
+            {"box_min_mm", json_of(p.outline.box.min)},
+            {"box_max_mm", json_of(p.outline.box.max)},
             {"makes", solids}};
 }
 
@@ -171,7 +160,7 @@ Json cuts_json(const Project& project) {
         Json json{{"number", cut.number}, {"piece", cut.piece}};
         json.update(plane_json(cut.chosen, project));
         json["pieces"] = cut.pieces;
-        json["crumbs"] = cut.crumbs;
+        json["fragments"] = cut.fragments;
         cuts.push_back(json);
     }
     return cuts;
@@ -232,8 +221,7 @@ std::string document(const SegmentAnswer& answer, const std::filesystem::path& f
     for (const SolidRecord& p : project.pieces) {
         pieces.push_back({{"name", p.name}, {"cut", p.cut}, {"faces", p.faces}, {"volume_mm3", p.volume_mm3}});
     }
-    const Weights& w = project.settings.objectives.weights;
-    Json json{{"schema", "qchopper-segment-1"},
+    Json json{{"schema", "qchopper-segment-2"},
               {"project", folder.string()},
               {"done", text_or_null(answer.done)},
               {"demand_met", answer.is_demand_met},
@@ -241,21 +229,17 @@ std::string document(const SegmentAnswer& answer, const std::filesystem::path& f
               {"undo", text_or_null(undo_in_words(project))},
               {"redo", text_or_null(redo_in_words(project))},
               {"ended_because", text_or_null(project.ended_because)},
-              {"weights",
-               {{"face_ratio", w.face_ratio},
-                {"fragility", w.fragility},
-                {"piece_count", w.piece_count},
-                {"undercut", w.undercut}}},
+              {"weights", json_of(project.settings.objectives.weights)},
               {"cuts", cuts_json(project)},
               {"pieces", pieces},
-              {"crumbs", project.crumb_list.size()},
+              {"fragments", project.fragment_list.size()},
               {"discarded", discarded_json(project)},
               {"warnings", project.warnings}};
     if (answer.pieces_written) json["pieces_written"] = (folder / "pieces").string();
     if (answer.plan) json["plan"] = answer.plan->string();
     if (answer.proposal) json["proposal"] = proposal_json(*answer.proposal, project);
     if (answer.preview) json["preview"] = preview_json(*answer.preview, project);
-    return json.dump(1, ' ', false, Json::error_handler_t::replace);
+    return text_of(json);
 }
 
 }  // namespace qchopper

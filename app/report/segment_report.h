@@ -4,43 +4,13 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/project/decide.h"
 #include "app/project/project.h"
-#include "app/report/outline.h"
 
 namespace qchopper {
-
-// The ranking of one piece.
-struct Proposal {
-    std::string piece;
-    std::size_t faces = 0;
-    bool rules_hold = false;
-    std::vector<Ranked> ranked;         // all
-    std::size_t top = 10;               // so many are shown
-    std::vector<std::size_t> crossing;  // of those shown, the places (from 1) of planes whose sections cross
-};
-
-// What one plane would make.
-struct Preview {
-    std::string piece;
-    Ranked plane;
-    Outline outline;
-    std::vector<SolidPrice> solids;
-    bool sections_cross = false;  // the piece runs through itself in this plane
-};
-
-struct SegmentAnswer {
-    std::string done;                // the decision in words; empty: none was made
-    std::vector<std::string> notes;  // whole lines
-    bool is_demand_met = true;       // false: exit 1, and the last note says why
-    std::optional<Proposal> proposal;
-    std::optional<Preview> preview;
-    std::optional<std::filesystem::path> plan;  // that was written
-    bool pieces_written = false;
-};
 
 // What was discarded, in the same words and keys in every report:
 // "discarded after cut 2: piece C, 1,234 faces, 12.345 ml (3.21 % of the scan)", none if nothing is discarded;

@@ -9,6 +9,7 @@
 #include "cam/job/sheet.h"
 #include "cam/job/zip.h"
 #include "segment/io/write_stl.h"
+#include "segment/mesh/transform.h"
 
 namespace qchopper {
 namespace {
@@ -102,8 +103,9 @@ Bytes job_file(const JobInput& input) {
     std::map<std::string, Bytes> files;
     files["piece.stl"] = to_stl(lying);
     files["preview.glb"] = preview_glb(lying, notes);
-    files["setup.txt"] = to_bytes(setup_sheet(input));
-    files[ticket_name] = to_bytes(to_json(ticket_template(input)));
+    const TicketTemplate ticket = ticket_template(input);
+    files["setup.txt"] = to_bytes(setup_sheet(input, ticket.estimated_time_s));
+    files[ticket_name] = to_bytes(to_json(ticket));
     std::vector<JobEntry> entries;
     std::uint64_t total = 0;
     for (const auto& [name, bytes] : files) {

@@ -1,12 +1,10 @@
-// The setup sheet. One step a paragraph, in the order in which a person at the cell does them.
+#include "cam/job/sheet.h"
 
 #include <cmath>
 #include <string>
 
+#include "base/hex.h"
 #include "base/text.h"
-#include "cam/job/sheet.h"
-
-#include "base/json.h"
 
 namespace qchopper {
 namespace {
@@ -76,11 +74,10 @@ std::string warning_step(const JobInput& input) {
 
 }  // namespace
 
-std::string setup_sheet(const JobInput& input) {
-    return title(input) + block_step(input) + piece_step(input) +
-           tool_step(input, ticket_template(input).estimated_time_s) + margin_step(input) + warning_step(input) +
-           "\nproject " + to_hex(input.project_id) + "\nscan    " + to_hex(input.scan_sha256) + "\nqchopper " +
-           input.program_version + "\n";
+std::string setup_sheet(const JobInput& input, std::uint32_t estimated_time_s) {
+    return title(input) + block_step(input) + piece_step(input) + tool_step(input, estimated_time_s) +
+           margin_step(input) + warning_step(input) + "\nproject " + to_hex(input.project_id) + "\nscan    " +
+           to_hex(input.scan_sha256) + "\nqchopper " + input.program_version + "\n";
 }
 
 }  // namespace qchopper

@@ -2,12 +2,14 @@
 
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "cam/job/job.h"
 
 namespace qchopper {
 
-std::string setup_sheet(const JobInput& input);
+// The time is that of the ticket.
+std::string setup_sheet(const JobInput& input, std::uint32_t estimated_time_s);
 
 }  // namespace qchopper

@@ -9,6 +9,7 @@
 #include "cam/setup/undercut.h"
 #include "segment/mesh/oriented_box.h"
 #include "segment/mesh/rays.h"
+#include "segment/mesh/transform.h"
 
 namespace qchopper {
 namespace {

@@ -18,7 +18,7 @@
 #include <optional>
 
 #include "segment/cut/contact.h"
-#include "segment/cut/ears.h"
+#include "segment/cut/ear_clipping.h"
 
 namespace qchopper {
 namespace {
@@ -128,7 +128,7 @@ CapTriangles triangulate_regions(std::span<const Point2> points, std::span<const
             ++result.forced_regions;
             std::vector<Loop> holes;
             for (const std::size_t hole : region.holes) holes.push_back(loops[hole]);
-            triangles = cut_ears(points, loops[region.outer], holes);
+            triangles = clip_ears(points, loops[region.outer], holes);
         }
         result.triangles.insert(result.triangles.end(), triangles->begin(), triangles->end());
     }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace qchopper {
@@ -61,19 +60,18 @@ struct Edge {
 class Parter {
  public:
     Parter(std::span<const Point2> points, std::span<const Loop* const> loops) : points_(points), loops_(loops) {
-        Point2 min{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        Point2 max{-min.x, -min.y};
+        Rectangle2 box;
         for (const Loop* loop : loops) {
-            for (const std::uint32_t p : *loop) {
-                min = {std::min(min.x, points[p].x), std::min(min.y, points[p].y)};
-                max = {std::max(max.x, points[p].x), std::max(max.y, points[p].y)};
-            }
+            for (const std::uint32_t p : *loop) box.include(points[p]);
         }
-        low_ = min.y;
-        size_ = std::hypot(max.x - min.x, max.y - min.y);
+        size_ = std::hypot(box.max.x - box.min.x, box.max.y - box.min.y);
         reach_ = contact_share * size_;
         for (const Loop* loop : loops) add_corners(*loop);
-        fill_rows(max.y);
+        rows_ = EdgeRows(box.min.y, box.max.y, edges_.size());
+        for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+            const auto [low, high] = std::minmax(edges_[e].a.y, edges_[e].b.y);
+            rows_.add(low - reach_, high + reach_, e);
+        }
     }
 
     std::optional<std::vector<Point2>> run() {
@@ -118,36 +116,12 @@ class Parter {
         }
     }
 
-    // Edges by the rows that they pass, as many rows as edges.
-    void fill_rows(double high) {
-        rows_.resize(edges_.size() + 1);
-        per_mm_ = high > low_ ? static_cast<double>(edges_.size()) / (high - low_) : 0;
-        for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-            const auto [low, top] = std::minmax(edges_[e].a.y, edges_[e].b.y);
-            for (std::size_t r = row(low - reach_); r <= row(top + reach_); ++r) rows_[r].push_back(e);
-        }
-    }
-    std::size_t row(double y) const {
-        const double r = (y - low_) * per_mm_;
-        return r <= 0 ? 0 : std::min(static_cast<std::size_t>(r), rows_.size() - 1);
-    }
-
-    bool is_touched_by(Point2 p, const Edge& e) const {
-        if (p.x < std::min(e.a.x, e.b.x) - reach_ || p.x > std::max(e.a.x, e.b.x) + reach_) return false;
-        if (p.y < std::min(e.a.y, e.b.y) - reach_ || p.y > std::max(e.a.y, e.b.y) + reach_) return false;
-        const Point2 d = e.b - e.a;
-        const Point2 q = p - e.a;
-        return std::abs(d.x * q.y - d.y * q.x) <= reach_ * std::hypot(d.x, d.y);
-    }
-
     // Even-odd, in the region as it was.
     bool is_material(Point2 p) const {
         bool inside = false;
-        for (const std::uint32_t number : rows_[row(p.y)]) {
+        for (const std::uint32_t number : rows_.at(p.y)) {
             const Edge& e = edges_[number];
-            if ((e.a.y > p.y) != (e.b.y > p.y) && p.x < (e.b.x - e.a.x) * (p.y - e.a.y) / (e.b.y - e.a.y) + e.a.x) {
-                inside = !inside;
-            }
+            if (ray_crosses(p, e.a, e.b)) inside = !inside;
         }
         return inside;
     }
@@ -173,9 +147,9 @@ class Parter {
         bool in_material = false;
         bool in_void = false;
         std::optional<Sides> own;
-        for (const std::uint32_t e : rows_[row(c.at.y)]) {
+        for (const std::uint32_t e : rows_.at(c.at.y)) {
             const Edge& edge = edges_[e];
-            if (edge.from == number || edge.to == number || !is_touched_by(c.at, edge)) continue;
+            if (edge.from == number || edge.to == number || !is_on_segment(c.at, edge.a, edge.b, reach_)) continue;
             if (!own) own = sides(c);
             for (const Point2 end : {edge.a, edge.b}) {
                 if (is_same_place(end, c.at)) continue;
@@ -186,7 +160,7 @@ class Parter {
             }
         }
         if (!own) return std::nullopt;
-        if (!in_material && !in_void) {  // only edges along its own: pinched is what is not there a little farther
+        if (!in_material && !in_void) {  // only edges along its own: non-manifold is what is not there a little farther
             const bool has_material = is_material(along(c.at, own->into_material(), probe_share * size_));
             (has_material ? in_void : in_material) = true;
         }
@@ -196,13 +170,11 @@ class Parter {
 
     std::span<const Point2> points_;
     std::span<const Loop* const> loops_;
-    double low_ = 0;
     double size_ = 0;
     double reach_ = 0;
-    double per_mm_ = 0;
     std::vector<Corner> corners_;
     std::vector<Edge> edges_;
-    std::vector<std::vector<std::uint32_t>> rows_;
+    EdgeRows rows_;
 };
 
 }  // namespace

@@ -2,7 +2,8 @@
 // contact is one of the loops as they are, but for slivers as thin as the move.
 //
 // Plane coordinates, mm. A point that touches moves by 1e-10 of the region's size, away from what it touches: out of
-// the material where the material is pinched there, into it where the void is (tests/segment/score/touching_test.cpp).
+// the material where the material is non-manifold there, into it where the void is
+// (tests/segment/score/touching_test.cpp).
 
 #pragma once
 
@@ -10,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "segment/mesh/polygon_nesting.h"
+#include "segment/mesh/polygon.h"
 
 namespace qchopper {
 

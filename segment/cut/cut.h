@@ -25,6 +25,7 @@ struct Half {
     std::size_t first_cap_triangle = 0;
     std::vector<std::uint32_t>
         parent;  // per triangle: the triangle of the input that it is (a part of); caps: no_parent
+    std::vector<std::uint32_t> number;  // per point of the input: its number in this half, or no_parent
 };
 
 // Both halves of one cut. Cap triangle i of one is cap triangle i of the other, turned over, with the same points to

@@ -21,14 +21,14 @@ std::string place(Vec3 p) {
 }
 
 // What one unit of the file is; nothing where that may stay open.
-std::optional<double> mm_per_unit_of(const RawMesh& scan, const std::string& name, const IntakeOptions& options) {
+std::optional<double> mm_per_unit_of(const RawMesh& scan, const std::string& name, const ImportOptions& options) {
     const std::optional<double> agreed = agreed_mm_per_unit(scan.mm_per_unit, options.mm_per_unit, name);
     if (agreed || options.may_lack_unit) return agreed;
     throw InputError(InputFault::use, name + " is " + name_of(scan.format) + ", which has no unit",
                      "say --units mm, cm, m or in");
 }
 
-void check(const IntakeOptions& options) {
+void check(const ImportOptions& options) {
     const double unit = options.mm_per_unit.value_or(1);
     const double factor = unit * options.scale;
     if (unit > 0 && options.scale > 0 && std::isfinite(factor) && factor != 0) return;
@@ -103,8 +103,8 @@ Sha256 hash_of(const Bytes& bytes, const std::vector<Sha256>& beside) {
     return sha256(all);
 }
 
-void warn_of_size(const Intake& intake, std::vector<std::string>& warnings) {
-    const Vec3 size = bounds(intake.mesh).size();
+void warn_of_size(const ImportedScan& imported, std::vector<std::string>& warnings) {
+    const Vec3 size = bounds(imported.mesh).size();
     const double longest = std::max({size.x, size.y, size.z});
     if (longest >= 10 && longest <= 20000) return;
     warnings.push_back("The scan measures " + size_in_words(size) + ": is --units right?");
@@ -112,7 +112,7 @@ void warn_of_size(const Intake& intake, std::vector<std::string>& warnings) {
 
 }  // namespace
 
-RepairedScan repair_scan(const std::filesystem::path& path, const IntakeOptions& options, const Context& context) {
+RepairedScan repair_scan(const std::filesystem::path& path, const ImportOptions& options, const Context& context) {
     check(options);
     const std::string name = name_of_scan(path);
     RepairedScan result;
@@ -147,23 +147,23 @@ void enlarge(RepairedScan& scan, double scale) {
     scan.warnings.push_back(scaled_in_words(scale));
 }
 
-Intake take_in(const std::filesystem::path& path, const IntakeOptions& options, const Context& context) {
+ImportedScan import_scan(const std::filesystem::path& path, const ImportOptions& options, const Context& context) {
     RepairedScan scan = repair_scan(path, options, context);
     check_solid(scan, path.string(), false);
-    Intake intake;
-    intake.mm_per_unit = scan.mm_per_unit.value_or(1);
-    const double factor = intake.mm_per_unit * options.scale;
-    intake.centre = factor * scan.scanned.centre();
-    intake.mesh = std::move(scan.mesh);
-    for (Vec3& p : intake.mesh.points) p = factor * p - intake.centre;
-    intake.sha256 = scan.sha256;
-    intake.report = {std::move(scan.report), {}};
+    ImportedScan imported;
+    imported.mm_per_unit = scan.mm_per_unit.value_or(1);
+    const double factor = imported.mm_per_unit * options.scale;
+    imported.centre = factor * scan.scanned.centre();
+    imported.mesh = std::move(scan.mesh);
+    for (Vec3& p : imported.mesh.points) p = factor * p - imported.centre;
+    imported.sha256 = scan.sha256;
+    imported.report = {std::move(scan.report), {}};
     if (options.scale != 1) {
-        intake.report.warnings.push_back(scaled_in_words(options.scale));
+        imported.report.warnings.push_back(scaled_in_words(options.scale));
     }
-    for (std::string& warning : scan.warnings) intake.report.warnings.push_back(std::move(warning));
-    warn_of_size(intake, intake.report.warnings);
-    return intake;
+    for (std::string& warning : scan.warnings) imported.report.warnings.push_back(std::move(warning));
+    warn_of_size(imported, imported.report.warnings);
+    return imported;
 }
 
 }  // namespace qchopper

@@ -35,7 +35,7 @@ Unit unit_of(double mm);
 std::optional<double> agreed_mm_per_unit(std::optional<double> in_file, std::optional<double> given,
                                          const std::string& name);
 
-struct IntakeOptions {
+struct ImportOptions {
     std::optional<double> mm_per_unit;  // what one unit of the file is; nothing: what the file itself says
     double scale = 1;                   // the operator's enlargement; other than 1 it is reported as a warning
     RepairOptions repair = {};          // its mm_per_unit is set by the file
@@ -55,26 +55,26 @@ struct RepairedScan {
 
 // Throws InputError: (missing) no such file, (mesh) a scan that is wrong or cannot be made a solid, (use) impossible
 // options, or no unit. With Fill::none a scan may stay open.
-RepairedScan repair_scan(const std::filesystem::path& path, const IntakeOptions& options, const Context& context = {});
+RepairedScan repair_scan(const std::filesystem::path& path, const ImportOptions& options, const Context& context = {});
 
 // Enlarges it about the origin of its file, with its volume; every place and length of the report stays that of the
 // scan, where it can be found again. Other than 1 it is told of in a warning.
 void enlarge(RepairedScan& scan, double scale);
 
-struct IntakeReport {
+struct ImportReport {
     RepairReport repair;
     std::vector<std::string> warnings;  // whole sentences for the operator
 };
 
-struct Intake {
+struct ImportedScan {
     TriangleMesh mesh;  // mm, about its own centre
     Vec3 centre;        // mm: what was subtracted, the middle of the scan's box
     double mm_per_unit = 1;
     Sha256 sha256{};
-    IntakeReport report;
+    ImportReport report;
 };
 
 // Throws what repair_scan throws, and InputError (mesh) for a scan that stays open.
-Intake take_in(const std::filesystem::path& path, const IntakeOptions& options, const Context& context = {});
+ImportedScan import_scan(const std::filesystem::path& path, const ImportOptions& options, const Context& context = {});
 
 }  // namespace qchopper

@@ -7,12 +7,12 @@
 #include <map>
 
 #include "base/text.h"
+#include "segment/mesh/containment.h"
 #include "segment/mesh/links.h"
 #include "segment/mesh/manifold.h"
-#include "segment/mesh/nesting.h"
 #include "segment/mesh/shells.h"
-#include "segment/repair/crumbs.h"
-#include "segment/repair/loose_sheets.h"
+#include "segment/repair/fragments.h"
+#include "segment/repair/open_components.h"
 #include "segment/repair/self_intersections.h"
 #include "segment/repair/weld.h"
 
@@ -82,14 +82,14 @@ class Inspecting {
         result_.inconsistent = links_.faults.inconsistent;
         result_.non_manifold = links_.faults.non_manifold;
         result_.touching = count_touching();
-        result_.pinched = links_.extra_fans.size();
+        result_.non_manifold_vertices = links_.extra_fans.size();
         result_.repeated = links_.repeated;
-        // As repair counts shells: surfaces that only touch in points are two. At faulty edges they would fall to
+        // As repair counts shells: surfaces that only touch in points are two. At non-manifold edges they would fall to
         // pieces.
         if (result_.non_manifold + result_.inconsistent == 0) split_fans(mesh_, links_.extra_fans);
         links_.extra_fans = {};
         loops_ = border_loops(mesh_, links_.open);
-        for (const std::vector<std::uint32_t>& loop : loops_) {
+        for (const std::span<const std::uint32_t> loop : loops_) {
             BorderLoop hole{centre_of(mesh_, loop), loop.size(), 0};
             for (const std::uint32_t h : loop) {
                 hole.length += norm(mesh_.points[end_of(mesh_, h)] - mesh_.points[start_of(mesh_, h)]);
@@ -101,7 +101,7 @@ class Inspecting {
     // A wall between two solids, or a solid that touches itself along an edge: parted, nothing is open.
     std::size_t count_touching() const {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> ways;
-        for (const std::uint32_t h : links_.faulty) {
+        for (const std::uint32_t h : links_.non_manifold) {
             const std::uint32_t from = start_of(mesh_, h);
             const std::uint32_t to = end_of(mesh_, h);
             std::pair<std::size_t, std::size_t>& way = ways[std::minmax(from, to)];
@@ -118,20 +118,18 @@ class Inspecting {
         result_.box = shells_.box[0];
         for (std::size_t s = 0; s < shells_.count(); ++s) {
             result_.volume += shells_.volume[s];
-            for (int axis = 0; axis < 3; ++axis) {
-                result_.box.min[axis] = std::min(result_.box.min[axis], shells_.box[s].min[axis]);
-                result_.box.max[axis] = std::max(result_.box.max[axis], shells_.box[s].max[axis]);
-            }
+            extend(result_.box, shells_.box[s].min);
+            extend(result_.box, shells_.box[s].max);
         }
         area_.assign(shells_.count(), 0);
         for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
             const double area = norm(area_vector(mesh_, t));
-            result_.no_area += area == 0;
+            result_.degenerate += area == 0;
             area_[shells_.shell_of[t]] += area;
         }
         for (const double area : area_) result_.area += area;
         is_open_.assign(shells_.count(), false);
-        for (const std::vector<std::uint32_t>* half_edges : {&links_.open, &links_.faulty}) {
+        for (const std::vector<std::uint32_t>* half_edges : {&links_.open, &links_.non_manifold}) {
             for (const std::uint32_t h : *half_edges) is_open_[shells_.shell_of[h / 3]] = true;
         }
         look_for_cavities();
@@ -151,10 +149,7 @@ class Inspecting {
         std::vector<double> area_of_solid = area_;
         std::vector<bool> is_solid = is_open_;
         is_solid.flip();
-        std::vector<std::vector<std::uint32_t>> around(shells_.count());
-        if (std::find(is_negative.begin(), is_negative.end(), true) != is_negative.end()) {
-            around = shells_around(mesh_, shells_, is_negative);
-        }
+        const IndexLists around = shells_around(mesh_, shells_, is_negative);
         for (std::size_t s = 0; s < shells_.count(); ++s) {
             if (!is_negative[s]) continue;
             if (around[s].empty()) {
@@ -173,17 +168,17 @@ class Inspecting {
         }
         double area = 0;
         for (std::size_t s = 0; s < shells_.count(); ++s) {
-            if (!is_solid[s] || !(of_solid[s] < crumb_share * whole)) continue;
-            ++result_.crumbs;
+            if (!is_solid[s] || !(of_solid[s] < fragment_share * whole)) continue;
+            ++result_.fragments;
             area += area_of_solid[s];
         }
-        if (result_.area > 0) result_.crumb_area_share = area / result_.area;
+        if (result_.area > 0) result_.fragment_area_share = area / result_.area;
     }
 
     // A flat lid on each hole is the least that closes it; its area is that of the loop seen along its mean normal.
     void look_for_sheets() {
         std::vector<double> lids(shells_.count());
-        for (const std::vector<std::uint32_t>& loop : loops_) {
+        for (const std::span<const std::uint32_t> loop : loops_) {
             const Vec3 origin = mesh_.points[start_of(mesh_, loop[0])];
             Vec3 sum;
             for (const std::uint32_t h : loop) {
@@ -206,10 +201,10 @@ class Inspecting {
     TriangleMesh mesh_;
     Inspection result_;
     Links links_;
-    std::vector<std::vector<std::uint32_t>> loops_;
+    IndexLists loops_;
     Shells shells_;
     std::vector<double> area_;   // per shell
-    std::vector<bool> is_open_;  // per shell: it has an open or faulty edge
+    std::vector<bool> is_open_;  // per shell: it has an open or non-manifold edge
 };
 
 // How lengths are told next to the longest of them.
@@ -248,17 +243,17 @@ Inspection inspect(RawMesh scan, const InspectOptions& options, const Context& c
 
 Judgement judge(const Inspection& i) {
     Judgement judgement;
-    const auto hopeless = [&](const std::string& why) {
-        judgement.verdict = Verdict::hopeless;
+    const auto unrepairable = [&](const std::string& why) {
+        judgement.verdict = Verdict::unrepairable;
         judgement.reasons = {why};
         return judgement;
     };
-    if (i.triangles == i.no_area) return hopeless("No face has an area.");
-    if (i.sheet_area_share > loose_sheet_share) {
-        return hopeless(counted(i.sheets, "part of it is a sheet", "parts of it are sheets") +
-                        " with more missing than there is: scan the other side too.");
+    if (i.triangles == i.degenerate) return unrepairable("No face has an area.");
+    if (i.sheet_area_share > open_component_share) {
+        return unrepairable(counted(i.sheets, "part of it is a sheet", "parts of it are sheets") +
+                            " with more missing than there is: scan the other side too.");
     }
-    if (i.is_closed() && i.volume == 0) return hopeless("It has no volume.");
+    if (i.is_closed() && i.volume == 0) return unrepairable("It has no volume.");
     const auto tell = [&](std::size_t count, const char* one, const char* many) {
         if (count > 0) judgement.reasons.push_back(counted(count, one, many));
     };
@@ -269,14 +264,15 @@ Judgement judge(const Inspection& i) {
     tell(i.collapsed, "face is collapsed to a line or point and dropped.",
          "faces are collapsed to a line or point and dropped.");
     tell(i.touching, "edge where solids only touch is parted.", "edges where solids only touch are parted.");
-    tell(i.pinched, "point where surfaces only touch is parted.", "points where surfaces only touch are parted.");
+    tell(i.non_manifold_vertices, "point where surfaces only touch is parted.",
+         "points where surfaces only touch are parted.");
     add(i.repeated, "face lies on another one and is dropped.", "faces lie on others and are dropped.");
     add(i.non_manifold - std::min(i.non_manifold, i.touching), "edge of more than two faces is split.",
         "edges of more than two faces are split.");
     add(i.inconsistent, "edge has faces turned against each other, which are turned.",
         "edges have faces turned against each other, which are turned.");
-    add(i.no_area, "face has no area and is taken away.", "faces have no area and are taken away.");
-    add(i.sheets, "small loose sheet is dropped.", "small loose sheets are dropped.");
+    add(i.degenerate, "face has no area and is taken away.", "faces have no area and are taken away.");
+    add(i.sheets, "small open component is dropped.", "small open components are dropped.");
     add(i.holes.size() - std::min(i.holes.size(), i.sheets), "hole is closed.", "holes are closed.");
     add(i.inside_out, "shell is inside out and turned.", "shells are inside out and turned.");
     if (i.self_intersected && i.self_intersected->pairs > 0) {

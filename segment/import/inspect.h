@@ -45,24 +45,24 @@ struct Inspection {
     std::size_t welded = 0;        // points equal to an earlier one
     std::size_t collapsed = 0;     // triangles with two corners in one point
     std::size_t unreferenced = 0;  // points in no triangle
-    std::size_t no_area = 0;       // triangles with three different corners on one line
+    std::size_t degenerate = 0;    // triangles with three different corners on one line
     std::size_t repeated = 0;      // triangles with the corners of an earlier one
     Box box;                       // of the points in use
     std::size_t shells = 0;
-    std::size_t cavities = 0;       // closed shells with negative volume inside another shell
-    std::size_t inside_out = 0;     // closed shells with negative volume and nothing around them
-    std::size_t crumbs = 0;         // closed solids with less than 1/100,000 of the volume: too small to be pieces
-    double crumb_area_share = 0;    // of the surface
-    std::size_t sheets = 0;         // open shells with more missing than there is: they enclose nothing
-    double sheet_area_share = 0;    // of the surface
-    std::size_t open_edges = 0;     // edges of one triangle
-    std::size_t inconsistent = 0;   // edges that both triangles run the same way
-    std::size_t non_manifold = 0;   // edges of three triangles or more
-    std::size_t touching = 0;       // of these, edges with as many faces one way as the other: solids that only touch
-    std::size_t pinched = 0;        // points where surfaces only touch
-    std::vector<BorderLoop> holes;  // in order of their first edge
-    double volume = 0;              // signed, file unit cubed; means something only when closed
-    double area = 0;                // file unit squared
+    std::size_t cavities = 0;        // closed shells with negative volume inside another shell
+    std::size_t inside_out = 0;      // closed shells with negative volume and nothing around them
+    std::size_t fragments = 0;       // closed solids with less than 1/100,000 of the volume: too small to be pieces
+    double fragment_area_share = 0;  // of the surface
+    std::size_t sheets = 0;          // open shells with more missing than there is: they enclose nothing
+    double sheet_area_share = 0;     // of the surface
+    std::size_t open_edges = 0;      // edges of one triangle
+    std::size_t inconsistent = 0;    // edges that both triangles run the same way
+    std::size_t non_manifold = 0;    // edges of three triangles or more
+    std::size_t touching = 0;        // of these, edges with as many faces one way as the other: solids that only touch
+    std::size_t non_manifold_vertices = 0;            // points where surfaces only touch
+    std::vector<BorderLoop> holes;                    // in order of their first edge
+    double volume = 0;                                // signed, file unit cubed; means something only when closed
+    double area = 0;                                  // file unit squared
     std::optional<SelfIntersected> self_intersected;  // only when asked for
 
     bool is_closed() const { return open_edges == 0 && inconsistent == 0 && non_manifold == 0; }
@@ -77,9 +77,9 @@ struct InspectOptions {
 Inspection inspect(RawMesh scan, const InspectOptions& options = {}, const Context& context = {});
 
 enum class Verdict {
-    ready,      // a solid as it stands, or once what always happens on the way in has happened
-    to_repair,  // prepare and repair make a solid of it
-    hopeless    // there is no solid in it
+    ready,        // a solid as it stands, or once what always happens on the way in has happened
+    to_repair,    // prepare and repair make a solid of it
+    unrepairable  // there is no solid in it
 };
 
 // What stands between the scan and a solid, in whole sentences; when it is ready, what happens on the way in.

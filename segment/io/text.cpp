@@ -13,8 +13,8 @@ bool is_space(char c) {
 }
 
 std::string_view without_plus(std::string_view word) {
-    const bool lone_plus = word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+';
-    return lone_plus ? word.substr(1) : word;
+    const bool apex_plus = word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+';
+    return apex_plus ? word.substr(1) : word;
 }
 
 }  // namespace

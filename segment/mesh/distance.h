@@ -44,4 +44,9 @@ struct Deviation {
 Deviation deviation(const TriangleMesh& scan, const TriangleMesh& result, const DistanceOptions& options = {},
                     const Context& context = {});
 
+// The largest distance of samples of `from` (corners, middles of edges, insides of faces) to the surface `to`; both
+// have triangles. A face is divided until its samples lie as dense as the corners of the other mesh do on the average,
+// so that a large face over many small ones is looked at everywhere (tests/segment/simplify/simplify_test.cpp).
+double farthest_sample(const TriangleMesh& from, const TriangleMesh& to, const Context& context = {});
+
 }  // namespace qchopper

@@ -5,25 +5,18 @@
 
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "segment/mesh/index_lists.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {
 
-// Groups are in the order of their smaller, then of their larger end point; half-edges in a group are ascending.
-struct EdgeGroups {
-    std::vector<std::uint32_t> half_edges;
-    std::vector<std::uint32_t> begin;  // per group, and one more for the end
-    std::size_t count() const { return begin.size() - 1; }
-    std::span<const std::uint32_t> operator[](std::size_t group) const {
-        return std::span(half_edges).subspan(begin[group], begin[group + 1] - begin[group]);
-    }
-};
-EdgeGroups edge_groups(const TriangleMesh& mesh);
+// Per edge its half-edges. Edges are in the order of their smaller, then of their larger end point; half-edges of one
+// are ascending.
+IndexLists edge_groups(const TriangleMesh& mesh);
 
 // A half-edge with the angle at which its triangle stands about the edge.
 struct AtAngle {

@@ -5,6 +5,7 @@
 
 #include "base/huge_pages.h"
 #include "segment/mesh/disjoint_sets.h"
+#include "segment/mesh/manifold.h"
 
 namespace qchopper {
 namespace {
@@ -94,7 +95,7 @@ class Closely {
         }
         std::sort(neighbours_.begin(), neighbours_.end());
         DisjointSets fans(count);
-        bool is_faulty = false;
+        bool is_non_manifold = false;
         for (auto group = neighbours_.begin(); group != neighbours_.end();) {
             auto end = group;
             while (end != neighbours_.end() && end->point == group->point) ++end;
@@ -102,15 +103,15 @@ class Closely {
             if (size == 2 && group->is_next != (group + 1)->is_next) {
                 fans.unite(group->place, (group + 1)->place);
             } else {
-                is_faulty |= size > 1;
+                is_non_manifold |= size > 1;
                 if (point < group->point) tell(size, corner[group->place] / 3);
                 for (auto it = group; it != end; ++it) {
-                    if (it->is_next) (size == 1 ? links_.open : links_.faulty).push_back(corner[it->place]);
+                    if (it->is_next) (size == 1 ? links_.open : links_.non_manifold).push_back(corner[it->place]);
                 }
             }
             group = end;
         }
-        if (!is_faulty) tell_fans(fans, corner, count);
+        if (!is_non_manifold) tell_fans(fans, corner, count);
     }
 
     // Equal triangles have all their corners at points whose triangles are no ring of three or more.
@@ -136,23 +137,22 @@ class Closely {
     }
 
     void tell_fans(DisjointSets& fans, const std::uint32_t* corner, std::uint32_t count) {
-        number_.resize(count);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const std::uint32_t root = fans.root(i);
-            if (root == 0) continue;
-            if (root == i) {
-                number_[i] = links_.extra_fans.size();
-                links_.extra_fans.emplace_back();
-            }
-            links_.extra_fans[number_[root]].push_back(corner[i]);
+        fan_and_place_.clear();
+        for (std::uint32_t i = 0; i < count; ++i) fan_and_place_.push_back({fans.root(i), i});
+        std::sort(fan_and_place_.begin(), fan_and_place_.end());
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto [fan, place] = fan_and_place_[i];
+            if (fan == 0) continue;
+            links_.extra_fans.values.push_back(corner[place]);
+            if (i + 1 == count || fan_and_place_[i + 1][0] != fan) links_.extra_fans.end_list();
         }
     }
 
     const TriangleMesh& mesh_;
     const CornersByPoint& corners_;
     Links& links_;
-    std::vector<Neighbour> neighbours_;  // of the point in hand
-    std::vector<std::size_t> number_;    // of the fan that begins at each of its corners
+    std::vector<Neighbour> neighbours_;                        // of the point in hand
+    std::vector<std::array<std::uint32_t, 2>> fan_and_place_;  // of its corners
     std::vector<bool> is_looked_at_;
     std::vector<std::uint32_t> looked_at_;
 };
@@ -169,15 +169,15 @@ Links links(const TriangleMesh& mesh) {
         if (count > 0 && !is_one_ring(mesh, &corners.corner[begin], count)) closely.look_at(point);
     }
     std::sort(result.open.begin(), result.open.end());
-    std::sort(result.faulty.begin(), result.faulty.end());
+    std::sort(result.non_manifold.begin(), result.non_manifold.end());
     result.repeated = closely.count_repeated();
     return result;
 }
 
-void split_fans(TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& extra_fans) {
-    for (const std::vector<std::uint32_t>& fan : extra_fans) {
+void split_fans(TriangleMesh& mesh, const IndexLists& extra_fans) {
+    for (const std::span<const std::uint32_t> fan : extra_fans) {
         const auto copy = static_cast<std::uint32_t>(mesh.points.size());
-        mesh.points.push_back(Vec3(mesh.points[mesh.triangles[fan[0] / 3][fan[0] % 3]]));
+        mesh.points.push_back(Vec3(mesh.points[start_of(mesh, fan[0])]));
         for (const std::uint32_t corner : fan) mesh.triangles[corner / 3][corner % 3] = copy;
     }
 }

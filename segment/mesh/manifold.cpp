@@ -47,23 +47,23 @@ void for_each_fan(const TriangleMesh& mesh, const Edges& edges, const OnFan& on_
 
 }  // namespace
 
-std::size_t count_pinched(const TriangleMesh& mesh, const Edges& edges) {
-    std::vector<bool> is_faulty(mesh.points.size());
-    for (const std::uint32_t h : unpaired(mesh, edges).faulty) {
-        is_faulty[start_of(mesh, h)] = true;
-        is_faulty[end_of(mesh, h)] = true;
+std::size_t count_non_manifold_vertices(const TriangleMesh& mesh, const Edges& edges) {
+    std::vector<bool> is_non_manifold(mesh.points.size());
+    for (const std::uint32_t h : unpaired(mesh, edges).non_manifold) {
+        is_non_manifold[start_of(mesh, h)] = true;
+        is_non_manifold[end_of(mesh, h)] = true;
     }
     std::vector<bool> has_fan(mesh.points.size());
     std::size_t copies = 0;
     for_each_fan(mesh, edges, [&](const std::vector<std::uint32_t>& fan) {
         const std::uint32_t point = start_of(mesh, fan.front());
-        if (!is_faulty[point]) copies += has_fan[point];
+        if (!is_non_manifold[point]) copies += has_fan[point];
         has_fan[point] = true;
     });
     return copies;
 }
 
-std::size_t split_pinched(TriangleMesh& mesh, const Edges& edges) {
+std::size_t split_non_manifold_vertices(TriangleMesh& mesh, const Edges& edges) {
     std::vector<bool> has_fan(mesh.points.size());
     const std::size_t before = mesh.points.size();
     for_each_fan(mesh, edges, [&](const std::vector<std::uint32_t>& fan) {
@@ -93,31 +93,30 @@ Unpaired unpaired(const TriangleMesh& mesh, const Edges& edges) {
     for (std::size_t i = 0; i < lonely.size(); ++i) {
         const bool has_same_before = i > 0 && lonely[i - 1].first == lonely[i].first;
         const bool has_same_after = i + 1 < lonely.size() && lonely[i + 1].first == lonely[i].first;
-        (has_same_before || has_same_after ? result.faulty : result.open).push_back(lonely[i].second);
+        (has_same_before || has_same_after ? result.non_manifold : result.open).push_back(lonely[i].second);
     }
     std::sort(result.open.begin(), result.open.end());
-    std::sort(result.faulty.begin(), result.faulty.end());
+    std::sort(result.non_manifold.begin(), result.non_manifold.end());
     return result;
 }
 
-std::vector<std::vector<std::uint32_t>> border_loops(const TriangleMesh& mesh, const std::vector<std::uint32_t>& open) {
+IndexLists border_loops(const TriangleMesh& mesh, std::span<const std::uint32_t> open) {
     std::vector<std::uint32_t> ends_at(mesh.points.size(), nobody);  // the open half-edge that ends at a point
     for (const std::uint32_t h : open) ends_at[end_of(mesh, h)] = h;
-    std::vector<std::vector<std::uint32_t>> loops;
+    IndexLists loops;
     std::vector<bool> done(3 * mesh.triangles.size());
     for (const std::uint32_t first : open) {
         if (done[first]) continue;
-        std::vector<std::uint32_t> loop;
         for (std::uint32_t h = first; h != nobody && !done[h]; h = ends_at[start_of(mesh, h)]) {
             done[h] = true;
-            loop.push_back(h);
+            loops.values.push_back(h);
         }
-        loops.push_back(std::move(loop));
+        loops.end_list();
     }
     return loops;
 }
 
-Vec3 centre_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& loop) {
+Vec3 centre_of(const TriangleMesh& mesh, std::span<const std::uint32_t> loop) {
     Vec3 sum;
     for (const std::uint32_t h : loop) sum = sum + mesh.points[start_of(mesh, h)];
     return (1.0 / static_cast<double>(loop.size())) * sum;

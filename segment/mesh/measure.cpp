@@ -1,6 +1,5 @@
 #include "segment/mesh/measure.h"
 
-#include <algorithm>
 #include <cassert>
 
 namespace qchopper {
@@ -8,12 +7,7 @@ namespace qchopper {
 Box bounds(const TriangleMesh& mesh) {
     if (mesh.points.empty()) return {};
     Box box{mesh.points.front(), mesh.points.front()};
-    for (const Vec3& p : mesh.points) {
-        for (int axis = 0; axis < 3; ++axis) {
-            box.min[axis] = std::min(box.min[axis], p[axis]);
-            box.max[axis] = std::max(box.max[axis], p[axis]);
-        }
-    }
+    for (const Vec3& p : mesh.points) extend(box, p);
     assert(box.min.x <= box.max.x && box.min.y <= box.max.y && box.min.z <= box.max.z);
     return box;
 }

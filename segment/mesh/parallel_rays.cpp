@@ -37,7 +37,7 @@ struct GridPoint {
 // The queries of one direction, sorted by cell. Few to a cell: a scan's triangles are small beside it.
 class Grid {
  public:
-    Grid(Vec3 normal, const PlaneFrame& frame, std::span<const WayQuery> queries, bool up) {
+    Grid(Vec3 normal, const PlaneFrame& frame, std::span<const RayQuery> queries, bool up) {
         std::vector<GridPoint> points;
         for (std::uint32_t q = 0; q < queries.size(); ++q) {
             if (queries[q].up == up) points.push_back({seen_along(normal, frame, queries[q].from), q});
@@ -152,7 +152,7 @@ void pass_over(const Grid& grid, bool up, const Triangle& v, const Seen (&corner
 
 }  // namespace
 
-std::vector<double> straight_ways(const TriangleMesh& mesh, Vec3 normal, std::span<const WayQuery> queries,
+std::vector<double> ray_distances(const TriangleMesh& mesh, Vec3 normal, std::span<const RayQuery> queries,
                                   double most) {
     assert(most >= 0);
     std::vector<double> least(queries.size(), infinite);

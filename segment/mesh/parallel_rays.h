@@ -13,7 +13,7 @@
 
 namespace qchopper {
 
-struct WayQuery {
+struct RayQuery {
     Vec3 from;
     bool up = false;  // along the normal; false: against it
 };
@@ -21,7 +21,7 @@ struct WayQuery {
 // Per query the distance to the first surface through which the way leaves the mesh; infinite if it meets none within
 // `most`.
 // A surface that the way would enter through is passed over, so a point on a face that goes inwards does not see it.
-std::vector<double> straight_ways(const TriangleMesh& mesh, Vec3 normal, std::span<const WayQuery> queries,
+std::vector<double> ray_distances(const TriangleMesh& mesh, Vec3 normal, std::span<const RayQuery> queries,
                                   double most);
 
 }  // namespace qchopper

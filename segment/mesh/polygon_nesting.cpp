@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace qchopper {
@@ -10,37 +9,6 @@ namespace {
 
 // Loops that touch have points within this share of the section's size of each other; only rounding moves them.
 constexpr double touch_share = 1e-9;
-
-struct Rectangle {
-    Point2 min{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-    Point2 max{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-    void include(Point2 p) {
-        min = {std::min(min.x, p.x), std::min(min.y, p.y)};
-        max = {std::max(max.x, p.x), std::max(max.y, p.y)};
-    }
-    bool is_near(Point2 p, double reach) const {
-        return p.x >= min.x - reach && p.x <= max.x + reach && p.y >= min.y - reach && p.y <= max.y + reach;
-    }
-};
-
-bool is_inside(std::span<const Point2> points, const Loop& loop, Point2 p) {
-    bool inside = false;
-    for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
-        const Point2 a = points[loop[i]];
-        const Point2 b = points[loop[j]];
-        if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
-    }
-    return inside;
-}
-
-bool is_on_segment(Point2 p, Point2 a, Point2 b, double reach) {
-    if (p.x < std::min(a.x, b.x) - reach || p.x > std::max(a.x, b.x) + reach) return false;
-    if (p.y < std::min(a.y, b.y) - reach || p.y > std::max(a.y, b.y) + reach) return false;
-    const double dx = b.x - a.x;
-    const double dy = b.y - a.y;
-    const double beside = dx * (p.y - a.y) - dy * (p.x - a.x);
-    return beside * beside <= reach * reach * (dx * dx + dy * dy) || (dx == 0 && dy == 0);
-}
 
 bool is_on(std::span<const Point2> points, const Loop& loop, Point2 p, double reach) {
     for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
@@ -54,23 +22,19 @@ bool is_on(std::span<const Point2> points, const Loop& loop, Point2 p, double re
 class Outline {
  public:
     Outline(std::span<const Point2> points, const Loop& loop, double reach)
-        : points_(points), loop_(loop), reach_(reach), rows_(loop.size()) {
-        double high = -std::numeric_limits<double>::infinity();
-        for (const std::uint32_t p : loop) {
-            low_ = std::min(low_, across(points[p]));
-            high = std::max(high, across(points[p]));
-        }
-        per_mm_ = high > low_ ? static_cast<double>(loop.size()) / (high - low_) : 0;
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const double a = across(points[loop[i]]);
-            const double b = across(points[loop[next(i)]]);
-            const std::size_t last = row(std::max(a, b) + 2 * reach);
-            for (std::size_t r = row(std::min(a, b) - 2 * reach); r <= last; ++r) rows_[r].push_back(i);
+        : points_(points), loop_(loop), reach_(reach) {
+        const auto [low, high] = std::minmax_element(loop.begin(), loop.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return across(points[a]) < across(points[b]);
+        });
+        rows_ = EdgeRows(across(points[*low]), across(points[*high]), loop.size());
+        for (std::uint32_t i = 0; i < loop.size(); ++i) {
+            const auto [from, to] = std::minmax({across(points[loop[i]]), across(points[loop[next(i)]])});
+            rows_.add(from - 2 * reach, to + 2 * reach, i);
         }
     }
     bool has(Point2 p) const {
-        const std::vector<std::size_t>& edges = rows_[row(across(p))];
-        return std::any_of(edges.begin(), edges.end(), [&](std::size_t i) {
+        const std::vector<std::uint32_t>& edges = rows_.at(across(p));
+        return std::any_of(edges.begin(), edges.end(), [&](std::uint32_t i) {
             return is_on_segment(p, points_[loop_[i]], points_[loop_[next(i)]], reach_);
         });
     }
@@ -78,17 +42,11 @@ class Outline {
  private:
     static double across(Point2 p) { return 0.62 * p.x + 0.78 * p.y; }
     std::size_t next(std::size_t i) const { return i + 1 < loop_.size() ? i + 1 : 0; }
-    std::size_t row(double at) const {
-        const double r = (at - low_) * per_mm_;
-        return r <= 0 ? 0 : std::min(static_cast<std::size_t>(r), rows_.size() - 1);
-    }
 
     std::span<const Point2> points_;
     const Loop& loop_;
     double reach_;
-    double low_ = std::numeric_limits<double>::infinity();
-    double per_mm_ = 0;
-    std::vector<std::vector<std::size_t>> rows_;
+    EdgeRows rows_;
 };
 
 // A point well inside the loop: in the widest gap between the heights of its points, in the middle of the widest
@@ -149,8 +107,8 @@ Place place(std::span<const Point2> points, const Loop& loop, const Loop& other,
 std::vector<std::vector<std::size_t>> loops_around(std::span<const Point2> points, std::span<const Loop> loops,
                                                    std::span<const double> area) {
     const std::size_t count = loops.size();
-    std::vector<Rectangle> box(count);
-    Rectangle all;
+    std::vector<Rectangle2> box(count);
+    Rectangle2 all;
     for (std::size_t i = 0; i < count; ++i) {
         for (const std::uint32_t p : loops[i]) box[i].include(points[p]);
         all.include(box[i].min);
@@ -189,17 +147,6 @@ std::vector<std::vector<std::size_t>> loops_around(std::span<const Point2> point
 }
 
 }  // namespace
-
-double signed_area(std::span<const Point2> points, const Loop& loop) {
-    double twice = 0;
-    const Point2 o = points[loop.front()];
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Point2 a = points[loop[i]];
-        const Point2 b = points[loop[(i + 1) % loop.size()]];
-        twice += (a.x - o.x) * (b.y - o.y) - (b.x - o.x) * (a.y - o.y);
-    }
-    return twice / 2;
-}
 
 std::vector<CapRegion> nest(std::span<const Point2> points, std::span<const Loop> loops) {
     const std::size_t count = loops.size();

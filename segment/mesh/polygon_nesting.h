@@ -6,23 +6,12 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "segment/mesh/polygon.h"
+
 namespace qchopper {
-
-struct Point2 {
-    double x = 0;
-    double y = 0;
-    bool operator==(const Point2&) const = default;
-};
-
-// Point numbers in order, counter-clockwise around material and clockwise around holes.
-using Loop = std::vector<std::uint32_t>;
-
-// Signed area by the shoelace formula: positive counter-clockwise.
-double signed_area(std::span<const Point2> points, const Loop& loop);
 
 // One outer loop and the holes in it, as indices of loops.
 struct CapRegion {

@@ -35,6 +35,12 @@ inline bool is_consistent(const TriangleMesh& mesh) {
            std::all_of(mesh.triangles.begin(), mesh.triangles.end(), names_points);
 }
 
+inline std::array<Vec3, 3> corners_of(const TriangleMesh& mesh, std::size_t triangle) {
+    assert(triangle < mesh.triangles.size());
+    const Triangle& t = mesh.triangles[triangle];
+    return {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]};
+}
+
 // Half the cross product of two edges: the direction is the outward normal, the length the area in mm2.
 inline Vec3 area_vector(const TriangleMesh& mesh, std::size_t triangle) {
     assert(triangle < mesh.triangles.size());

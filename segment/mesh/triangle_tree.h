@@ -81,9 +81,4 @@ struct TriangleTree {
     }
 };
 
-inline std::array<Vec3, 3> corners_of(const TriangleMesh& mesh, std::size_t triangle) {
-    const Triangle& t = mesh.triangles[triangle];
-    return {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]};
-}
-
 }  // namespace qchopper

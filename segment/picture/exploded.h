@@ -16,7 +16,7 @@ namespace qchopper {
 struct ExplodeOptions {
     double gap = 0.08;           // wanted between neighbours, as a share of the diagonal of the whole
     double least_factor = 0.25;  // of the way from the common centre to the piece, that it moves further out
-    double most_factor = 0.9;    // a crumb beside a cut would drive the others out of the picture
+    double most_factor = 0.9;    // a fragment beside a cut would drive the others out of the picture
 };
 
 // One shift per piece, all of one factor: away from the common centre.

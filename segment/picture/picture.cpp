@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "segment/picture/light.h"
 #include "segment/picture/png.h"
+#include "segment/picture/shade.h"
 
 namespace qchopper {
 namespace {

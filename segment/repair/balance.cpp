@@ -18,6 +18,7 @@
 
 #include "segment/mesh/edge_groups.h"
 #include "segment/mesh/manifold.h"
+#include "segment/mesh/submesh.h"
 #include "segment/repair/faces.h"
 
 namespace qchopper {
@@ -30,8 +31,8 @@ bool runs_up(const TriangleMesh& mesh, std::uint32_t h) {
     return start_of(mesh, h) < end_of(mesh, h);
 }
 
-bool is_balanced(const TriangleMesh& mesh, const EdgeGroups& groups) {
-    for (std::size_t g = 0; g < groups.count(); ++g) {
+bool is_balanced(const TriangleMesh& mesh, const IndexLists& groups) {
+    for (std::size_t g = 0; g < groups.size(); ++g) {
         const std::span<const std::uint32_t> group = groups[g];
         const auto up = std::count_if(group.begin(), group.end(), [&](std::uint32_t h) { return runs_up(mesh, h); });
         if (2 * static_cast<std::size_t>(up) != group.size()) return false;
@@ -46,12 +47,12 @@ class Pairing {
 
     ShellCounts run() {
         ShellCounts counts;
-        for (std::size_t g = 0; g < groups_.count(); ++g) {
+        for (std::size_t g = 0; g < groups_.size(); ++g) {
             if (groups_[g].size() > 2) ++counts.edges_split;
             pair_wedges(groups_[g]);
         }
         number_fans();
-        for (std::size_t g = 0; g < groups_.count(); ++g) {
+        for (std::size_t g = 0; g < groups_.size(); ++g) {
             if (groups_[g].size() > 2) part_pairs_of_one_edge(groups_[g]);
         }
         counts.copies = give_every_fan_a_point();
@@ -181,7 +182,7 @@ class Pairing {
     }
 
     TriangleMesh& mesh_;
-    EdgeGroups groups_;
+    IndexLists groups_;
     std::vector<std::uint32_t> partner_;  // per half-edge the one on the other side of its edge
     std::vector<std::uint32_t> fan_;      // per corner
     std::uint32_t fans_ = 0;

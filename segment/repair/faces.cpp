@@ -1,7 +1,6 @@
 #include "segment/repair/faces.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -11,6 +10,7 @@
 #include "segment/mesh/edges.h"
 #include "segment/mesh/manifold.h"
 #include "segment/mesh/measure.h"
+#include "segment/mesh/submesh.h"
 
 namespace qchopper {
 namespace {
@@ -48,7 +48,7 @@ std::vector<Corners> sorted_by_corners(const TriangleMesh& mesh) {
     return all;
 }
 
-// Without faulty edges two faces can only be one on the other when they are each other's neighbours three times.
+// Without non-manifold edges two faces can only be one on the other when they are each other's neighbours three times.
 bool may_repeat(const TriangleMesh& mesh, const Edges& found) {
     if (found.faults.non_manifold + found.faults.inconsistent > 0) return true;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -64,9 +64,9 @@ class DoubleSheets {
  public:
     DoubleSheets(const TriangleMesh& mesh, const std::vector<std::uint32_t>& opposite)
         : mesh_(mesh), opposite_(opposite), sheet_(mesh.triangles.size()), balance_(mesh.triangles.size()) {
-        const EdgeGroups groups = edge_groups(mesh);
-        for (std::size_t g = 0; g < groups.count(); ++g) join(groups[g]);
-        for (std::size_t g = 0; g < groups.count(); ++g) weigh(groups[g]);
+        const IndexLists groups = edge_groups(mesh);
+        for (std::size_t g = 0; g < groups.size(); ++g) join(groups[g]);
+        for (std::size_t g = 0; g < groups.size(); ++g) weigh(groups[g]);
         measure();
     }
 
@@ -142,23 +142,7 @@ class DoubleSheets {
     std::vector<Balance> balance_;
 };
 
-template <class Value>
-void keep_marked(std::vector<Value>& values, const std::vector<bool>& is_kept) {
-    assert(values.size() == is_kept.size());
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (is_kept[i]) values[kept++] = values[i];
-    }
-    values.resize(kept);
-}
-
 }  // namespace
-
-void keep_triangles(TriangleMesh& mesh, const std::vector<bool>& is_kept, SourceFaces* sources) {
-    keep_marked(mesh.triangles, is_kept);
-    if (!mesh.cap_of.empty()) keep_marked(mesh.cap_of, is_kept);
-    if (sources != nullptr) keep_marked(sources->of, is_kept);
-}
 
 std::vector<bool> without_opposite_faces(const TriangleMesh& mesh) {
     const std::vector<Corners> all = sorted_by_corners(mesh);

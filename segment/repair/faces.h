@@ -30,7 +30,4 @@ RepeatedFaces drop_repeated_faces(TriangleMesh& mesh, const Edges& found, Source
 // first stay. So each directed edge still occurs as often more than its reverse as it did.
 std::vector<bool> without_opposite_faces(const TriangleMesh& mesh);
 
-// Keeps the triangles that are marked, in their order, with their cap_of.
-void keep_triangles(TriangleMesh& mesh, const std::vector<bool>& is_kept, SourceFaces* sources = nullptr);
-
 }  // namespace qchopper

@@ -30,7 +30,7 @@ struct Strip {
     std::vector<std::uint32_t> vertex;  // of the surface, per point of the mesh
 };
 
-std::vector<std::uint32_t> triangles_around(const TriangleMesh& mesh, const std::vector<std::uint32_t>& loop) {
+std::vector<std::uint32_t> triangles_around(const TriangleMesh& mesh, std::span<const std::uint32_t> loop) {
     std::vector<bool> is_near(mesh.points.size());
     for (const std::uint32_t h : loop) is_near[start_of(mesh, h)] = true;
     std::vector<std::uint32_t> found;
@@ -47,7 +47,7 @@ std::vector<std::uint32_t> triangles_around(const TriangleMesh& mesh, const std:
     return found;
 }
 
-std::optional<Strip> strip_around(const TriangleMesh& mesh, const std::vector<std::uint32_t>& loop) {
+std::optional<Strip> strip_around(const TriangleMesh& mesh, std::span<const std::uint32_t> loop) {
     Strip strip;
     strip.vertex.assign(mesh.points.size(), nobody);
     for (const std::uint32_t t : triangles_around(mesh, loop)) {
@@ -67,7 +67,7 @@ std::optional<Strip> strip_around(const TriangleMesh& mesh, const std::vector<st
 }
 
 // Whether the new points stay about as near to the loop as the loop is wide.
-bool is_near(const std::vector<Vec3>& points, const TriangleMesh& mesh, const std::vector<std::uint32_t>& loop) {
+bool is_near(const std::vector<Vec3>& points, const TriangleMesh& mesh, std::span<const std::uint32_t> loop) {
     const Vec3 centre = centre_of(mesh, loop);
     double radius = 0;
     for (const std::uint32_t h : loop) radius = std::max(radius, norm(mesh.points[start_of(mesh, h)] - centre));
@@ -76,7 +76,7 @@ bool is_near(const std::vector<Vec3>& points, const TriangleMesh& mesh, const st
 
 }  // namespace
 
-std::optional<FairPatch> fair_hole(const TriangleMesh& mesh, const std::vector<std::uint32_t>& loop) {
+std::optional<FairPatch> fair_hole(const TriangleMesh& mesh, std::span<const std::uint32_t> loop) {
     namespace pmp = CGAL::Polygon_mesh_processing;
     std::optional<Strip> strip = strip_around(mesh, loop);
     if (!strip) return std::nullopt;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "segment/mesh/triangle_mesh.h"
@@ -19,6 +20,6 @@ struct FairPatch {
 
 // `loop` is one of border_loops (manifold.h). Nothing if no such patch is found, or one that swings out farther than
 // the loop is wide.
-std::optional<FairPatch> fair_hole(const TriangleMesh& mesh, const std::vector<std::uint32_t>& loop);
+std::optional<FairPatch> fair_hole(const TriangleMesh& mesh, std::span<const std::uint32_t> loop);
 
 }  // namespace qchopper

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "segment/mesh/manifold.h"
@@ -58,8 +59,7 @@ std::vector<Surface::FaceHandle> fill(Surface& surface, Surface::HalfedgeHandle 
 }
 
 // The triangles that close the loop flat; empty if there are none.
-std::vector<Triangle> flat_triangles(Surface& surface, const TriangleMesh& mesh,
-                                     const std::vector<std::uint32_t>& loop) {
+std::vector<Triangle> flat_triangles(Surface& surface, const TriangleMesh& mesh, std::span<const std::uint32_t> loop) {
     std::vector<Triangle> triangles;
     for (const Surface::FaceHandle face : fill(surface, border_half_edge(surface, mesh, loop.front()), loop.size())) {
         Triangle triangle{};
@@ -73,7 +73,7 @@ std::vector<Triangle> flat_triangles(Surface& surface, const TriangleMesh& mesh,
 }
 
 // The longest edge that the filling lays across the hole; its border does not count.
-double longest_chord(const TriangleMesh& mesh, const std::vector<std::uint32_t>& loop,
+double longest_chord(const TriangleMesh& mesh, std::span<const std::uint32_t> loop,
                      const std::vector<Triangle>& filling) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> border;
     for (const std::uint32_t h : loop) border.emplace_back(end_of(mesh, h), start_of(mesh, h));
@@ -95,9 +95,9 @@ class Filling {
     Filling(TriangleMesh& mesh, const FillOptions& options)
         : mesh_(mesh), options_(options), flat_chord_(options.flat_chord_share * norm(bounds(mesh).size())) {}
 
-    FilledHoles run(const std::vector<std::vector<std::uint32_t>>& loops, const Context& context) {
+    FilledHoles run(const IndexLists& loops, const Context& context) {
         is_built_ = build(mesh_, surface_);
-        for (const std::vector<std::uint32_t>& loop : loops) {
+        for (const std::span<const std::uint32_t> loop : loops) {
             context.check_cancelled();
             if (!close(loop)) result_.left.push_back({centre_of(mesh_, loop), loop.size()});
             ++result_.filled;
@@ -112,7 +112,7 @@ class Filling {
     }
 
  private:
-    bool close(const std::vector<std::uint32_t>& loop) {
+    bool close(std::span<const std::uint32_t> loop) {
         if (!is_built_) return false;
         const std::vector<Triangle> flat = flat_triangles(surface_, mesh_, loop);
         const bool is_fair = options_.fill == Fill::fair ||
@@ -123,7 +123,7 @@ class Filling {
     }
 
     // Where every way across is taken by an edge that is there: around a point in the middle.
-    bool fan(const std::vector<std::uint32_t>& loop) {
+    bool fan(std::span<const std::uint32_t> loop) {
         if (loop.size() < 3) return false;
         const auto middle = static_cast<std::uint32_t>(mesh_.points.size() + points_.size());
         points_.push_back(centre_of(mesh_, loop));
@@ -131,7 +131,7 @@ class Filling {
         return true;
     }
 
-    bool fair(const std::vector<std::uint32_t>& loop) {
+    bool fair(std::span<const std::uint32_t> loop) {
         const std::optional<FairPatch> patch = fair_hole(mesh_, loop);
         if (!patch) return false;
         const auto own = static_cast<std::uint32_t>(mesh_.points.size());
@@ -157,11 +157,11 @@ class Filling {
 }  // namespace
 
 FilledHoles fill_holes(TriangleMesh& mesh, const FillOptions& options, const Context& context) {
-    const std::vector<std::vector<std::uint32_t>> loops = border_loops(mesh, unpaired(mesh, edges(mesh)).open);
+    const IndexLists loops = border_loops(mesh, unpaired(mesh, edges(mesh)).open);
     if (loops.empty()) return {};
     if (options.fill == Fill::none) {
         FilledHoles result;
-        for (const std::vector<std::uint32_t>& loop : loops) {
+        for (const std::span<const std::uint32_t> loop : loops) {
             result.left.push_back({centre_of(mesh, loop), loop.size()});
         }
         return result;

@@ -42,7 +42,7 @@ struct FilledHoles {
 };
 
 // The mesh must be manifold apart from its borders, with no border loop touching itself or another one in a point
-// (see split_pinched in manifold.h).
+// (see split_non_manifold_vertices in manifold.h).
 FilledHoles fill_holes(TriangleMesh& mesh, const FillOptions& options = {}, const Context& context = {});
 
 }  // namespace qchopper

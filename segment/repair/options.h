@@ -8,17 +8,17 @@
 namespace qchopper {
 
 struct RepairOptions {
-    double mm_per_unit = 1;         // what one unit of the mesh is
-    double weld_mm = 0;             // border points nearer than this become one; 0: off
-    bool drop_repeated = true;      // faces that lie on each other
-    bool split = true;              // edges of more than two faces, points where surfaces only touch
-    bool orient = true;             // turn faces so that neighbours agree
-    bool stitch = true;             // borders that coincide exactly
-    bool remove_no_area = true;     // faces whose corners lie on one line
-    FillOptions fill;               // holes
-    bool drop_loose_sheets = true;  // open surfaces beside the solid, of at most 1 % of its surface together
-    bool turn_outwards = true;      // shells that are inside out
-    bool drop_crumbs = false;       // solids smaller than 1/100,000 of the volume; else they are counted
+    double mm_per_unit = 1;            // what one unit of the mesh is
+    double weld_mm = 0;                // border points nearer than this become one; 0: off
+    bool drop_repeated = true;         // faces that lie on each other
+    bool split = true;                 // edges of more than two faces, points where surfaces only touch
+    bool orient = true;                // turn faces so that neighbours agree
+    bool stitch = true;                // borders that coincide exactly
+    bool remove_degenerate = true;     // faces whose corners lie on one line
+    FillOptions fill;                  // holes
+    bool drop_open_components = true;  // open surfaces beside the solid, of at most 1 % of its surface together
+    bool orient_outward = true;        // shells that are inside out
+    bool drop_fragments = false;       // solids smaller than 1/100,000 of the volume; else they are counted
     bool resolve_self_intersections = false;
     bool smooth_marks = false;
     MarkOptions marks;               // used with smooth_marks

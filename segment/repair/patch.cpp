@@ -44,7 +44,7 @@ void SurfacePatch::grow() {
 }
 
 void SurfacePatch::tidy() {
-    while (takes_cut_off() || takes_pinched()) {
+    while (takes_cut_off() || takes_non_manifold()) {
     }
 }
 
@@ -91,7 +91,7 @@ bool SurfacePatch::takes_cut_off() {
     return triangles_.size() > before;
 }
 
-bool SurfacePatch::takes_pinched() {
+bool SurfacePatch::takes_non_manifold() {
     std::unordered_map<std::uint32_t, int> times;
     bool has_taken = false;
     for (const std::uint32_t h : border()) {

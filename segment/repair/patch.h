@@ -46,14 +46,14 @@ class SurfacePatch {
     // more than once, until there are none.
     void tidy();
 
-    // One border for every connected part. Nothing if the patch reaches an open or faulty edge, or if a part has no
-    // border or several: closing those would join what is apart.
+    // One border for every connected part. Nothing if the patch reaches an open or non-manifold edge, or if a part has
+    // no border or several: closing those would join what is apart.
     std::optional<std::vector<PatchLoop>> loops() const;
 
  private:
     void take(std::uint32_t triangle);
     bool takes_cut_off();
-    bool takes_pinched();
+    bool takes_non_manifold();
     bool is_border(std::uint32_t half_edge) const;
     // Half-edges whose twin is not in the patch, in the order of the triangles.
     std::vector<std::uint32_t> border() const;

@@ -8,9 +8,9 @@
 #include "base/error.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
-#include "segment/repair/border_weld.h"
-#include "segment/repair/outwards.h"
+#include "segment/repair/orient_outward.h"
 #include "segment/repair/settle.h"
+#include "segment/repair/snap_borders.h"
 #include "segment/repair/weld.h"
 
 namespace qchopper {
@@ -65,8 +65,8 @@ class Repairing {
         report_.welded = counts.welded;
         report_.collapsed = counts.collapsed;
         report_.unreferenced = counts.unreferenced;
-        const BorderWeld border = weld_borders(mesh_, options_.weld_mm / options_.mm_per_unit, &sources_);
-        report_.border_welded = border.welded;
+        const SnapBorders border = weld_borders(mesh_, options_.weld_mm / options_.mm_per_unit, &sources_);
+        report_.borders_snapped = border.welded;
         report_.border_moved_mm = border.farthest * options_.mm_per_unit;
     }
 
@@ -130,7 +130,7 @@ class Repairing {
         report_.wrapped = filled_in(wrapping, in_mm);
         mesh_ = scaled(wrap(in_mm, wrapping, context_), 1 / options_.mm_per_unit);
         sources_.of.assign(mesh_.triangles.size(), new_face);
-        const Outwards counts = turn_outwards(mesh_);
+        const Outward counts = orient_outward(mesh_);
         report_.shells = counts.shells;
         report_.cavities = counts.cavities;
         report_.shells_turned = counts.turned;

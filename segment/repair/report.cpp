@@ -42,14 +42,14 @@ std::string filling(const RepairReport& r) {
     words.add(r.holes_faired, "of them faired", "of them faired");
     words.add(r.points_added, "point added", "points added");
     words.add(r.left_open.size(), "hole left open", "holes left open");
-    words.add(r.loose_sheets, "loose sheet taken away", "loose sheets taken away");
+    words.add(r.open_components, "open component taken away", "open components taken away");
     return words.text();
 }
 
-std::string crumbs(const RepairReport& r) {
-    if (r.crumbs == 0) return "none";
-    return amount(r.crumbs, "crumb", "crumbs") + " with " + in_digits(100 * r.crumb_area_share) + " % of the surface " +
-           (r.crumbs_dropped ? "dropped" : "kept");
+std::string fragments(const RepairReport& r) {
+    if (r.fragments == 0) return "none";
+    return amount(r.fragments, "fragment", "fragments") + " with " + in_digits(100 * r.fragment_area_share) +
+           " % of the surface " + (r.fragments_dropped ? "dropped" : "kept");
 }
 
 std::string resolving(const RepairReport& r) {
@@ -77,7 +77,7 @@ class Sentences {
 };
 
 void tell_of_surface(const RepairReport& r, Sentences& say) {
-    say.add(r.border_welded, "border point", "border points",
+    say.add(r.borders_snapped, "border point", "border points",
             " moved up to " + in_digits(r.border_moved_mm) + " mm onto another one.");
     say.add(r.edges_split, "edge belonged", "edges belonged", " to three faces or more; the surface was parted there.");
     say.add(r.edges_cut, "edge was", "edges were", " cut open, because the faces there cannot be made to agree.");
@@ -88,8 +88,8 @@ void tell_of_surface(const RepairReport& r, Sentences& say) {
         say.all.push_back("What closes the holes makes up " + in_digits(std::round(100 * r.added_area_share)) +
                           " % of the surface: compare the picture with the bone.");
     }
-    say.add(r.loose_sheets, "small loose sheet was", "small loose sheets were",
-            " taken away (" + amount(r.loose_sheet_faces, "face", "faces") + ").");
+    say.add(r.open_components, "small open component was", "small open components were",
+            " taken away (" + amount(r.open_component_faces, "face", "faces") + ").");
 }
 
 void tell_of_shells(const RepairReport& r, Sentences& say) {
@@ -98,7 +98,7 @@ void tell_of_shells(const RepairReport& r, Sentences& say) {
             " inside another one that faces the same way: the scan overlaps itself there.");
     say.add(r.left_inside_out, "shell is", "shells are",
             " inside out and left so, because they touch others that are not: the surface is folded there.");
-    say.add(r.crumbs_dropped ? r.crumbs : 0, "crumb was", "crumbs were", " dropped.");
+    say.add(r.fragments_dropped ? r.fragments : 0, "fragment was", "fragments were", " dropped.");
 }
 
 void tell_of_what_was_asked_for(const RepairReport& r, Sentences& say) {
@@ -132,8 +132,8 @@ std::vector<RepairStep> steps(const RepairReport& r) {
                        .add(r.collapsed, "collapsed face dropped", "collapsed faces dropped")
                        .add(r.unreferenced, "unused point dropped", "unused points dropped")
                        .text()});
-    all.push_back({"weld_borders", r.border_welded,
-                   Words().add(r.border_welded, "border point welded", "border points welded").text()});
+    all.push_back({"weld_borders", r.borders_snapped,
+                   Words().add(r.borders_snapped, "border point welded", "border points welded").text()});
     all.push_back(
         {"faces", r.repeated + r.of_double_sheets,
          Words()
@@ -152,15 +152,15 @@ std::vector<RepairStep> steps(const RepairReport& r) {
                             "faces turned to agree with their neighbours")
                        .text()});
     all.push_back({"stitch", r.stitched, Words().add(r.stitched, "edge stitched", "edges stitched").text()});
-    all.push_back({"no_area", r.no_area_removed,
+    all.push_back({"degenerate", r.degenerate_removed,
                    Words()
-                       .add(r.no_area_removed, "face without area removed", "faces without area removed")
-                       .add(r.no_area_left, "face without area left", "faces without area left")
+                       .add(r.degenerate_removed, "face without area removed", "faces without area removed")
+                       .add(r.degenerate_left, "face without area left", "faces without area left")
                        .text()});
-    all.push_back({"fill", r.holes_filled + r.loose_sheets, filling(r)});
+    all.push_back({"fill", r.holes_filled + r.open_components, filling(r)});
     all.push_back({"outwards", r.shells_turned,
                    Words().add(r.shells_turned, "shell turned outwards", "shells turned outwards").text()});
-    all.push_back({"crumbs", r.crumbs, crumbs(r)});
+    all.push_back({"fragments", r.fragments, fragments(r)});
     all.push_back({"resolve", r.resolved ? r.resolved->places : 0, resolving(r)});
     all.push_back({"marks", r.marks ? r.marks->marks : 0, smoothing(r)});
     all.push_back({"wrap", r.wrapped ? std::size_t{1} : 0,

@@ -29,7 +29,7 @@ struct RepairReport {
     std::size_t welded = 0;            // points that became one with an equal one
     std::size_t collapsed = 0;         // faces with two corners in one point
     std::size_t unreferenced = 0;      // points in no face
-    std::size_t border_welded = 0;     // border points moved onto a near one
+    std::size_t borders_snapped = 0;   // border points moved onto a near one
     double border_moved_mm = 0;        // the farthest of them
     std::size_t repeated = 0;          // faces that say what another one says
     std::size_t of_double_sheets = 0;  // faces of flat double sheets
@@ -38,24 +38,24 @@ struct RepairReport {
     std::size_t faces_turned = 0;      // so that neighbours agree
     std::size_t stitched = 0;          // edges
     std::size_t points_copied = 0;     // where surfaces only touch
-    std::size_t no_area_removed = 0;
-    std::size_t no_area_left = 0;
+    std::size_t degenerate_removed = 0;
+    std::size_t degenerate_left = 0;
     std::size_t holes_filled = 0;
     std::size_t holes_faired = 0;  // of these
     std::size_t faces_added = 0;   // to fill them
     std::size_t points_added = 0;
-    double added_area_share = 0;        // of the surface that the holes took
-    std::size_t loose_sheets = 0;       // small open surfaces taken away
-    std::size_t loose_sheet_faces = 0;  // of the scan
+    double added_area_share = 0;           // of the surface that the holes took
+    std::size_t open_components = 0;       // small open surfaces taken away
+    std::size_t open_component_faces = 0;  // of the scan
     std::size_t shells = 0;
     std::size_t cavities = 0;
     std::size_t shells_turned = 0;
     std::size_t overlapping = 0;      // shells inside another one that faces the same way
     std::size_t left_inside_out = 0;  // shells that hang on others which are not
-    std::size_t crumbs = 0;
-    std::size_t crumb_faces = 0;
-    double crumb_area_share = 0;
-    bool crumbs_dropped = false;
+    std::size_t fragments = 0;
+    std::size_t fragment_faces = 0;
+    double fragment_area_share = 0;
+    bool fragments_dropped = false;
     std::optional<Resolved> resolved;
     bool resolving_undone = false;  // it left the mesh less closed than before
     std::optional<MarkReport> marks;

@@ -32,7 +32,8 @@ struct Resolved {
     std::vector<Vec3> where_left;  // places that were not mended, at most 10
 };
 
-// The mesh should be manifold (manifold.h) and has no caps; a place at a faulty edge or at an open border is left.
+// The mesh should be manifold (manifold.h) and has no caps; a place at a non-manifold edge or at an open border is
+// left.
 Resolved resolve_self_intersections(TriangleMesh& mesh, const ResolveOptions& options = {}, const Context& context = {},
                                     SourceFaces* sources = nullptr);
 

@@ -6,11 +6,11 @@
 
 #include "segment/mesh/edges.h"
 #include "segment/repair/balance.h"
-#include "segment/repair/crumbs.h"
+#include "segment/repair/degenerate.h"
 #include "segment/repair/faces.h"
-#include "segment/repair/loose_sheets.h"
-#include "segment/repair/no_area.h"
-#include "segment/repair/outwards.h"
+#include "segment/repair/fragments.h"
+#include "segment/repair/open_components.h"
+#include "segment/repair/orient_outward.h"
 #include "segment/repair/sheets.h"
 #include "segment/repair/weld.h"
 
@@ -59,8 +59,8 @@ class Settling {
         is_changed |= remove_flat();
         is_changed |= close();
         if (report_.sheets > 0) return false;  // no solid: what closed them stays, to be seen
-        is_changed |= face_outwards();
-        is_changed |= sort_out_crumbs();
+        is_changed |= face_outward();
+        is_changed |= sort_out_fragments();
         return is_changed;
     }
 
@@ -107,11 +107,11 @@ class Settling {
     }
 
     bool remove_flat() {
-        if (!options_.remove_no_area) return false;
+        if (!options_.remove_degenerate) return false;
         progress_.begin("faces without area removed");
-        const NoArea counts = remove_no_area(mesh_, &sources_);
-        report_.no_area_removed += counts.flipped + counts.dropped;
-        report_.no_area_left = counts.left;
+        const Degenerate counts = remove_degenerate(mesh_, &sources_);
+        report_.degenerate_removed += counts.flipped + counts.dropped;
+        report_.degenerate_left = counts.left;
         return counts.flipped + counts.dropped > 0;
     }
 
@@ -126,21 +126,21 @@ class Settling {
         report_.points_added += holes.points;
         report_.left_open = std::move(holes.left);
         const std::size_t added = count_new(sources_);
-        const Sheets sheets = judge_sheets(mesh_, sources_, options_.drop_loose_sheets ? loose_sheet_share : 0);
+        const Sheets sheets = judge_sheets(mesh_, sources_, options_.drop_open_components ? open_component_share : 0);
         take_back(added);
-        report_.loose_sheets += sheets.dropped;
-        report_.loose_sheet_faces += sheets.dropped_faces;
+        report_.open_components += sheets.dropped;
+        report_.open_component_faces += sheets.dropped_faces;
         report_.sheets = sheets.left;
         report_.first_sheet = sheets.first;
         report_.added_area_share = sheets.added_area_share;
         return holes.filled + sheets.dropped > 0;
     }
 
-    bool face_outwards() {
+    bool face_outward() {
         progress_.begin("shells turned outwards");
         if (!report_.left_open.empty()) return false;
-        const Outwards counts = is_balanced_ ? turn_touching_outwards(mesh_, options_.turn_outwards)
-                                             : turn_outwards(mesh_, options_.turn_outwards);
+        const Outward counts = is_balanced_ ? orient_touching_outward(mesh_, options_.orient_outward)
+                                            : orient_outward(mesh_, options_.orient_outward);
         report_.shells = counts.shells;
         report_.cavities = counts.cavities;
         report_.overlapping = counts.overlapping;
@@ -149,17 +149,17 @@ class Settling {
         return counts.turned > 0;
     }
 
-    bool sort_out_crumbs() {
+    bool sort_out_fragments() {
         if (!report_.left_open.empty()) return false;
-        progress_.begin("crumbs counted");
-        const CrumbCounts counts =
-            options_.drop_crumbs ? drop_crumbs(mesh_, crumb_share, &sources_) : count_crumbs(mesh_, crumb_share);
-        report_.crumbs = options_.drop_crumbs ? report_.crumbs + counts.crumbs : counts.crumbs;
-        report_.crumb_faces = options_.drop_crumbs ? report_.crumb_faces + counts.faces : counts.faces;
-        report_.crumb_area_share =
-            options_.drop_crumbs ? report_.crumb_area_share + counts.area_share : counts.area_share;
-        report_.crumbs_dropped = options_.drop_crumbs;
-        return options_.drop_crumbs && counts.crumbs > 0;
+        progress_.begin("fragments counted");
+        const FragmentCounts counts = options_.drop_fragments ? drop_fragments(mesh_, fragment_share, &sources_)
+                                                              : count_fragments(mesh_, fragment_share);
+        report_.fragments = options_.drop_fragments ? report_.fragments + counts.fragments : counts.fragments;
+        report_.fragment_faces = options_.drop_fragments ? report_.fragment_faces + counts.faces : counts.faces;
+        report_.fragment_area_share =
+            options_.drop_fragments ? report_.fragment_area_share + counts.area_share : counts.area_share;
+        report_.fragments_dropped = options_.drop_fragments;
+        return options_.drop_fragments && counts.fragments > 0;
     }
 
     const RepairOptions& options_;

@@ -92,7 +92,7 @@ class Separation {
 
     // Edges of two faces. Where two faces turn opposite ways one of them will be turned.
     void pair_neighbours() {
-        for (std::size_t g = 0; g < groups_.count(); ++g) {
+        for (std::size_t g = 0; g < groups_.size(); ++g) {
             const std::span<const std::uint32_t> group = groups_[g];
             if (group.size() != 2) continue;
             const bool is_against = from(group[0]) == from(group[1]);
@@ -136,7 +136,7 @@ class Separation {
 
     // A face that runs down has material on its left, one that runs up on its right: they match like brackets.
     void pair_wedges() {
-        for (std::size_t g = 0; g < groups_.count(); ++g) {
+        for (std::size_t g = 0; g < groups_.size(); ++g) {
             if (groups_[g].size() < 3) continue;
             ++counts_.edges_split;
             std::vector<std::uint32_t> ring = around(groups_[g]);
@@ -235,9 +235,9 @@ class Separation {
     // Sheets may meet in both ends of an edge and nowhere in between: there all faces at the edge part. True if there
     // was nothing to do.
     bool take_apart(const TriangleMesh& parted, bool wholly) {
-        const EdgeGroups groups = edge_groups(parted);
+        const IndexLists groups = edge_groups(parted);
         bool is_sound = true;
-        for (std::size_t g = 0; g < groups.count(); ++g) {
+        for (std::size_t g = 0; g < groups.size(); ++g) {
             const std::span<const std::uint32_t> group = groups[g];
             if (group.size() == 1) continue;
             if (group.size() == 2 && from(group[0]) != from(group[1])) continue;
@@ -256,7 +256,7 @@ class Separation {
 
     TriangleMesh& mesh_;
     const SheetOptions& options_;
-    EdgeGroups groups_;
+    IndexLists groups_;
     std::vector<std::uint32_t> partner_;  // per half-edge the one on the other side of its edge, or nobody
     TurnSets turns_;
     std::vector<bool> is_turned_;
@@ -269,7 +269,7 @@ SheetCounts separate_sheets(TriangleMesh& mesh, const SheetOptions& options) {
     const Edges found = edges(mesh);
     if (found.faults.non_manifold + found.faults.inconsistent == 0) {
         SheetCounts counts;
-        counts.copies = split_pinched(mesh, found);
+        counts.copies = split_non_manifold_vertices(mesh, found);
         return counts;
     }
     return Separation(mesh, options).run();

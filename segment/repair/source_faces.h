@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "segment/mesh/submesh.h"
+
 namespace qchopper {
 
 constexpr std::uint32_t new_face = std::numeric_limits<std::uint32_t>::max();
@@ -20,6 +22,12 @@ struct SourceFaces {
 
 inline std::size_t count_new(const SourceFaces& sources) {
     return static_cast<std::size_t>(std::count(sources.of.begin(), sources.of.end(), new_face));
+}
+
+// Keeps the triangles that are marked. All points stay.
+inline void keep_triangles(TriangleMesh& mesh, const std::vector<bool>& is_kept, SourceFaces* sources) {
+    keep_triangles(mesh, is_kept);
+    if (sources != nullptr) keep_marked(sources->of, is_kept);
 }
 
 }  // namespace qchopper

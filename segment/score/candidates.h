@@ -14,7 +14,7 @@ struct CandidateOptions {
 };
 
 struct Candidate {
-    Plane plane;               // nudged: the plane that is priced, cut and stored
+    Plane plane;               // nudged: the plane that is evaluated, cut and stored
     double wanted_offset = 0;  // before the nudge
     int normal = 0;            // which normal, which offset: ties go to the lower
     int offset = 0;

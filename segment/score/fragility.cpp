@@ -11,7 +11,7 @@ namespace qchopper {
 double thinness(const Piece& piece, const Plane& plane, double cap_area_mm2, double distance) {
     assert(cap_area_mm2 > 0 && distance >= 0);
     const TriangleMesh& mesh = *piece.mesh;
-    std::vector<WayQuery> queries;
+    std::vector<RayQuery> queries;
     std::vector<double> weight;  // per query, what it adds if its way to the plane is free
     std::vector<double> off;     // per query, its distance to the plane
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -27,7 +27,7 @@ double thinness(const Piece& piece, const Plane& plane, double cap_area_mm2, dou
         weight.push_back(c.area * (1 - distance_to_plane / distance) * std::abs(along));
         off.push_back(distance_to_plane);
     }
-    const std::vector<double> ways = straight_ways(mesh, plane.normal, queries, distance);
+    const std::vector<double> ways = ray_distances(mesh, plane.normal, queries, distance);
     double sum = 0;
     for (std::size_t q = 0; q < queries.size(); ++q) {
         if (ways[q] >= off[q]) sum += weight[q];

@@ -1,7 +1,7 @@
 // How much thin material a cut leaves beside its plane: both forms of the second objective.
 //
-// Over the piece before the cut; old caps count as surface. Laws (tests/segment/score/fragility_test.cpp): a slab of
-// thickness t < d left on one side gives thinness 1 - t/d whatever its mesh; a ball of radius r cut at 0.95 r with
+// Over the piece before the cut; old caps count as surface. Invariants (tests/segment/score/fragility_test.cpp): a slab
+// of thickness t < d left on one side gives thinness 1 - t/d whatever its mesh; a ball of radius r cut at 0.95 r with
 // d = r gives 0.9748.
 
 #pragma once
@@ -11,7 +11,7 @@
 namespace qchopper {
 
 // (1 / cap area) * sum of A_T (1 - dist(c_T, P)/d) (s n_T . n_P) over the faces within `distance` mm that look away
-// from the plane (at least 0.9) and from which the straight way to the plane meets no other surface. A crossed face
+// from the plane (at least 0.9) and from which the parallel ray to the plane meets no other surface. A crossed face
 // counts as its two parts.
 double thinness(const Piece& piece, const Plane& plane, double cap_area_mm2, double distance);
 

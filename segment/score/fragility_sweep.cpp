@@ -31,7 +31,7 @@ std::vector<double> sum_chunks(std::size_t count, std::size_t offsets, const Add
 
 // One question: is the way from here to these planes free? A face that no plane crosses asks once for all of them.
 struct ThinQuery {
-    WayQuery way;
+    RayQuery way;
     double area;
     double along;
     std::uint32_t from;  // planes [from, to)
@@ -81,11 +81,11 @@ std::vector<double> sweep_thinness(const PreparedPiece& prepared, Vec3 normal, s
             if (std::abs(along) >= nearly_parallel) ask(by_chunk[c], mesh, t, normal, along, offsets, distance);
         }
     });
-    std::vector<WayQuery> queries;
+    std::vector<RayQuery> queries;
     for (const auto& some : by_chunk) {
         for (const ThinQuery& q : some) queries.push_back(q.way);
     }
-    const std::vector<double> ways = straight_ways(mesh, normal, queries, distance);
+    const std::vector<double> ways = ray_distances(mesh, normal, queries, distance);
     assert(ways.size() == queries.size());
     std::vector<double> sums(offsets.size(), 0.0);
     std::size_t next = 0;

@@ -10,24 +10,25 @@ double undercut(const BaseShare& share, bool by_area) {
     return all > 0 ? (by_area ? share.down_mm2 : share.down_count) / all : 0;
 }
 
-double undercut(const SolidPrice& solid, bool by_area) {
+double undercut(const SolidEvaluation& solid, bool by_area) {
     if (solid.bases.empty()) return 0.5;
     double least = undercut(solid.bases.front(), by_area);
     for (const BaseShare& base : solid.bases) least = std::min(least, undercut(base, by_area));
     return least;
 }
 
-PieceShare share(const SolidPrice& solid, const Objectives& objectives) {
+PieceShare share(const SolidEvaluation& solid, const Objectives& objectives) {
     return {solid.faces, undercut(solid, objectives.undercut_by_area)};
 }
 
-std::optional<Terms> terms(const Price& price, std::span<const PieceShare> others, const Objectives& objectives) {
+std::optional<Terms> terms(const CutEvaluation& evaluation, std::span<const PieceShare> others,
+                           const Objectives& objectives) {
     std::vector<PieceShare> pieces(others.begin(), others.end());
-    for (const SolidPrice& solid : price.solids) {
-        if (solid.volume_mm3 >= objectives.crumb_volume_mm3) pieces.push_back(share(solid, objectives));
+    for (const SolidEvaluation& solid : evaluation.solids) {
+        if (solid.volume_mm3 >= objectives.fragment_volume_mm3) pieces.push_back(share(solid, objectives));
     }
     const std::size_t made = pieces.size() - others.size();
-    if (made < 2 || price.cap_area_mm2 <= 0) return std::nullopt;
+    if (made < 2 || evaluation.cap_area_mm2 <= 0) return std::nullopt;
     std::size_t most = pieces.front().faces;
     std::size_t fewest = most;
     double undercut_sum = 0;
@@ -40,7 +41,7 @@ std::optional<Terms> terms(const Price& price, std::span<const PieceShare> other
     assert(fewest <= most);
     const double ratio = static_cast<double>(most) / static_cast<double>(fewest);
     result.face_ratio = std::max(ratio - objectives.face_ratio_threshold, 0.0);
-    result.fragility = price.fragility;
+    result.fragility = evaluation.fragility;
     result.piece_count = static_cast<double>(made) - 2;
     result.undercut = undercut_sum / static_cast<double>(pieces.size());
     const Weights& w = objectives.weights;

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "segment/score/price.h"
+#include "segment/score/cut_evaluation.h"
 
 namespace qchopper {
 
@@ -29,7 +29,7 @@ struct Objectives {
     FragilityForm fragility_form = FragilityForm::thinness;
     double fragility_distance = 20;  // d, mm: how near to a plane surface counts
     bool undercut_by_area = true;    // false: every triangle counts 1 (thesis 5.3.1)
-    double crumb_volume_mm3 = 0;     // solids below are crumbs and enter no objective
+    double fragment_volume_mm3 = 0;  // solids below are fragments and enter no objective
     bool operator==(const Objectives&) const = default;
 };
 
@@ -52,12 +52,13 @@ struct PieceShare {
 // u(phi) for one base (spec 3.4). In [0, 1/2) by area.
 double undercut(const BaseShare& share, bool by_area);
 // The least over the bases that the solid still owns; 1/2 if it owns none.
-double undercut(const SolidPrice& solid, bool by_area);
+double undercut(const SolidEvaluation& solid, bool by_area);
 
-PieceShare share(const SolidPrice& solid, const Objectives& objectives);
+PieceShare share(const SolidEvaluation& solid, const Objectives& objectives);
 
-// The terms of a cut with this price beside the other pieces of the segmentation. Nothing if it leaves fewer than two
-// pieces that are more than crumbs, or no cap area: then it is no candidate.
-std::optional<Terms> terms(const Price& price, std::span<const PieceShare> others, const Objectives& objectives);
+// The terms of a cut with this evaluation beside the other pieces of the segmentation. Nothing if it leaves fewer than
+// two pieces that are more than fragments, or no cap area: then it is no candidate.
+std::optional<Terms> terms(const CutEvaluation& evaluation, std::span<const PieceShare> others,
+                           const Objectives& objectives);
 
 }  // namespace qchopper

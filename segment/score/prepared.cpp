@@ -44,11 +44,11 @@ std::vector<Vec3> unit_normals(const PreparedPiece& p) {
 }
 
 // What the triangles of each patch add to the old bases: the same for every normal.
-std::vector<double> base_sums(const PreparedPiece& p) {
-    const std::size_t width = 3 * p.up.size();
-    std::vector<double> sums(width * p.patches.count(), 0.0);
+std::vector<BaseSums> base_sums(const PreparedPiece& p) {
+    const std::size_t width = p.up.size();
+    std::vector<BaseSums> sums(width * p.patches.count());
     for (std::size_t i = 0; width > 0 && i < p.patches.count(); ++i) {
-        const std::span<double> row(sums.data() + i * width, width);
+        const std::span<BaseSums> row(sums.data() + i * width, width);
         for (std::uint32_t k = p.patches.patch[i].first_triangle; k < p.patches.patch[i + 1].first_triangle; ++k) {
             add_to_bases(row, p, k, 1, 1);
         }
@@ -58,21 +58,20 @@ std::vector<double> base_sums(const PreparedPiece& p) {
 
 }  // namespace
 
-void add_to_bases(std::span<double> sums, const PreparedPiece& prepared, std::uint32_t triangle, double share,
+void add_to_bases(std::span<BaseSums> sums, const PreparedPiece& prepared, std::uint32_t triangle, double share,
                   double faces) {
-    assert(sums.size() == 3 * prepared.up.size());
+    assert(sums.size() == prepared.up.size());
     const Vec3 look = prepared.look(triangle);
     const double weight = prepared.unit.empty() ? share : faces;
     const std::uint16_t own = prepared.base.empty() ? no_base : prepared.base[triangle];
-    double* cell = sums.data();
-    for (std::size_t b = 0; b < prepared.up.size(); ++b, cell += 3) {
+    for (std::size_t b = 0; b < sums.size(); ++b) {
         if (b == own) {
-            cell[2] += faces;
+            sums[b].faces += faces;
             continue;
         }
         const double upwards = weight * dot(look, prepared.up[b]);
-        cell[0] += upwards > 0 ? upwards : 0;
-        cell[1] += upwards < 0 ? -upwards : 0;
+        sums[b].up += upwards > 0 ? upwards : 0;
+        sums[b].down += upwards < 0 ? -upwards : 0;
     }
 }
 

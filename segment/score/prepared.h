@@ -16,6 +16,18 @@ namespace qchopper {
 
 constexpr std::uint16_t no_base = 0xFFFF;
 
+// What looks up and what looks down about one bound of the piece, by area (mm2) or by count, and the faces of its cap.
+struct BaseSums {
+    double up = 0;
+    double down = 0;
+    double faces = 0;
+    void operator+=(const BaseSums& b) {
+        up += b.up;
+        down += b.down;
+        faces += b.faces;
+    }
+};
+
 struct PreparedPiece {
     const Piece* piece = nullptr;  // stays the caller's
     Vec3 origin;                   // of the cones: the first point
@@ -24,7 +36,7 @@ struct PreparedPiece {
     std::vector<TriangleSums> sums;
     std::vector<Vec3> unit;  // per triangle, unit normals; only if undercut counts triangles
     Patches patches;
-    std::vector<double> base_sums;     // per patch and bound three: up, down, faces on its cap; as in a row of slabs.h
+    std::vector<BaseSums> base_sums;   // per patch, and in it per bound
     std::vector<Vec3> up;              // per bound of the piece, Bound::up()
     std::vector<std::uint16_t> base;   // per triangle: index in piece->bounds of its cap, or no_base; empty: no caps
     std::vector<Vec3> vertex_normals;  // only for the thesis' fragility
@@ -32,9 +44,8 @@ struct PreparedPiece {
     Vec3 look(std::size_t triangle) const { return unit.empty() ? sums[triangle].area : unit[triangle]; }
 };
 
-// Adds a triangle to three sums per bound (up, down, faces on its cap): `share` of its area, counted as `faces`
-// triangles.
-void add_to_bases(std::span<double> sums, const PreparedPiece& prepared, std::uint32_t triangle, double share,
+// Adds a triangle to the sums of every bound: `share` of its area, counted as `faces` triangles.
+void add_to_bases(std::span<BaseSums> sums, const PreparedPiece& prepared, std::uint32_t triangle, double share,
                   double faces);
 
 PreparedPiece prepare(const Piece& piece, const Objectives& objectives);

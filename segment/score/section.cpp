@@ -2,18 +2,19 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 #include <memory>
 #include <numeric>
+
+#include "segment/mesh/polygon_nesting.h"
 
 namespace qchopper {
 namespace {
 
-// Share of the triangle's area at its lone corner: the product of the shares of the two cut edges.
-double lone_share(const Straddler& s, const Crossing& c, double offset) {
-    const double h = s.height[c.lone];
-    const double next = s.height[(c.lone + 1) % 3];
-    const double last = s.height[(c.lone + 2) % 3];
+// Share of the triangle's area at its apex: the product of the shares of the two cut edges.
+double apex_share(const CrossedTriangle& s, std::uint32_t apex, double offset) {
+    const double h = s.height[apex];
+    const double next = s.height[(apex + 1) % 3];
+    const double last = s.height[(apex + 2) % 3];
     return (h - offset) * (h - offset) / ((h - next) * (h - last));
 }
 
@@ -21,7 +22,7 @@ double lone_share(const Straddler& s, const Crossing& c, double offset) {
 class Finder {
  public:
     Finder(const PreparedPiece& prepared, const Slabs& slabs, std::span<const double> offsets)
-        : p_(prepared), slabs_(slabs), offsets_(offsets), width_(slabs.layout.width()) {}
+        : p_(prepared), slabs_(slabs), offsets_(offsets) {}
 
     Section run() {
         link_crossings();
@@ -36,16 +37,16 @@ class Finder {
         const std::size_t crossings = slabs_.exit.size();
         std::vector<std::uint32_t> across(crossings);  // the triangle that the surface enters
         for (std::size_t i = 0; i < crossings; ++i) across[i] = p_.edges.twin[slabs_.exit[i]] / 3;
-        // Only straddlers are ever looked up: what the rest holds does not matter.
-        const auto straddler_of = std::make_unique_for_overwrite<std::uint32_t[]>(p_.piece->mesh->triangles.size());
-        const std::vector<Straddler>& all = slabs_.straddlers;
-        for (std::uint32_t i = 0; i < all.size(); ++i) straddler_of[all[i].triangle] = i;
-        for (std::uint32_t& triangle : across) triangle = straddler_of[triangle];
+        // Only crossed triangles are ever looked up: what the rest holds does not matter.
+        const auto place_of = std::make_unique_for_overwrite<std::uint32_t[]>(p_.piece->mesh->triangles.size());
+        const std::vector<CrossedTriangle>& all = slabs_.crossed;
+        for (std::uint32_t i = 0; i < all.size(); ++i) place_of[all[i].triangle] = i;
+        for (std::uint32_t& triangle : across) triangle = place_of[triangle];
         out_.next.resize(crossings);
         std::uint32_t i = 0;
-        for (const Straddler& s : all) {
+        for (const CrossedTriangle& s : all) {
             for (std::size_t plane = s.low; plane < s.high; ++plane, ++i) {
-                const Straddler& other = all[across[i]];
+                const CrossedTriangle& other = all[across[i]];
                 assert(plane >= other.low && plane < other.high);
                 out_.next[i] = static_cast<std::uint32_t>(other.first_crossing + (plane - other.low));
             }
@@ -53,50 +54,39 @@ class Finder {
     }
 
     void trace_loops() {
-        constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-        loop_of_.assign(slabs_.exit.size(), none);
-        std::uint32_t start = 0;
-        for (const Straddler& s : slabs_.straddlers) {
-            for (std::size_t plane = s.low; plane < s.high; ++plane, ++start) {
-                if (loop_of_[start] != none) continue;
-                const Crossing c = crossing(s, plane);
-                SectionLoop loop;
-                loop.plane = static_cast<std::uint16_t>(plane);
-                loop.first_crossing = start;
-                loop.node_above = s.node[c.exit];
-                loop.node_below = s.node[(c.exit + 1) % 3];
-                const auto number = static_cast<std::uint32_t>(out_.loops.size());
-                for (std::uint32_t i = start; loop_of_[i] == none; i = out_.next[i]) {
-                    loop_of_[i] = number;
-                    ++loop.points;
-                }
-                out_.loops.push_back(loop);
-            }
+        Cycles found = cycles(out_.next);
+        loop_of_ = std::move(found.cycle_of);
+        out_.loops.reserve(found.cycles.size());
+        auto s = slabs_.crossed.begin();
+        for (const auto& [first, size] : found.cycles) {
+            while (first - s->first_crossing >= std::uint32_t{s->high} - s->low) ++s;
+            SectionLoop loop;
+            loop.plane = static_cast<std::uint16_t>(s->low + (first - s->first_crossing));
+            loop.points = size;
+            loop.first_crossing = first;
+            const std::uint32_t exit = crossing(*s, loop.plane).exit();
+            loop.node_above = s->node[exit];
+            loop.node_below = s->node[(exit + 1) % 3];
+            out_.loops.push_back(loop);
         }
     }
 
     // The parts of the crossed triangles, and the areas within the loops.
     void add_parts() {
-        sums_.assign(out_.loops.size() * 2 * width_, 0.0);
+        for (SumTable* table : {&above_, &below_}) *table = SumTable(out_.loops.size(), p_.up.size());
         std::uint32_t i = 0;
-        for (const Straddler& s : slabs_.straddlers) {
+        for (const CrossedTriangle& s : slabs_.crossed) {
             for (std::size_t plane = s.low; plane < s.high; ++plane, ++i) {
                 SectionLoop& loop = out_.loops[loop_of_[i]];
-                const Crossing c = crossing(s, plane);
-                const double share = lone_share(s, c, offsets_[plane]);
-                add_part(sums(loop_of_[i], c.lone_is_above), p_, s, share, 1);
-                add_part(sums(loop_of_[i], !c.lone_is_above), p_, s, 1 - share, 2);
-                const Point2 origin = slabs_.point[loop.first_crossing];
-                const Point2 a = slabs_.point[i];
-                const Point2 b = slabs_.point[out_.next[i]];
+                const auto [apex, apex_is_above] = crossing(s, plane);
+                const double share = apex_share(s, apex, offsets_[plane]);
+                add_part(apex_is_above ? above_ : below_, loop_of_[i], p_, s, share, 1);
+                add_part(apex_is_above ? below_ : above_, loop_of_[i], p_, s, 1 - share, 2);
                 // Half the shoelace; the surface is followed clockwise.
-                loop.area_mm2 -= ((a.x - origin.x) * (b.y - origin.y) - (b.x - origin.x) * (a.y - origin.y)) / 2;
+                const Point2 origin = slabs_.point[loop.first_crossing];
+                loop.area_mm2 -= orientation(origin, slabs_.point[i], slabs_.point[out_.next[i]]) / 2;
             }
         }
-    }
-
-    std::span<double> sums(std::uint32_t loop, bool above) {
-        return {sums_.data() + (std::size_t{loop} * 2 + (above ? 0 : 1)) * width_, width_};
     }
 
     void order_loops() {
@@ -104,14 +94,14 @@ class Finder {
         std::iota(order.begin(), order.end(), 0U);
         std::stable_sort(order.begin(), order.end(),
                          [&](std::uint32_t a, std::uint32_t b) { return out_.loops[a].plane < out_.loops[b].plane; });
-        out_.above = SumTable(order.size(), width_);
-        out_.below = SumTable(order.size(), width_);
+        out_.above = SumTable(order.size(), p_.up.size());
+        out_.below = SumTable(order.size(), p_.up.size());
         std::vector<SectionLoop> sorted;
         sorted.reserve(order.size());
         for (std::size_t i = 0; i < order.size(); ++i) {
             sorted.push_back(out_.loops[order[i]]);
-            add(out_.above.row(i), sums(order[i], true));
-            add(out_.below.row(i), sums(order[i], false));
+            out_.above.add(i, above_, order[i]);
+            out_.below.add(i, below_, order[i]);
         }
         out_.loops = std::move(sorted);
         out_.first_loop.assign(offsets_.size() + 1, 0);
@@ -122,9 +112,9 @@ class Finder {
     const PreparedPiece& p_;
     const Slabs& slabs_;
     std::span<const double> offsets_;
-    std::size_t width_;
     std::vector<std::uint32_t> loop_of_;  // per crossing
-    std::vector<double> sums_;            // per loop a row above and a row below
+    SumTable above_;                      // per loop, not yet in the order of the planes
+    SumTable below_;
     Section out_;
 };
 

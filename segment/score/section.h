@@ -9,7 +9,6 @@
 #include <span>
 #include <vector>
 
-#include "segment/mesh/polygon_nesting.h"
 #include "segment/score/slabs.h"
 
 namespace qchopper {

@@ -64,10 +64,8 @@ class Pass {
           frame_(frame_across(normal)),
           packing_(offsets.size() + 1),
           word_(huge<std::uint32_t>(mesh_.points.size())) {
-        out_.layout.bases = prepared.up.size();
-        width_ = out_.layout.width();
         // Room that is not used costs nothing; growing does.
-        reserve_huge(out_.straddlers, mesh_.triangles.size() / 2);
+        reserve_huge(out_.crossed, mesh_.triangles.size() / 2);
         reserve_huge(out_.point, mesh_.triangles.size() / 2);
         reserve_huge(out_.exit, mesh_.triangles.size() / 2);
     }
@@ -75,7 +73,7 @@ class Pass {
     Slabs run() {
         label_points();
         assert(label_slab_.size() <= packing_.most_labels());
-        sums_.assign(label_slab_.size() * 3 * width_, 0.0);
+        for (SumTable* table : {&inside_, &above_, &below_}) *table = SumTable(label_slab_.size(), p_.up.size());
         for (std::size_t p = 0; p < p_.patches.count(); ++p) {
             if (is_whole(points_of(p))) {
                 take_whole(p);
@@ -88,12 +86,6 @@ class Pass {
     }
 
  private:
-    enum Sums { inside, above, below };
-
-    std::span<double> row(std::uint32_t label, Sums which) {
-        return {sums_.data() + (std::size_t{label} * 3 + which) * width_, width_};
-    }
-
     // A point takes the label of its earlier neighbour if that lies in the same slab: almost all unions, for free.
     void label_points() {
         const SlabFinder slab_at(offsets_);
@@ -138,21 +130,17 @@ class Pass {
     void take_whole(std::size_t p) {
         const Patch& patch = p_.patches.patch[p];
         const std::uint32_t end = p_.patches.patch[p + 1].first_triangle;
-        const std::span<double> sums = row(packing_.label(word_[p_.patches.point[patch.first_point]]), inside);
-        sums[sum_faces] += end - patch.first_triangle;
-        sums[sum_volume] += patch.volume;
+        const std::uint32_t label = packing_.label(word_[p_.patches.point[patch.first_point]]);
+        PartSums& sums = inside_.part(label);
+        sums.faces += end - patch.first_triangle;
+        sums.volume += patch.volume;
         if (std::abs(dot(patch.axis, normal_)) > patch.cone) {
-            add_look(sums, dot(patch.look, normal_));
+            sums.add_look(dot(patch.look, normal_));
         } else {
-            for (std::uint32_t t = patch.first_triangle; t < end; ++t) add_look(sums, dot(p_.look(t), normal_));
+            for (std::uint32_t t = patch.first_triangle; t < end; ++t) sums.add_look(dot(p_.look(t), normal_));
         }
-        const double* base = p_.base_sums.data() + p * (width_ - sum_base);
-        for (std::size_t i = sum_base; i < width_; ++i) sums[i] += *base++;
-    }
-
-    static void add_look(std::span<double> sums, double look) {
-        sums[sum_up] += look > 0 ? look : 0;
-        sums[sum_down] += look < 0 ? -look : 0;
+        const BaseSums* of_patch = p_.base_sums.data() + p * p_.up.size();
+        for (BaseSums& base : inside_.bases(label)) base += *of_patch++;
     }
 
     void take_triangles(std::size_t p) {
@@ -161,26 +149,27 @@ class Pass {
             const Triangle& v = mesh_.triangles[t];
             const std::array<std::uint32_t, 3> word{word_[v[0]], word_[v[1]], word_[v[2]]};
             if (packing_.slab(word[0]) != packing_.slab(word[1]) || packing_.slab(word[0]) != packing_.slab(word[2])) {
-                keep_straddler(t, word);
+                keep_crossed(t, word);
                 continue;
             }
             join(word_[v[1]], word[0]);
             join(word_[v[2]], word[0]);
-            const std::span<double> sums = row(packing_.label(word[0]), inside);
-            sums[sum_faces] += 1;
-            sums[sum_volume] += p_.sums[t].volume;
-            add_look(sums, dot(p_.look(t), normal_));
-            if (width_ > sum_base) add_to_bases(sums.subspan(sum_base), p_, t, 1, 1);
+            const std::uint32_t label = packing_.label(word[0]);
+            PartSums& sums = inside_.part(label);
+            sums.faces += 1;
+            sums.volume += p_.sums[t].volume;
+            sums.add_look(dot(p_.look(t), normal_));
+            if (!p_.up.empty()) add_to_bases(inside_.bases(label), p_, t, 1, 1);
         }
     }
 
-    void keep_straddler(std::uint32_t t, const std::array<std::uint32_t, 3>& word) {
-        Straddler s{};
+    void keep_crossed(std::uint32_t t, const std::array<std::uint32_t, 3>& word) {
+        CrossedTriangle s{};
         s.triangle = t;
         s.along = dot(p_.look(t), normal_);
         s.volume = p_.sums[t].volume;
         const Triangle& v = mesh_.triangles[t];
-        const std::array<Vec3, 3> corner{mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]]};
+        const std::array<Vec3, 3> corner = corners_of(mesh_, t);
         std::size_t lowest = 0;
         std::size_t highest = 0;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -202,11 +191,11 @@ class Pass {
             }
         }
         // Whole on one side as soon as its corner nearest to the planes is taken in.
-        add_part(row(s.node[lowest], above), p_, s, 1, 1);
-        add_part(row(s.node[highest], below), p_, s, 1, 1);
+        add_part(above_, s.node[lowest], p_, s, 1, 1);
+        add_part(below_, s.node[highest], p_, s, 1, 1);
         s.first_crossing = static_cast<std::uint32_t>(out_.exit.size());
         for (std::size_t plane = s.low; plane < s.high; ++plane) add_crossing(s, corner, plane);
-        out_.straddlers.push_back(s);
+        out_.crossed.push_back(s);
     }
 
     // Ties of the same two labels come in runs and by turns; a few are remembered to leave most repeats out.
@@ -218,14 +207,12 @@ class Pass {
         out_.ties.push_back(known);
     }
 
-    void add_crossing(const Straddler& s, const std::array<Vec3, 3>& corner, std::size_t plane) {
-        const std::size_t from = crossing(s, plane).exit;
-        const std::size_t to = (from + 1) % 3;
-        assert(s.height[from] >= offsets_[plane] && s.height[to] < offsets_[plane]);
-        const double share = (s.height[from] - offsets_[plane]) / (s.height[from] - s.height[to]);
-        const Vec3 at = corner[from] + share * (corner[to] - corner[from]) - p_.origin;
-        out_.point.push_back({dot(frame_.u, at), dot(frame_.v, at)});
-        out_.exit.push_back(3 * s.triangle + static_cast<std::uint32_t>(from));
+    void add_crossing(const CrossedTriangle& s, const std::array<Vec3, 3>& corner, std::size_t plane) {
+        const std::uint32_t from = crossing(s, plane).exit();
+        const std::uint32_t to = (from + 1) % 3;
+        const Vec3 at = edge_crossing({corner[from], s.height[from]}, {corner[to], s.height[to]}, offsets_[plane]);
+        out_.point.push_back(flattened(frame_, p_.origin, at));
+        out_.exit.push_back(3 * s.triangle + from);
     }
 
     // Labels become nodes: one per root.
@@ -239,14 +226,12 @@ class Pass {
                 node[label] = node[sets_.root(label)];  // a root is smaller, so it has its number already
             }
         }
-        for (const auto& [table, which] :
-             {std::pair{&out_.inside, inside}, {&out_.above, above}, {&out_.below, below}}) {
-            *table = SumTable(out_.nodes(), width_);
-            for (std::uint32_t label = 0; label < node.size(); ++label) {
-                add(table->row(node[label]), row(label, which));
-            }
+        for (const auto& [table, by_label] :
+             {std::pair{&out_.inside, &inside_}, {&out_.above, &above_}, {&out_.below, &below_}}) {
+            *table = SumTable(out_.nodes(), p_.up.size());
+            for (std::uint32_t label = 0; label < node.size(); ++label) table->add(node[label], *by_label, label);
         }
-        for (Straddler& s : out_.straddlers) {
+        for (CrossedTriangle& s : out_.crossed) {
             for (std::uint32_t& n : s.node) n = node[n];
         }
         for (auto& [a, b] : out_.ties) {
@@ -263,11 +248,12 @@ class Pass {
     std::span<const double> offsets_;
     PlaneFrame frame_;
     Packing packing_;
-    std::size_t width_ = 0;
     std::vector<std::uint32_t> word_;  // per point
     std::vector<std::uint16_t> label_slab_;
     DisjointSets sets_;
-    std::vector<double> sums_;  // three rows per label
+    SumTable inside_;  // per label, as in Slabs per node
+    SumTable above_;
+    SumTable below_;
     std::array<std::array<std::uint32_t, 2>, 256> last_ties_{};
     Slabs out_;
 };

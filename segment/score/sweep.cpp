@@ -25,7 +25,7 @@ struct GraphEdge {
 class Side {
  public:
     Side(const PreparedPiece& prepared, const Slabs& slabs, const Section& section, Vec3 normal,
-         std::span<const double> offsets, std::span<const Tether> ties, bool above)
+         std::span<const double> offsets, std::span<const CavityLink> links, bool above)
         : p_(prepared),
           slabs_(slabs),
           section_(section),
@@ -39,21 +39,22 @@ class Side {
           nodes_at_(planes_ + 1) {
         for (std::uint32_t n = 0; n < slabs.nodes(); ++n) {
             nodes_at_[slabs.node_slab[n]].push_back(n);
-            add(sums_.row(n), (above ? slabs.above : slabs.below).row(n));
+            sums_.add(n, above ? slabs.above : slabs.below, n);
         }
         for (const auto& [a, b] : slabs.ties) add_edge(a, b);
-        for (const Tether& t : ties) {
-            add_edge(slabs.node_of[t.vertex], slabs.node_of[far_corner(*prepared.piece->mesh, t, normal, above)]);
+        for (const CavityLink& link : links) {
+            add_edge(slabs.node_of[link.vertex], slabs.node_of[far_corner(*prepared.piece->mesh, link, normal, above)]);
         }
     }
 
-    // Adds this side's solids to the prices of all planes that have loops.
-    void run(std::vector<std::optional<Price>>& prices, const std::vector<std::vector<SectionRegion>>& regions) {
+    // Adds this side's solids to the evaluations of all planes that have loops.
+    void run(std::vector<std::optional<CutEvaluation>>& evaluations,
+             const std::vector<std::vector<SectionRegion>>& regions) {
         for (std::size_t step = 0; step < planes_; ++step) {
             const std::size_t slab = above_ ? planes_ - step : step;
             const std::size_t plane = above_ ? slab - 1 : slab;
-            take_in(slab);
-            if (prices[plane]) read_parts(plane, regions[plane], *prices[plane]);
+            import_scan(slab);
+            if (evaluations[plane]) read_parts(plane, regions[plane], *evaluations[plane]);
         }
     }
 
@@ -67,19 +68,19 @@ class Side {
         edges.push_back({a, b});
     }
 
-    void take_in(std::size_t slab) {
+    void import_scan(std::size_t slab) {
         live_.insert(live_.end(), nodes_at_[slab].begin(), nodes_at_[slab].end());
         for (const GraphEdge& edge : edges_at_[slab]) {
             const std::uint32_t a = sets_.root(edge.a);
             const std::uint32_t b = sets_.root(edge.b);
             if (a == b) continue;
-            add(sums_.row(std::min(a, b)), sums_.row(std::max(a, b)));
+            sums_.add(std::min(a, b), sums_, std::max(a, b));
             sets_.unite(a, b);
         }
         std::erase_if(live_, [&](std::uint32_t n) { return sets_.root(n) != n; });
     }
 
-    void read_parts(std::size_t plane, const std::vector<SectionRegion>& regions, Price& price) {
+    void read_parts(std::size_t plane, const std::vector<SectionRegion>& regions, CutEvaluation& evaluation) {
         const std::size_t first = section_.first_loop[plane];
         const std::size_t count = section_.first_loop[plane + 1] - first;
         assert(count > 0);
@@ -100,52 +101,54 @@ class Side {
                            static_cast<std::uint32_t>(loop - first));
             }
         }
-        SumTable sums(count, sums_.width);
+        SumTable sums(count, sums_.bounds());
         std::vector<bool> has_cap(count, false);
         for (std::uint32_t i = 0; i < count; ++i) {
-            add(sums.row(part.root(i)), (above_ ? section_.above : section_.below).row(first + i));
+            sums.add(part.root(i), above_ ? section_.above : section_.below, first + i);
         }
         for (std::size_t i = 0; i < roots.size(); ++i) {
             if (i > 0 && roots[i].first == roots[i - 1].first) continue;
-            add(sums.row(part.root(roots[i].second)), sums_.row(roots[i].first));
+            sums.add(part.root(roots[i].second), sums_, roots[i].first);
         }
         for (const SectionRegion& region : regions) {
             const std::uint32_t owner = part.root(static_cast<std::uint32_t>(region.loops.front() - first));
-            add_cap(sums.row(owner), region, plane);
+            add_cap(sums, owner, region, plane);
             if (region.triangles > 0) has_cap[owner] = true;
         }
         for (std::uint32_t i = 0; i < count; ++i) {
-            if (part.root(i) == i) price.solids.push_back(solid(sums.row(i), has_cap[i]));
+            if (part.root(i) == i) evaluation.solids.push_back(solid(sums, i, has_cap[i]));
         }
         for (const std::uint32_t n : live_) {  // shells that the plane does not touch and nothing ties
             const auto at = std::lower_bound(roots.begin(), roots.end(), std::pair{n, 0U});
-            if (at == roots.end() || at->first != n) price.solids.push_back(solid(sums_.row(n), false));
+            if (at == roots.end() || at->first != n) evaluation.solids.push_back(solid(sums_, n, false));
         }
     }
 
-    void add_cap(std::span<double> row, const SectionRegion& region, std::size_t plane) const {
+    void add_cap(SumTable& sums, std::size_t part, const SectionRegion& region, std::size_t plane) const {
         const Vec3 outward = above_ ? -normal_ : normal_;
         const double distance = (offsets_[plane] - height(normal_, p_.origin)) * (above_ ? -1 : 1);
-        row[sum_faces] += region.triangles;
-        row[sum_volume] += distance * region.area_mm2 / 3;
+        sums.part(part).faces += region.triangles;
+        sums.part(part).volume += distance * region.area_mm2 / 3;
         const double weight = p_.unit.empty() ? region.area_mm2 : region.triangles;
         for (std::size_t b = 0; b < p_.piece->bounds.size(); ++b) {
             const double upwards = weight * dot(outward, p_.piece->bounds[b].up());
-            row[sum_base + 3 * b + (upwards > 0 ? 0 : 1)] += std::abs(upwards);
+            BaseSums& base = sums.bases(part)[b];
+            (upwards > 0 ? base.up : base.down) += std::abs(upwards);
         }
     }
 
-    SolidPrice solid(std::span<const double> row, bool has_cap) const {
-        SolidPrice s;
-        s.faces = static_cast<std::size_t>(row[sum_faces]);
-        s.volume_mm3 = row[sum_volume];
+    SolidEvaluation solid(const SumTable& sums, std::size_t part, bool has_cap) const {
+        SolidEvaluation s;
+        const PartSums& all = sums.part(part);
+        s.faces = static_cast<std::size_t>(all.faces);
+        s.volume_mm3 = all.volume;
         s.above = above_;
         for (std::size_t b = 0; b < p_.piece->bounds.size(); ++b) {
-            const double* cell = row.data() + sum_base + 3 * b;
-            if (cell[2] > 0) s.bases.push_back(share(p_.piece->bounds[b].cut, cell[0], cell[1]));
+            const BaseSums& base = sums.bases(part)[b];
+            if (base.faces > 0) s.bases.push_back(share(p_.piece->bounds[b].cut, base.up, base.down));
         }
         if (has_cap) {  // up is the normal above, its opposite below
-            s.bases.push_back(share(new_cut, row[above_ ? sum_up : sum_down], row[above_ ? sum_down : sum_up]));
+            s.bases.push_back(share(new_cut, above_ ? all.up : all.down, above_ ? all.down : all.up));
         }
         return s;
     }
@@ -171,10 +174,10 @@ class Side {
 
 }  // namespace
 
-std::vector<std::optional<Price>> sweep_solids(const PreparedPiece& prepared, Vec3 normal,
-                                               std::span<const double> offsets) {
-    std::vector<std::optional<Price>> prices(offsets.size());
-    if (offsets.empty()) return prices;
+std::vector<std::optional<CutEvaluation>> sweep_solids(const PreparedPiece& prepared, Vec3 normal,
+                                                       std::span<const double> offsets) {
+    std::vector<std::optional<CutEvaluation>> evaluations(offsets.size());
+    if (offsets.empty()) return evaluations;
     const Slabs all_slabs = slabs(prepared, normal, offsets);
     const Section section = find_section(prepared, all_slabs, offsets);
     assert(section.first_loop.size() == offsets.size() + 1 && section.first_loop.back() == section.loops.size());
@@ -182,32 +185,32 @@ std::vector<std::optional<Price>> sweep_solids(const PreparedPiece& prepared, Ve
     std::vector<std::vector<SectionRegion>> all_regions(offsets.size());
     for (std::size_t plane = 0; plane < offsets.size(); ++plane) {
         if (section.first_loop[plane] == section.first_loop[plane + 1]) continue;
-        prices[plane].emplace();
+        evaluations[plane].emplace();
         for (std::size_t i = section.first_loop[plane]; i < section.first_loop[plane + 1]; ++i) {
-            prices[plane]->cap_area_mm2 += section.loops[i].area_mm2;
+            evaluations[plane]->cap_area_mm2 += section.loops[i].area_mm2;
         }
         all_regions[plane] = regions(section, all_slabs, plane);
     }
-    const std::vector<Tether> ties = tethers(*prepared.piece->mesh, prepared.shells, normal);
+    const std::vector<CavityLink> links = cavity_links(*prepared.piece->mesh, prepared.shells, normal);
     for (const bool above : {true, false}) {
-        Side(prepared, all_slabs, section, normal, offsets, ties, above).run(prices, all_regions);
+        Side(prepared, all_slabs, section, normal, offsets, links, above).run(evaluations, all_regions);
     }
-    return prices;
+    return evaluations;
 }
 
-std::vector<std::optional<Price>> sweep(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
-                                        const Objectives& objectives) {
-    std::vector<std::optional<Price>> prices = sweep_solids(prepared, normal, offsets);
+std::vector<std::optional<CutEvaluation>> sweep(const PreparedPiece& prepared, Vec3 normal,
+                                                std::span<const double> offsets, const Objectives& objectives) {
+    std::vector<std::optional<CutEvaluation>> evaluations = sweep_solids(prepared, normal, offsets);
     const bool by_rays = objectives.fragility_form == FragilityForm::thinness;
     const double d = objectives.fragility_distance;
     const std::vector<double> sums =
         by_rays ? sweep_thinness(prepared, normal, offsets, d) : sweep_thesis_fragility(prepared, normal, offsets, d);
-    assert(sums.size() == prices.size());
-    for (std::size_t j = 0; j < prices.size(); ++j) {
-        if (!prices[j] || prices[j]->cap_area_mm2 <= 0) continue;
-        prices[j]->fragility = by_rays ? sums[j] / prices[j]->cap_area_mm2 : sums[j];
+    assert(sums.size() == evaluations.size());
+    for (std::size_t j = 0; j < evaluations.size(); ++j) {
+        if (!evaluations[j] || evaluations[j]->cap_area_mm2 <= 0) continue;
+        evaluations[j]->fragility = by_rays ? sums[j] / evaluations[j]->cap_area_mm2 : sums[j];
     }
-    return prices;
+    return evaluations;
 }
 
 }  // namespace qchopper

@@ -16,7 +16,7 @@ double of_cuts(const Segmentation& segmentation, const Weights& w) {
     return sum;
 }
 
-double of_pieces(const Segmentation& segmentation, const Objectives& objectives, PieceBook& book) {
+double of_pieces(const Segmentation& segmentation, const Objectives& objectives, EvaluationCache& book) {
     if (segmentation.pieces.empty()) return 0;
     std::size_t most = 0;
     std::size_t fewest = segmentation.pieces.front().mesh->triangles.size();
@@ -55,12 +55,12 @@ Head head(const std::vector<Bsp>& beam, std::size_t i, std::size_t child) {
 
 }  // namespace
 
-double cost(const Segmentation& segmentation, const Objectives& objectives, PieceBook& book) {
+double cost(const Segmentation& segmentation, const Objectives& objectives, EvaluationCache& book) {
     return of_cuts(segmentation, objectives.weights) + of_pieces(segmentation, objectives, book);
 }
 
 Bsp bsp(Segmentation segmentation, std::vector<std::string> passed_over, const Objectives& objectives,
-        PieceBook& book) {
+        EvaluationCache& book) {
     Bsp b;
     b.segmentation = std::move(segmentation);
     b.passed_over = std::move(passed_over);
@@ -69,7 +69,7 @@ Bsp bsp(Segmentation segmentation, std::vector<std::string> passed_over, const O
     return b;
 }
 
-std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& settings, PieceBook& book) {
+std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& settings, EvaluationCache& book) {
     std::vector<Head> heads;
     for (std::size_t i = 0; i < beam.size(); ++i) heads.push_back(head(beam, i, 0));
     std::vector<Bsp> kept;
@@ -86,8 +86,8 @@ std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& setting
         Segmentation child = parent.segmentation;
         const Cut cut =
             cut_by(child, *parent.next.piece, parent.ranked, parent.children[taken.child], settings.runners_up);
-        // A price promises what the cut does not keep only where the scan intersects itself.
-        if (apply(child, cut, settings.objectives.crumb_volume_mm3)) {
+        // An evaluation promises what the cut does not keep only where the scan intersects itself.
+        if (apply(child, cut, settings.objectives.fragment_volume_mm3)) {
             kept.push_back(bsp(std::move(child), parent.passed_over, settings.objectives, book));
             has_child[taken.bsp] = true;
         }
@@ -104,11 +104,11 @@ std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& setting
     return kept;
 }
 
-std::vector<Segmentation> grow(const BeamState& state, const Segmentation& root, double crumb_volume_mm3) {
+std::vector<Segmentation> grow(const BeamState& state, const Segmentation& root, double fragment_volume_mm3) {
     std::vector<Segmentation> grown;
     for (const BeamState::Node& node : state.cuts) {
         Segmentation segmentation = node.after == 0 ? root : grown[node.after - 1];
-        if (!apply(segmentation, node.cut, crumb_volume_mm3)) {
+        if (!apply(segmentation, node.cut, fragment_volume_mm3)) {
             throw InputError(InputFault::config,
                              "cut " + std::to_string(node.cut.number) +
                                  " of the beam in project.json does not part piece " + node.cut.piece,

@@ -1,7 +1,7 @@
 // The beam between two rounds as it is saved, so that a search that was interrupted ends as if it had not been.
 //
 // The segmentations of a beam have the cuts at their beginning in common; those are kept once, as a tree. Ranks and
-// prices are not kept: they follow from the pieces (tests/app/project/open_project_test.cpp).
+// evaluations are not kept: they follow from the pieces (tests/app/project/open_project_test.cpp).
 
 #pragma once
 

@@ -26,7 +26,7 @@ void sort_best_first(std::vector<Ranked>& ranked) {
 }  // namespace
 
 std::vector<PieceShare> shares_of_others(const Segmentation& segmentation, std::size_t piece,
-                                         const Objectives& objectives, PieceBook& book) {
+                                         const Objectives& objectives, EvaluationCache& book) {
     assert(piece < segmentation.pieces.size());
     std::vector<PieceShare> shares;
     for (std::size_t p = 0; p < segmentation.pieces.size(); ++p) {
@@ -35,14 +35,15 @@ std::vector<PieceShare> shares_of_others(const Segmentation& segmentation, std::
     return shares;
 }
 
-std::vector<Ranked> rank(const PiecePrices& prices, std::span<const PieceShare> others, const Objectives& objectives) {
-    assert(prices.candidates.size() == prices.prices.size());
+std::vector<Ranked> rank(const PieceEvaluations& evaluations, std::span<const PieceShare> others,
+                         const Objectives& objectives) {
+    assert(evaluations.candidates.size() == evaluations.evaluations.size());
     std::vector<Ranked> ranked;
-    for (std::size_t i = 0; i < prices.candidates.size(); ++i) {
-        if (!prices.prices[i]) continue;
-        const std::optional<Terms> t = terms(*prices.prices[i], others, objectives);
+    for (std::size_t i = 0; i < evaluations.candidates.size(); ++i) {
+        if (!evaluations.evaluations[i]) continue;
+        const std::optional<Terms> t = terms(*evaluations.evaluations[i], others, objectives);
         if (!t) continue;
-        const Candidate& c = prices.candidates[i];
+        const Candidate& c = evaluations.candidates[i];
         ranked.push_back({c.plane, c.wanted_offset, c.normal, c.offset, *t});
     }
     sort_best_first(ranked);
@@ -61,6 +62,37 @@ std::vector<std::size_t> without_near_duplicates(const std::vector<Ranked>& rank
         if (!is_near) kept.push_back(i);
     }
     return kept;
+}
+
+std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
+                         EvaluationCache& book, const Context& context) {
+    assert(piece < segmentation.pieces.size());
+    const Piece* target = &segmentation.pieces[piece];
+    book.evaluate(std::span(&target, 1), context);
+    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, book);
+    return rank(book.evaluations(*target), others, settings.objectives);
+}
+
+std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t piece, const Candidate& plane,
+                                 const SearchSettings& settings, EvaluationCache& book, const Context& context) {
+    const PieceEvaluations alone{{plane}, {book.evaluation_of(segmentation.pieces[piece], plane, context)}};
+    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, book);
+    const std::vector<Ranked> ranked = rank(alone, others, settings.objectives);
+    return ranked.empty() ? std::nullopt : std::optional(ranked.front());
+}
+
+Cut cut_by(const Segmentation& segmentation, std::size_t piece, const std::vector<Ranked>& ranked, std::size_t k,
+           std::size_t runners_up) {
+    assert(piece < segmentation.pieces.size() && k < ranked.size());
+    Cut cut;
+    cut.number = static_cast<std::int32_t>(segmentation.cuts.size()) + 1;
+    cut.piece = segmentation.pieces[piece].name;
+    cut.candidates = ranked.size();
+    cut.chosen = ranked[k];
+    for (std::size_t i = 0; i < ranked.size() && cut.runners_up.size() < runners_up; ++i) {
+        if (i != k) cut.runners_up.push_back(ranked[i]);
+    }
+    return cut;
 }
 
 }  // namespace qchopper

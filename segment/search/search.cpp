@@ -1,7 +1,6 @@
 #include "segment/search/search.h"
 
 #include <algorithm>
-#include <cassert>
 #include <chrono>
 
 #include "segment/search/beam.h"
@@ -11,19 +10,19 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t priced_together = 2;  // one piece alone does not keep two cores busy to its end
+constexpr std::size_t evaluated_together = 2;  // one piece alone does not keep two cores busy to its end
 
-std::string in_words(double seconds) {
+std::string in_digits(double seconds) {
     std::string text = std::to_string(seconds);
     text.erase(text.find_last_not_of('0') + 1);
     if (text.back() == '.') text.pop_back();
-    return text + " s";
+    return text;
 }
 
 // One search from its start to its end.
 class Search {
  public:
-    Search(const SearchSettings& settings, PieceBook& book, const FitsCell& fits_cell, const Context& context,
+    Search(const SearchSettings& settings, EvaluationCache& book, const FitsCell& fits_cell, const Context& context,
            BeamProgress* progress)
         : settings_(settings),
           book_(book),
@@ -61,7 +60,7 @@ class Search {
     // The beam of a search that was interrupted.
     void go_on() {
         const BeamState& state = progress_->state;
-        const std::vector<Segmentation> grown = grow(state, progress_->root, settings_.objectives.crumb_volume_mm3);
+        const std::vector<Segmentation> grown = grow(state, progress_->root, settings_.objectives.fragment_volume_mm3);
         const auto made_again = [&](const BeamState::Branch& b) {
             return bsp(b.last == 0 ? progress_->root : grown[b.last - 1], b.passed_over, settings_.objectives, book_);
         };
@@ -87,11 +86,12 @@ class Search {
         return std::any_of(beam_.begin(), beam_.end(), [](const Bsp& b) { return b.is_live(); });
     }
 
-    // Prices what is not priced yet and ranks the children of every BSP that goes on; a piece without candidates is
-    // passed over. BSPs that can neither go on nor are finished leave the beam; the cheapest is remembered.
+    // Evaluations what is not evaluated yet and ranks the children of every BSP that goes on; a piece without
+    // candidates is passed over. BSPs that can neither go on nor are finished leave the beam; the cheapest is
+    // remembered.
     void rank_children() {
         for (bool is_ready = false; !is_ready;) {
-            price_next_pieces();
+            evaluate_next_pieces();
             is_ready = true;
             for (Bsp& b : beam_) {
                 if (!b.is_live() || !b.ranked.empty()) continue;
@@ -110,18 +110,18 @@ class Search {
         std::erase_if(beam_, [](const Bsp& b) { return !b.is_live() && !b.next.is_finished; });
     }
 
-    void price_next_pieces() {
+    void evaluate_next_pieces() {
         std::vector<const Piece*> pieces;
         for (const Bsp& b : beam_) {
             if (!b.is_live() || !b.ranked.empty()) continue;
-            const std::size_t count = settings_.beam > 1 ? 1 : priced_together;
+            const std::size_t count = settings_.beam > 1 ? 1 : evaluated_together;
             for (std::size_t i = 0; i < std::min(count, b.next.waiting.size()); ++i) {
                 const Piece& piece = b.segmentation.pieces[b.next.waiting[i]];
-                if (i > 0 && book_.is_priced(*pieces_front(b))) break;  // the next one is known: nothing to wait for
+                if (i > 0 && book_.is_evaluated(*pieces_front(b))) break;  // the next one is known: nothing to wait for
                 if (!contains(pieces, piece)) pieces.push_back(&piece);
             }
         }
-        book_.price(pieces, context_);
+        book_.evaluate(pieces, context_);
     }
 
     static const Piece* pieces_front(const Bsp& b) { return &b.segmentation.pieces[b.next.waiting.front()]; }
@@ -146,24 +146,22 @@ class Search {
     SearchEnd end(Segmentation& segmentation, std::optional<double> time_limit_s) {
         const auto finished = std::find_if(beam_.begin(), beam_.end(), [](const Bsp& b) { return b.next.is_finished; });
         const Bsp& best = finished != beam_.end() ? *finished : beam_.empty() ? *stuck_ : beam_.front();
-        SearchEnd end{finished != beam_.end(),
-                      settings_.stop.is_any_set() ? "the stop rules hold" : "no stop rule is set",
-                      time_limit_s.has_value(), best.cost};
-        if (time_limit_s) {
-            end.reason = (end.is_finished ? end.reason + "; " : "") + std::string("the time limit of ") +
-                         in_words(*time_limit_s) + " is reached";
-        } else if (!end.is_finished) {
-            const bool is_safety = static_cast<int>(best.segmentation.cuts.size()) >= settings_.stop.max_cuts;
-            end.reason = is_safety
-                             ? "the safety stop of " + std::to_string(settings_.stop.max_cuts) + " cuts is reached"
-                             : "no plane parts any of the unfinished pieces";
-        }
+        const std::string time = time_limit_s ? describe(EndReason::time_limit, in_digits(*time_limit_s)) : "";
         segmentation = best.segmentation;
-        return end;
+        if (finished != beam_.end()) {
+            const EndReason reason = settings_.stop.is_any_set() ? EndReason::rules_hold : EndReason::no_rule;
+            return {reason, describe(reason) + (time_limit_s ? "; " + time : ""), best.cost};
+        }
+        if (time_limit_s) return {EndReason::time_limit, time, best.cost};
+        const int most = settings_.stop.max_cuts;
+        if (static_cast<int>(best.segmentation.cuts.size()) >= most) {
+            return {EndReason::max_cuts, describe(EndReason::max_cuts, std::to_string(most)), best.cost};
+        }
+        return {EndReason::no_plane, describe(EndReason::no_plane), best.cost};
     }
 
     const SearchSettings& settings_;
-    PieceBook& book_;
+    EvaluationCache& book_;
     StopJudge judge_;
     const Context& context_;
     std::vector<Bsp> beam_;  // cheapest first
@@ -175,40 +173,9 @@ class Search {
 
 }  // namespace
 
-std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
-                         PieceBook& book, const Context& context) {
-    assert(piece < segmentation.pieces.size());
-    const Piece* target = &segmentation.pieces[piece];
-    book.price(std::span(&target, 1), context);
-    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, book);
-    return rank(book.prices(*target), others, settings.objectives);
-}
-
-std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t piece, const Candidate& plane,
-                                 const SearchSettings& settings, PieceBook& book, const Context& context) {
-    const PiecePrices alone{{plane}, {book.price_of(segmentation.pieces[piece], plane, context)}};
-    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, book);
-    const std::vector<Ranked> ranked = rank(alone, others, settings.objectives);
-    return ranked.empty() ? std::nullopt : std::optional(ranked.front());
-}
-
-Cut cut_by(const Segmentation& segmentation, std::size_t piece, const std::vector<Ranked>& ranked, std::size_t k,
-           std::size_t runners_up) {
-    assert(piece < segmentation.pieces.size() && k < ranked.size());
-    Cut cut;
-    cut.number = static_cast<std::int32_t>(segmentation.cuts.size()) + 1;
-    cut.piece = segmentation.pieces[piece].name;
-    cut.candidates = ranked.size();
-    cut.chosen = ranked[k];
-    for (std::size_t i = 0; i < ranked.size() && cut.runners_up.size() < runners_up; ++i) {
-        if (i != k) cut.runners_up.push_back(ranked[i]);
-    }
-    return cut;
-}
-
-SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, PieceBook& book, const FitsCell& fits_cell,
-                 const std::function<void(const Segmentation&)>& on_round, const Context& context,
-                 std::optional<double> time_limit_s, BeamProgress* progress) {
+SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, EvaluationCache& book,
+                 const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
+                 const Context& context, std::optional<double> time_limit_s, BeamProgress* progress) {
     return Search(settings, book, fits_cell, context, progress).run(segmentation, on_round, time_limit_s);
 }
 

@@ -7,19 +7,19 @@
 #include "segment/cut/cut_piece.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/order.h"
-#include "segment/mesh/shells.h"
+#include "segment/mesh/solids.h"
 
 namespace qchopper {
 namespace {
 
-// Puts solids among the pieces or the crumbs; returns the names of the new pieces.
+// Puts solids among the pieces or the fragments; returns the names of the new pieces.
 std::vector<std::string> add_solids(Segmentation& segmentation, std::vector<Piece> solids, std::int32_t cut_number,
-                                    double crumb_volume_mm3) {
+                                    double fragment_volume_mm3) {
     std::vector<std::string> names;
     for (Piece& solid : solids) {
         const double volume = volume_mm3(*solid.mesh);
-        if (volume < crumb_volume_mm3) {
-            segmentation.crumbs.push_back({cut_number, volume, bounds(*solid.mesh).centre(), solid.mesh});
+        if (volume < fragment_volume_mm3) {
+            segmentation.fragments.push_back({cut_number, volume, bounds(*solid.mesh).centre(), solid.mesh});
         } else {
             solid.name = piece_name(segmentation.names_given++);
             assert(std::none_of(segmentation.pieces.begin(), segmentation.pieces.end(),
@@ -41,7 +41,7 @@ std::string piece_name(std::size_t index) {
     return name;
 }
 
-Segmentation uncut(const TriangleMesh& scan, double crumb_volume_mm3) {
+Segmentation uncut(const TriangleMesh& scan, double fragment_volume_mm3) {
     Segmentation segmentation;
     std::vector<Piece> solids;
     for (TriangleMesh& mesh : split_solids(in_memory_order(scan), {0, 0, 1})) {
@@ -49,20 +49,20 @@ Segmentation uncut(const TriangleMesh& scan, double crumb_volume_mm3) {
         piece.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
         solids.push_back(std::move(piece));
     }
-    add_solids(segmentation, std::move(solids), 0, crumb_volume_mm3);
+    add_solids(segmentation, std::move(solids), 0, fragment_volume_mm3);
     return segmentation;
 }
 
-bool apply(Segmentation& segmentation, Cut cut, double crumb_volume_mm3) {
+bool apply(Segmentation& segmentation, Cut cut, double fragment_volume_mm3) {
     const auto piece = std::find_if(segmentation.pieces.begin(), segmentation.pieces.end(),
                                     [&](const Piece& p) { return p.name == cut.piece; });
     if (piece == segmentation.pieces.end()) return false;
     std::optional<CutPieces> made = cut_piece(*piece, cut.chosen.plane, cut.number);
     if (!made) return false;
     segmentation.pieces.erase(piece);
-    const std::size_t crumbs_before = segmentation.crumbs.size();
-    cut.pieces = add_solids(segmentation, std::move(made->pieces), cut.number, crumb_volume_mm3);
-    cut.crumbs = segmentation.crumbs.size() - crumbs_before;
+    const std::size_t fragments_before = segmentation.fragments.size();
+    cut.pieces = add_solids(segmentation, std::move(made->pieces), cut.number, fragment_volume_mm3);
+    cut.fragments = segmentation.fragments.size() - fragments_before;
     for (std::string& warning : made->warnings) {
         segmentation.warnings.push_back("cut " + std::to_string(cut.number) + ": " + warning);
     }

@@ -1,7 +1,7 @@
 // A segmentation: the cuts decided so far, in order, and the pieces that they leave.
 //
 // Cuts and pieces form a binary space partition (Nicholson 2016, section 3): every cut parts one piece into two or
-// more. Nothing is lost: pieces, crumbs and what was discarded together always have the volume of the scan
+// more. Nothing is lost: pieces, fragments and what was discarded together always have the volume of the scan
 // (tests/segment/search/search_test.cpp).
 
 #pragma once
@@ -34,12 +34,12 @@ struct Cut {
     std::vector<Ranked> runners_up;   // the next best, best first
     std::size_t candidates = 0;       // how many planes were ranked
     std::vector<std::string> pieces;  // those that it made
-    std::size_t crumbs = 0;           // how many it made
+    std::size_t fragments = 0;        // how many it made
     bool operator==(const Cut&) const = default;
 };
 
 // A solid too small to be a piece. Listed, never silently dropped.
-struct Crumb {
+struct Fragment {
     std::int32_t cut = 0;  // the cut that made it; 0: it was in the scan
     double volume_mm3 = 0;
     Vec3 centre;  // of its box
@@ -55,7 +55,7 @@ struct Discarded {
 struct Segmentation {
     std::vector<Cut> cuts;
     std::vector<Piece> pieces;  // the leaves, in the order of their names
-    std::vector<Crumb> crumbs;
+    std::vector<Fragment> fragments;
     std::vector<Discarded> discarded;  // in the order of the decisions
     std::size_t names_given = 0;
     std::vector<std::string> warnings;
@@ -64,12 +64,12 @@ struct Segmentation {
 // A, B, ..., Z, AA, AB, ...: bijective base 26, from 0.
 std::string piece_name(std::size_t index);
 
-// The uncut scan as a segmentation: every solid is a piece, or a crumb if it is smaller than crumb_volume_mm3.
-Segmentation uncut(const TriangleMesh& scan, double crumb_volume_mm3);
+// The uncut scan as a segmentation: every solid is a piece, or a fragment if it is smaller than fragment_volume_mm3.
+Segmentation uncut(const TriangleMesh& scan, double fragment_volume_mm3);
 
-// Parts a piece along cut.chosen.plane, exactly; fills in the pieces and crumbs that it makes.
+// Parts a piece along cut.chosen.plane, exactly; fills in the pieces and fragments that it makes.
 // Returns false, and changes nothing, if there is no such piece or the plane misses it.
-bool apply(Segmentation& segmentation, Cut cut, double crumb_volume_mm3);
+bool apply(Segmentation& segmentation, Cut cut, double fragment_volume_mm3);
 
 // Takes a piece out, with a warning that says how much it was. Returns false, and changes nothing, if there is no such
 // piece or it is the only one.

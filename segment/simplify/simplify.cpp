@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/error.h"
+#include "segment/mesh/distance.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/manifold.h"
-#include "segment/mesh/sampled_distance.h"
 #include "segment/simplify/collapse.h"
 
 namespace qchopper {
@@ -76,7 +76,7 @@ SimplifyReport simplify(TriangleMesh& mesh, const SimplifyOptions& options, cons
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) report.cap_faces += cap_of(mesh, t) != no_cap ? 1 : 0;
     if (!options.most_faces || mesh.triangles.size() > *options.most_faces) {
         TriangleMesh split = mesh;
-        split_pinched(split, found);  // half-edges cannot tell surfaces that only touch in a point
+        split_non_manifold_vertices(split, found);  // half-edges cannot tell surfaces that only touch in a point
         if (collapse_within(split, options, report, context)) mesh = std::move(split);
     }
     report.faces_after = mesh.triangles.size();

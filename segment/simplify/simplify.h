@@ -25,7 +25,7 @@ struct SimplifyReport {
     std::size_t faces_after = 0;
     std::size_t cap_faces = 0;        // that had to stay
     double from_piece = 0;            // mm: largest distance of the samples of the piece to the result
-    double from_result = 0;           // mm: of the samples of the result to the piece (sampled_distance.h)
+    double from_result = 0;           // mm: of the samples of the result to the piece (distance.h)
     bool has_too_many_faces = false;  // more faces than most_faces are left: no more could be taken out soundly
     double deviation() const { return from_piece > from_result ? from_piece : from_result; }
 };

@@ -40,7 +40,7 @@ HEAVY = {
     "libmodbus": (r"(modbus/)?modbus(-.*)?\.h$", 0),  # only the tests use it, as a client that is not ours
     "toml++": (r"toml\+\+/", 2),
     "JSON": (r"nlohmann/(?!json_fwd\.hpp)", 16),
-    "CLI11": (r"CLI/", 1),
+    "CLI11": (r"CLI/", 2),
     "libzip": (r"zip\.h$", 3),
     "expat": (r"expat\.h$", 1),
     "libpng": (r"png\.h$", 1),

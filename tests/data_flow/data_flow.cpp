@@ -34,10 +34,10 @@ void expect_nothing_is_lost(const Segmentation& segmentation, double scan_volume
         EXPECT_TRUE(names.insert(piece.name).second) << piece.name;
         sum += volume_mm3(*piece.mesh);
     }
-    for (const Crumb& crumb : segmentation.crumbs) {
-        expect_closed(*crumb.mesh, "a crumb of cut " + std::to_string(crumb.cut));
-        EXPECT_EQ(crumb.volume_mm3, volume_mm3(*crumb.mesh));
-        sum += crumb.volume_mm3;
+    for (const Fragment& fragment : segmentation.fragments) {
+        expect_closed(*fragment.mesh, "a fragment of cut " + std::to_string(fragment.cut));
+        EXPECT_EQ(fragment.volume_mm3, volume_mm3(*fragment.mesh));
+        sum += fragment.volume_mm3;
     }
     EXPECT_NEAR(sum, scan_volume, 1e-9 * scan_volume);
     for (const Cut& cut : segmentation.cuts) {
@@ -76,17 +76,17 @@ Cell foam_cell() {
 
 Segmentation cut_up(const TriangleMesh& scan, SearchSettings settings) {
     const double volume = volume_mm3(scan);
-    settings.objectives.crumb_volume_mm3 = 1e-5 * volume;
-    Segmentation segmentation = uncut(scan, settings.objectives.crumb_volume_mm3);
+    settings.objectives.fragment_volume_mm3 = 1e-5 * volume;
+    Segmentation segmentation = uncut(scan, settings.objectives.fragment_volume_mm3);
     expect_nothing_is_lost(segmentation, volume);
     const auto on_cut = [&](const Segmentation& s) { expect_nothing_is_lost(s, volume); };
-    PieceBook book(settings.objectives, settings.candidates);
+    EvaluationCache book(settings.objectives, settings.candidates);
     const SearchEnd end = search(segmentation, settings, book, {}, on_cut, {});
-    EXPECT_TRUE(end.is_finished) << end.reason;
+    EXPECT_TRUE(end.is_finished()) << end.sentence;
     return segmentation;
 }
 
-std::vector<PieceJob> write_jobs(const Segmentation& segmentation, const Intake& scan, const Cell& cell,
+std::vector<PieceJob> write_jobs(const Segmentation& segmentation, const ImportedScan& scan, const Cell& cell,
                                  const fs::path& folder) {
     std::vector<PieceJob> jobs;
     JobInput input;

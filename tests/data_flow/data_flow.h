@@ -1,4 +1,4 @@
-// The walk of one scan to its finished jobs, room by room, with the laws checked at every door.
+// The data flow of one scan to its finished jobs, room by room, with the invariants checked at every door.
 
 #pragma once
 
@@ -19,7 +19,7 @@ using qchopper::Folder;
 // The cell file that comes with the project.
 Cell foam_cell();
 
-// Cuts until the stop rules hold. Checks: every piece and crumb is closed, volumes add up to 1e-9, names are given
+// Cuts until the stop rules hold. Checks: every piece and fragment is closed, volumes add up to 1e-9, names are given
 // once.
 Segmentation cut_up(const TriangleMesh& scan, SearchSettings settings);
 
@@ -30,7 +30,7 @@ struct PieceJob {
 
 // One job file per piece, in `folder`. Checks: the piece fits, the same bytes come twice, every hash in the manifest
 // is that of its file, and the solid in the file is the piece.
-std::vector<PieceJob> write_jobs(const Segmentation& segmentation, const Intake& scan, const Cell& cell,
+std::vector<PieceJob> write_jobs(const Segmentation& segmentation, const ImportedScan& scan, const Cell& cell,
                                  const std::filesystem::path& folder);
 
 // Hands every job to one simulated cell over TCP. Checks: each ends complete, and the cell counts one start for each.

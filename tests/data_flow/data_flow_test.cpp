@@ -17,10 +17,10 @@ namespace fs = std::filesystem;
     const fs::path scan = fs::path(QCHOPPER_MESHES) / name; \
     if (!fs::exists(scan)) GTEST_SKIP() << "skipped: " << name << " is not here"
 
-Intake take_in_as(const fs::path& path, Unit unit) {
-    IntakeOptions options;
+ImportedScan import_as(const fs::path& path, Unit unit) {
+    ImportOptions options;
     options.mm_per_unit = mm_per(unit);
-    return take_in(path, options);
+    return import_scan(path, options);
 }
 
 TEST(Walk, ASampleScanBecomesJobsThatEnd) {
@@ -30,44 +30,44 @@ TEST(Walk, ASampleScanBecomesJobsThatEnd) {
         sampling.faces = 3000;
         sampling.holes = holes;
         write_file(folder.path / "scan.ply", to_ply(sample(specimen, sampling)));
-        const Intake intake = take_in_as(folder.path / "scan.ply", Unit::mm);
-        EXPECT_EQ(intake.report.repair.holes_filled, static_cast<std::size_t>(holes));
+        const ImportedScan imported = import_as(folder.path / "scan.ply", Unit::mm);
+        EXPECT_EQ(imported.report.repair.holes_filled, static_cast<std::size_t>(holes));
         SearchSettings settings;
         settings.stop.min_cuts = 2;
-        const Segmentation segmentation = walk::cut_up(intake.mesh, settings);
+        const Segmentation segmentation = walk::cut_up(imported.mesh, settings);
         EXPECT_GE(segmentation.pieces.size(), 3U);
         const Cell cell = walk::foam_cell();
-        walk::run_jobs(walk::write_jobs(segmentation, intake, cell, folder.path), cell, folder.path);
+        walk::run_jobs(walk::write_jobs(segmentation, imported, cell, folder.path), cell, folder.path);
     }
 }
 
 TEST(Walk, TheBunnyBecomesFourPiecesOrMoreAndTheirJobsEnd) {
     NEEDS_SCAN("bunny_bun_zipper.ply");
     const walk::Folder folder;
-    const Intake intake = take_in_as(scan, Unit::m);
-    EXPECT_EQ(intake.mesh.triangles.size(), 69'664U);
-    EXPECT_EQ(intake.report.repair.holes_filled, 5U);
+    const ImportedScan imported = import_as(scan, Unit::m);
+    EXPECT_EQ(imported.mesh.triangles.size(), 69'664U);
+    EXPECT_EQ(imported.report.repair.holes_filled, 5U);
     const std::optional<SearchSettings> settings = preset("bunny");
     ASSERT_TRUE(settings);
-    const Segmentation segmentation = walk::cut_up(intake.mesh, *settings);
+    const Segmentation segmentation = walk::cut_up(imported.mesh, *settings);
     EXPECT_EQ(segmentation.cuts.size(), 3U);
     EXPECT_GE(segmentation.pieces.size(), 4U);
     const Cell cell = walk::foam_cell();
-    walk::run_jobs(walk::write_jobs(segmentation, intake, cell, folder.path), cell, folder.path);
+    walk::run_jobs(walk::write_jobs(segmentation, imported, cell, folder.path), cell, folder.path);
 }
 
-TEST(Walk, AHeadOf222ShellsBecomesClosedPiecesAndListedCrumbs) {
+TEST(Walk, AHeadOf222ShellsBecomesClosedPiecesAndListedFragments) {
     NEEDS_SCAN("ct_head_371k.ply");
     const walk::Folder folder;
-    const Intake intake = take_in_as(scan, Unit::mm);
-    EXPECT_EQ(intake.report.repair.shells, 222U);
+    const ImportedScan imported = import_as(scan, Unit::mm);
+    EXPECT_EQ(imported.report.repair.shells, 222U);
     SearchSettings settings;
     settings.stop.min_cuts = 1;
-    settings.candidates.offsets_per_normal = 8;  // the law is about the pieces, not about the choice
-    const Segmentation segmentation = walk::cut_up(intake.mesh, settings);
-    EXPECT_GT(segmentation.crumbs.size(), 100U);
+    settings.candidates.offsets_per_normal = 8;  // the invariant is about the pieces, not about the choice
+    const Segmentation segmentation = walk::cut_up(imported.mesh, settings);
+    EXPECT_GT(segmentation.fragments.size(), 100U);
     EXPECT_GT(segmentation.pieces.size(), 10U);
-    walk::write_jobs(segmentation, intake, walk::foam_cell(), folder.path);
+    walk::write_jobs(segmentation, imported, walk::foam_cell(), folder.path);
 }
 
 }  // namespace

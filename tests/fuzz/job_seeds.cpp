@@ -9,7 +9,7 @@
 namespace qchopper {
 namespace {
 
-// Small, and with something in every list. It was not searched for: nothing here is priced or turned.
+// Small, and with something in every list. It was not searched for: nothing here is evaluated or turned.
 JobInput some_job() {
     JobInput input;
     const TriangleMesh box = shapes::box({-10, -5, 0}, {10, 5, 8}, 1);

@@ -1,8 +1,8 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/project/evaluation_store.h"
 #include "app/project/plan.h"
-#include "app/project/price_cache.h"
 #include "app/project/project_json.h"
 #include "tests/fuzz/memory_folder.h"
 #include "tests/fuzz/seeds.h"
@@ -28,13 +28,13 @@ Project some_project() {
     cut.chosen = some_rank(4);
     cut.candidates = 120;
     cut.pieces = {"B", "C"};
-    cut.crumbs = 1;
+    cut.fragments = 1;
     cut.runners_up = {some_rank(5)};
     project.history.decisions = {WeightsChange{{1, 2, 3, 0.1}}, cut, Reset{}};
     project.history.standing = 2;
     project.cuts = standing_cuts(project.history);
     project.pieces = {{"B", 1, 8, 600, {0, 0, 1}}, {"C", 1, 8, 399, {0, 0, -1}}};
-    project.crumb_list = {{"", 1, 4, 1, {0, 0, 0}}};
+    project.fragment_list = {{"", 1, 4, 1, {0, 0, 0}}};
     project.warnings = {"scaled"};
     return project;
 }
@@ -63,16 +63,16 @@ Plan some_plan() {
 }
 
 // The file without the SHA-256 of itself at its end, which the fuzzer puts right.
-Bytes some_prices() {
+Bytes some_evaluations() {
     const MemoryFolder folder;
-    PiecePrices prices;
-    prices.candidates = {{{{0, 0, 1}, 2}, 2.5, 0, 1}, {{{0, 1, 0}, 3}, 3, 1, 0}};
-    Price price;
-    price.solids = {{}, {}};
-    price.solids[0].bases = {{}};
-    prices.prices = {price, std::nullopt};
+    PieceEvaluations evaluations;
+    evaluations.candidates = {{{{0, 0, 1}, 2}, 2.5, 0, 1}, {{{0, 1, 0}, 3}, 3, 1, 0}};
+    CutEvaluation evaluation;
+    evaluation.solids = {{}, {}};
+    evaluation.solids[0].bases = {{}};
+    evaluations.evaluations = {evaluation, std::nullopt};
     const Piece piece{"A", std::make_shared<const TriangleMesh>(), {}};
-    price_cache(folder.path, {}, {}).keep(piece, prices);
+    evaluation_store(folder.path, {}, {}).keep(piece, evaluations);
     Bytes bytes = read_file(std::filesystem::directory_iterator(folder.path)->path());
     bytes.resize(bytes.size() - sizeof(Sha256));
     return bytes;
@@ -93,7 +93,7 @@ std::vector<Encoded> project_seeds() {
     return {{"project", "decided", to_bytes(project)},
             {"project", "new", to_bytes(to_json(Project{}))},
             {"plan", "two-cuts", to_bytes(plan)},
-            {"prices", "two-candidates", some_prices()}};
+            {"evaluations", "two-candidates", some_evaluations()}};
 }
 
 }  // namespace qchopper

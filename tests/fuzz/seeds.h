@@ -10,7 +10,7 @@ namespace qchopper {
 
 // Of job files and cell files.
 std::vector<Encoded> job_seeds();
-// Of project.json, plans and kept prices.
+// Of project.json, plans and kept evaluations.
 std::vector<Encoded> project_seeds();
 // Of what crosses the wire, and of the simulated cell's memory.
 std::vector<Encoded> link_seeds();

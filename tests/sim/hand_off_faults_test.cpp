@@ -1,7 +1,8 @@
 // The hand-off against the machine itself, in time that is counted and not waited for, with everything going wrong at
 // random: writes lost before or after they took effect, answers lost, frames delivered late or twice, power cuts.
 //
-// Law: at most one start; STARTED only if there was one; NOT STARTED only if there was none and none can come any more.
+// Invariant: at most one start; STARTED only if there was one; NOT STARTED only if there was none and none can come any
+// more.
 
 #include <gtest/gtest.h>
 

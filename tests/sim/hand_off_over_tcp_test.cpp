@@ -1,4 +1,4 @@
-// The whole hand-off over real TCP on loopback; the oracle is the cell's own STARTS_TOTAL and memory of jobs.
+// The whole hand-off over real TCP on loopback; the reference is the cell's own STARTS_TOTAL and memory of jobs.
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/exit_code.h"
-#include "app/project/project.h"
+#include "app/project/project_folder.h"
 #include "tests/app/cli/program.h"
 
 namespace qchopper {
@@ -264,7 +264,7 @@ std::vector<Case> projects() {
          go_on,
          {"p.qch/project.json", "schema"},
          project_text(
-             [](const std::string& text) { return replaced(text, "qchopper-project-2", "qchopper-project-9"); })},
+             [](const std::string& text) { return replaced(text, "qchopper-project-3", "qchopper-project-9"); })},
         {"BrokenProjectInADryRun",
          exit_config,
          {"dry-run", "p.qch"},

@@ -42,7 +42,7 @@ TEST_F(Inspect, DeepTellsWhereTheScanRunsThroughItself) {
     const json quick = document({"inspect", "bad.ply", "--json"});
     EXPECT_TRUE(quick["self_intersections"].is_null());
     const json deep = document({"inspect", "bad.ply", "--deep", "--json", "--units", "mm"});
-    EXPECT_EQ(deep["schema"], "qchopper-inspect-2");
+    EXPECT_EQ(deep["schema"], "qchopper-inspect-3");
     const json& found = deep["self_intersections"];
     EXPECT_GT(found["pairs"], 3);
     EXPECT_EQ(found["complete"], true);
@@ -77,7 +77,7 @@ TEST_F(Inspect, GivesTheThreeVerdicts) {
     sheet.points = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 1}};
     sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
     write_file(folder.path / "sheet.ply", to_ply(sheet));
-    EXPECT_EQ(document({"inspect", "sheet.ply", "--json"})["verdict"], "hopeless");
+    EXPECT_EQ(document({"inspect", "sheet.ply", "--json"})["verdict"], "unrepairable");
 }
 
 // Every field of the document is a row of docs/inspect.md, and every row is a field.
@@ -87,7 +87,7 @@ TEST_F(Inspect, DocumentsEveryField) {
     std::set<std::string> fields;
     for (const auto& [name, value] : deep.items()) {
         fields.insert(name);
-        if (name == "crumbs" || name == "sheets" || name == "self_intersections") {
+        if (name == "fragments" || name == "sheets" || name == "self_intersections") {
             for (const auto& [inner, unused] : value.items()) fields.insert(name + "." + inner);
         }
     }
@@ -104,7 +104,7 @@ TEST_F(Inspect, DocumentsEveryField) {
             names.erase(0, end + 1);
         }
     }
-    rows.insert({"crumbs", "sheets"});  // told by their fields
+    rows.insert({"fragments", "sheets"});  // told by their fields
     EXPECT_EQ(fields, rows);
 }
 

@@ -40,11 +40,11 @@ TEST_F(Json, OfSample) {
 }
 
 TEST_F(Json, OfInspect) {
-    const json seen = document(run({"inspect", "scan.ply", "--json"}), "qchopper-inspect-2");
+    const json seen = document(run({"inspect", "scan.ply", "--json"}), "qchopper-inspect-3");
     EXPECT_EQ(seen["faces"], 3000);
     EXPECT_EQ(seen["closed"], true);
     EXPECT_EQ(seen["units"], nullptr);
-    const json with_units = document(run({"inspect", "scan.ply", "--units", "cm", "--json"}), "qchopper-inspect-2");
+    const json with_units = document(run({"inspect", "scan.ply", "--units", "cm", "--json"}), "qchopper-inspect-3");
     EXPECT_EQ(seen["size_in_words"], nullptr);
     EXPECT_TRUE(with_units["size_in_words"].is_string());
 }
@@ -53,7 +53,7 @@ TEST_F(Json, OfPrepare) {
     program::Arguments arguments = program::prepare_arguments("scan.ply");
     arguments.insert(arguments.end(), {"-o", "p.qch", "--json"});
     const program::Ended ended = run(arguments);
-    const json made = document(ended, "qchopper-prepare-1");
+    const json made = document(ended, "qchopper-prepare-2");
     EXPECT_EQ(made["cuts"].size(), 2U);
     EXPECT_EQ(made["all_fit"], true);
     double volume = 0;
@@ -61,7 +61,7 @@ TEST_F(Json, OfPrepare) {
         EXPECT_TRUE(fs::exists(folder.path / piece["job"].get<std::string>()));
         volume += piece["volume_mm3"].get<double>();
     }
-    for (const json& crumb : made["crumbs"]) volume += crumb["volume_mm3"].get<double>();
+    for (const json& fragment : made["fragments"]) volume += fragment["volume_mm3"].get<double>();
     const double scan = made["scan"]["volume_mm3"];
     EXPECT_NEAR(volume, scan, 1e-9 * scan);
     // Off a terminal there is no progress line that is drawn over.
@@ -76,7 +76,7 @@ TEST_F(Json, OfAPieceThatDoesNotFit) {
     program::put(folder.path / "low.toml", cell);
     const program::Ended ended =
         run({"prepare", "scan.ply", "--units", "mm", "--cell", "low.toml", "--min-cuts", "1", "-o", "p.qch", "--json"});
-    const json made = document(ended, "qchopper-prepare-1", 1);
+    const json made = document(ended, "qchopper-prepare-2", 1);
     EXPECT_EQ(made["all_fit"], false);
     for (const json& piece : made["pieces"]) {
         EXPECT_EQ(piece["fits"], false);

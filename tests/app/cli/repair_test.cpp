@@ -91,7 +91,7 @@ TEST_F(Repair, DocumentHoldsStepsCountsAndVerdict) {
           "verdict"}) {
         EXPECT_TRUE(made.contains(key)) << key;
     }
-    EXPECT_EQ(made["schema"], "qchopper-repair-1");
+    EXPECT_EQ(made["schema"], "qchopper-repair-2");
     EXPECT_EQ(made["units"], "cm");
     EXPECT_EQ(made["solid"], true);
     EXPECT_EQ(made["steps"][2]["step"], "faces");

@@ -4,7 +4,7 @@
 #include <signal.h>
 
 #include "app/cli/exit_code.h"
-#include "app/project/project.h"
+#include "app/project/project_folder.h"
 #include "tests/app/cli/program.h"
 
 namespace qchopper {
@@ -16,9 +16,16 @@ using program::Contents;
 using program::Ended;
 using program::Process;
 
+// All files of a project but its cache: that holds what was evaluated on the way, which may be more after a break.
+Contents all_but_cache(const fs::path& project) {
+    Contents all = program::contents(project);
+    std::erase_if(all, [](const auto& file) { return file.first.starts_with("cache"); });
+    return all;
+}
+
 // With the path of the scan, the one thing that may differ, taken out of project.json.
 Contents project_in(const fs::path& folder) {
-    Contents all = program::contents(folder / "scan.qch");
+    Contents all = all_but_cache(folder / "scan.qch");
     std::string& json = all["project.json"];
     const std::string path = (folder / "scan.ply").string();
     const std::size_t at = json.find(path);
@@ -54,6 +61,7 @@ TEST_F(SameBytes, ElsewhereAndOnOneCore) {
     const Ended ended = program::run(start(), {folder.path, "", true});
     EXPECT_EQ(ended.code, 0) << ended.err;
     expect_as_prepared();
+    EXPECT_FALSE(fs::is_empty(folder.path / "scan.qch" / "cache")) << "nothing is kept of what was evaluated";
 }
 
 TEST_F(SameBytes, FromAFinishedProjectOnceMore) {
@@ -67,7 +75,7 @@ TEST_F(SameBytes, OfABeamThatIsKilledAfterTheFirstCut) {
     Arguments beam = start();
     beam.insert(beam.end(), {"--beam", "3"});
     ASSERT_EQ(program::run(beam, {folder.path}).code, 0);
-    const Contents whole = program::contents(folder.path / "scan.qch");
+    const Contents whole = all_but_cache(folder.path / "scan.qch");
     fs::remove_all(folder.path / "scan.qch");
     Process process(beam, {folder.path});
     ASSERT_TRUE(process.waits_until_err("cut 1 on piece A")) << process.err();
@@ -76,7 +84,7 @@ TEST_F(SameBytes, OfABeamThatIsKilledAfterTheFirstCut) {
     EXPECT_GE(cuts_kept(), 1U);
     const Ended ended = program::run(go_on, {folder.path});
     EXPECT_EQ(ended.code, 0) << ended.err;
-    EXPECT_EQ(program::difference(whole, program::contents(folder.path / "scan.qch")), "");
+    EXPECT_EQ(program::difference(whole, all_but_cache(folder.path / "scan.qch")), "");
 }
 
 TEST_F(SameBytes, KilledAfterTheFirstCut) {

@@ -47,7 +47,7 @@ struct Segment : ::testing::Test {
 TEST_F(Segment, ProposesWithoutCuttingAndAcceptsWhatWasProposed) {
     const std::string before = program::bytes_in(folder.path / "p.qch" / "project.json");
     const json proposed = answer({"p.qch", "--step", "--top", "5"});
-    EXPECT_EQ(program::bytes_in(folder.path / "p.qch" / "project.json"), before);  // prices may be kept beside it
+    EXPECT_EQ(program::bytes_in(folder.path / "p.qch" / "project.json"), before);  // evaluations may be kept beside it
     ASSERT_EQ(proposed["proposal"]["planes"].size(), 5U) << proposed.dump(1);
     const json accepted = answer({"p.qch", "--accept", "3"});
     ASSERT_EQ(accepted["cuts"].size(), 1U);
@@ -290,8 +290,8 @@ TEST_F(Segment, KeepsEveryDecisionWhenItIsKilled) {
     EXPECT_EQ(victim.wait().killed_by, SIGKILL);
     const json found = answer({"p.qch"});
     EXPECT_GE(found["cuts"].size(), 3U);
-    const double crumbs = 1e-5 * found["crumbs"].get<double>();  // each at most that share of the scan
-    EXPECT_NEAR(volume(found), volume(begun), (1e-9 + crumbs) * volume(begun));
+    const double fragments = 1e-5 * found["fragments"].get<double>();  // each at most that share of the scan
+    EXPECT_NEAR(volume(found), volume(begun), (1e-9 + fragments) * volume(begun));
     EXPECT_EQ(answer({"p.qch", "--undo"})["cuts"].size(), found["cuts"].size() - 1);
 }
 

@@ -6,7 +6,9 @@
 #include <set>
 
 #include "app/project/open_project.h"
+#include "app/project/project_folder.h"
 #include "app/project/project_json.h"
+#include "app/project/replay.h"
 #include "app/project/replay_plan.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -49,7 +51,7 @@ struct Discarding : ::testing::Test {
     static double volume_of(const Segmentation& s) {
         double volume = 0;
         for (const Piece& p : s.pieces) volume += volume_mm3(*p.mesh);
-        for (const Crumb& c : s.crumbs) volume += c.volume_mm3;
+        for (const Fragment& c : s.fragments) volume += c.volume_mm3;
         for (const Discarded& d : s.discarded) volume += volume_mm3(*d.piece.mesh);
         return volume;
     }
@@ -129,7 +131,7 @@ TEST_F(Discarding, IsSaidWithItsVolumeAndSurvivesTheSearch) {
         EXPECT_TRUE(project
                         .search(
                             {}, [](const Segmentation&) {}, {}, std::nullopt)
-                        .is_finished);
+                        .is_finished());
         const Project saved = load_project(folder);
         ASSERT_EQ(saved.discarded.size(), 1U);
         EXPECT_EQ(saved.discarded[0].name, name);

@@ -14,7 +14,8 @@
 #include <thread>
 
 #include "app/project/open_project.h"
-#include "app/project/products.h"
+#include "app/project/project_folder.h"
+#include "app/project/replay.h"
 #include "base/file.h"
 #include "segment/io/write_ply.h"
 #include "segment/mesh/measure.h"

@@ -5,7 +5,9 @@
 
 #include <map>
 
+#include "app/project/project_folder.h"
 #include "app/project/project_json.h"
+#include "app/project/replay.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "segment/mesh/measure.h"
@@ -149,7 +151,7 @@ TEST_F(OpenedProject, ARankingCutsNothingAndChangesNothingButTheCache) {
     EXPECT_TRUE(fs::exists(folder / "cache"));
     OpenProject third = open();
     EXPECT_EQ(third.ranking(piece, {}), ranked);
-    EXPECT_EQ(third.book().priced_count(), 0U) << "another program need not price again";
+    EXPECT_EQ(third.book().evaluated_count(), 0U) << "another program need not evaluation again";
 }
 
 TEST_F(OpenedProject, AMissChangesNothing) {
@@ -182,11 +184,11 @@ TEST_F(OpenedProject, AnOwnPlaneIsNudgedOnceAndStoredExactly) {
     EXPECT_EQ(load_project(folder).cuts.back().chosen.plane, own->plane);
 }
 
-TEST_F(OpenedProject, ProductsAreNeverStale) {
+TEST_F(OpenedProject, OutputsAreNeverStale) {
     OpenProject project = open();
     const SearchEnd end = project.search(
         {}, [](const Segmentation&) {}, {}, std::nullopt);
-    EXPECT_TRUE(end.is_finished);
+    EXPECT_TRUE(end.is_finished());
     EXPECT_EQ(load_project(folder).stage, Stage::cut);
     for (const Piece& piece : project.segmentation().pieces) {
         EXPECT_TRUE(fs::exists(folder / "pieces" / (piece.name + ".ply"))) << piece.name;
@@ -291,19 +293,39 @@ TEST_F(OpenedProject, ASearchThatIsInterruptedEndsWithTheSameBytesForEveryWidth)
     }
 }
 
+TEST_F(OpenedProject, KnowsAgainWhyItsSearchEnded) {
+    OpenProject project = open();
+    StopRules rules;
+    rules.min_cuts = 9;
+    rules.max_cuts = 1;
+    project.set_search(rules, 1);
+    const SearchEnd end = project.search(
+        {}, [](const Segmentation&) {}, {}, std::nullopt);
+    const Project saved = load_project(folder);
+    EXPECT_EQ(end.reason, EndReason::max_cuts);
+    EXPECT_EQ(saved.end_reason, EndReason::max_cuts);
+    EXPECT_EQ(saved.ended_because, end.sentence);
+    EXPECT_FALSE(saved.do_rules_hold());
+    EXPECT_EQ(saved.warnings.back(), early_end(end.sentence));
+    EXPECT_EQ(saved, project.project());
+    project.undo();
+    EXPECT_EQ(load_project(folder).end_reason, std::nullopt);
+    EXPECT_TRUE(load_project(folder).do_rules_hold());
+}
+
 TEST_F(OpenedProject, OutOfTimeItStaysBeingCut) {
     OpenProject project = open();
     const SearchEnd end = project.search(
         {}, [](const Segmentation&) {}, {}, 1e-9);
-    EXPECT_TRUE(end.is_out_of_time);
-    EXPECT_FALSE(end.is_finished);
+    EXPECT_TRUE(end.is_out_of_time());
+    EXPECT_FALSE(end.is_finished());
     const Project saved = load_project(folder);
     EXPECT_EQ(saved.stage, Stage::cutting);
     EXPECT_EQ(saved.cuts.size(), 1U);
     EXPECT_TRUE(open()
                     .search(
                         {}, [](const Segmentation&) {}, {}, std::nullopt)
-                    .is_finished);
+                    .is_finished());
 }
 
 // What the file says of a beam is held against the decisions that stand.

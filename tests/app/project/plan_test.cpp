@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "segment/mesh/inside.h"
+#include "segment/mesh/containment.h"
 #include "segment/mesh/measure.h"
 #include "tests/app/project/planned.h"
 #include "tests/shapes.h"
@@ -41,7 +41,7 @@ TEST(Plan, IsInTheFrameOfTheFile) {
     const TriangleMesh mesh = shapes::linked_tori();
     for (const PlanCut& cut : plan.cuts) {
         EXPECT_NEAR(cut.plane.offset - height(cut.plane.normal, plan.scan.centre), cut.from_centre, 1e-12);
-        EXPECT_TRUE(contains(mesh, cut.inside - plan.scan.centre));
+        EXPECT_TRUE(is_inside(mesh, cut.inside - plan.scan.centre));
         EXPECT_GE(cut.makes_mm3.size(), 2U);
     }
     EXPECT_TRUE(plan.cuts[0].path.empty());

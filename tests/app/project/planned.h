@@ -5,7 +5,8 @@
 #include <map>
 #include <string>
 
-#include "app/project/project.h"
+#include "app/project/project_folder.h"
+#include "app/project/replay.h"
 #include "segment/io/write_ply.h"
 #include "segment/mesh/measure.h"
 
@@ -23,10 +24,10 @@ inline Project project_of(const TriangleMesh& mesh, Vec3 centre, int cuts) {
     project.scan = source_of(mesh, centre);
     project.settings.candidates.offsets_per_normal = 9;
     project.settings.stop.min_cuts = cuts;
-    project.settings.objectives.crumb_volume_mm3 = 1e-5 * project.scan.volume_mm3;
+    project.settings.objectives.fragment_volume_mm3 = 1e-5 * project.scan.volume_mm3;
     project.history.weights_at_start = project.settings.objectives.weights;
-    Segmentation segmentation = uncut(mesh, project.settings.objectives.crumb_volume_mm3);
-    PieceBook book(project.settings.objectives, project.settings.candidates);
+    Segmentation segmentation = uncut(mesh, project.settings.objectives.fragment_volume_mm3);
+    EvaluationCache book(project.settings.objectives, project.settings.candidates);
     search(segmentation, project.settings, book, {}, [](const Segmentation&) {}, {});
     record(project, segmentation);
     return project;

@@ -1,4 +1,5 @@
-#include "app/project/project.h"
+#include "app/project/project_folder.h"
+#include "app/project/replay.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -29,12 +30,12 @@ Project searched_project(const TriangleMesh& mesh, Segmentation& segmentation) {
     project.preset = "bunny";
     project.settings.candidates.offsets_per_normal = 5;
     project.settings.objectives.fragility_form = FragilityForm::thesis;
-    project.settings.objectives.crumb_volume_mm3 = 1e-5 * volume_mm3(mesh);
+    project.settings.objectives.fragment_volume_mm3 = 1e-5 * volume_mm3(mesh);
     project.settings.stop.min_cuts = 3;
     project.settings.stop.max_obb = Vec3{1, 2, 3};
     project.settings.stop.combine = Stop::any;
-    segmentation = uncut(mesh, project.settings.objectives.crumb_volume_mm3);
-    PieceBook book(project.settings.objectives, project.settings.candidates);
+    segmentation = uncut(mesh, project.settings.objectives.fragment_volume_mm3);
+    EvaluationCache book(project.settings.objectives, project.settings.candidates);
     search(segmentation, project.settings, book, {}, [](const Segmentation&) {}, {});
     project.history.weights_at_start = project.settings.objectives.weights;
     record(project, segmentation);

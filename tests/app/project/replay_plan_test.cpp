@@ -11,7 +11,7 @@
 namespace qchopper {
 namespace {
 
-// A scan as intake gives it: about its own centre.
+// A scan as import gives it: about its own centre.
 struct Scan {
     TriangleMesh mesh;
     Vec3 centre;
@@ -33,9 +33,9 @@ struct Replayed {
 Replayed replayed(const Plan& plan, const Scan& scan) {
     const ScanSource source = planned::source_of(scan.mesh, scan.centre);
     SearchSettings settings;
-    settings.objectives.crumb_volume_mm3 = 1e-5 * source.volume_mm3;
-    Replayed r{uncut(scan.mesh, settings.objectives.crumb_volume_mm3), {}, 0};
-    PieceBook book(settings.objectives, settings.candidates);
+    settings.objectives.fragment_volume_mm3 = 1e-5 * source.volume_mm3;
+    Replayed r{uncut(scan.mesh, settings.objectives.fragment_volume_mm3), {}, 0};
+    EvaluationCache book(settings.objectives, settings.candidates);
     r.replay = replay_plan(plan, source, r.segmentation, settings, book, [&](const Segmentation&) { ++r.told; }, {});
     return r;
 }

@@ -127,7 +127,7 @@ TEST(Job, TheEstimateIsFoamOverRemovalRate) {
 
 TEST(Job, TheSheetSaysWhatToDo) {
     JobInput input = some_job();
-    const std::string sheet = setup_sheet(input);
+    const std::string sheet = setup_sheet(input, ticket_template(input).estimated_time_s);
     for (const char* word :
          {"piece AB (2 of 5)", "block \"small\" (eps), 100 x 60 x 50 mm", "the cap of cut 4",
           "Number 1, ball, diameter 20.0 mm", "scaled by 0.5 on request", "piece in block, height"}) {
@@ -135,7 +135,9 @@ TEST(Job, TheSheetSaysWhatToDo) {
     }
     EXPECT_EQ(sheet.find("DO NOT START"), std::string::npos);
     input.envelope.margins[0].mm = -12;
-    EXPECT_NE(setup_sheet(input).find("DO NOT START: piece AB does not fit: 12 mm too long"), std::string::npos);
+    EXPECT_NE(setup_sheet(input, ticket_template(input).estimated_time_s)
+                  .find("DO NOT START: piece AB does not fit: 12 mm too long"),
+              std::string::npos);
 }
 
 TEST(Job, ACutOffFileIsRefusedAtEveryLength) {

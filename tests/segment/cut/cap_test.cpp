@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "segment/cut/ears.h"
+#include "segment/cut/ear_clipping.h"
 
 namespace qchopper {
 namespace {
@@ -102,7 +102,7 @@ TEST(Cap, EarsAgreeWithTheDelaunayTriangulationOnSimpleRegions) {
             d.circle({-6 + 6 * static_cast<double>(i), static_cast<double>(random() % 7) - 3}, -2,
                      3 + static_cast<int>(random() % 6));
         }
-        const auto ears = cut_ears(d.points, d.loops[0], std::span(d.loops).subspan(1));
+        const auto ears = clip_ears(d.points, d.loops[0], std::span(d.loops).subspan(1));
         const CapTriangles caps = triangulate_caps(d.points, d.loops);
         ASSERT_EQ(caps.forced_regions, 0U);
         ASSERT_EQ(ears.size(), caps.triangles.size());

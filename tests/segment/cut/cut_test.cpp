@@ -17,8 +17,8 @@
 namespace qchopper {
 namespace {
 
-// The laws of one cut. Returns the number of pieces, 0 if the plane misses.
-std::size_t expect_lawful(const Piece& piece, const Plane& plane, const std::string& what) {
+// The invariants of one cut. Returns the number of pieces, 0 if the plane misses.
+std::size_t expect_invariants(const Piece& piece, const Plane& plane, const std::string& what) {
     const std::optional<CutHalves> halves = cut(*piece.mesh, plane, 7);
     const std::optional<CutPieces> pieces = cut_piece(piece, plane, 7);
     EXPECT_EQ(halves.has_value(), pieces.has_value()) << what;
@@ -66,7 +66,7 @@ std::size_t expect_lawful(const Piece& piece, const Plane& plane, const std::str
     return pieces->pieces.size();
 }
 
-TEST(Cut, RandomPlanesOnEveryShapeKeepTheLaws) {
+TEST(Cut, RandomPlanesOnEveryShapeKeepTheInvariants) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> share(0.02, 0.98);
     for (const auto& [name, mesh, solids] : shapes::all_closed()) {
@@ -77,14 +77,14 @@ TEST(Cut, RandomPlanesOnEveryShapeKeepTheLaws) {
             const double wanted = range.low + share(random) * range.size();
             const auto nudged = nudge(piece, normal, std::array{wanted});
             ASSERT_TRUE(nudged[0].has_value()) << name;
-            expect_lawful(piece, {normal, nudged[0]->offset}, name + " round " + std::to_string(round));
+            expect_invariants(piece, {normal, nudged[0]->offset}, name + " round " + std::to_string(round));
         }
     }
 }
 
 // Planes asked exactly through vertices, through edges' middles and along flat faces, in the axes' directions, in the
 // faces' directions and in random ones.
-TEST(Cut, PlanesThroughVerticesEdgesAndFlatRegionsKeepTheLaws) {
+TEST(Cut, PlanesThroughVerticesEdgesAndFlatRegionsKeepTheInvariants) {
     std::mt19937 random(2);
     std::size_t cuts = 0;
     for (const auto& [name, mesh, solids] : shapes::all_closed()) {
@@ -103,13 +103,14 @@ TEST(Cut, PlanesThroughVerticesEdgesAndFlatRegionsKeepTheLaws) {
             const double wanted = height(normal, round % 2 == 0 ? a : 0.5 * (a + b));
             const auto nudged = nudge(piece, normal, std::array{wanted});
             if (!nudged[0]) continue;
-            if (expect_lawful(piece, {normal, nudged[0]->offset}, name + " round " + std::to_string(round)) > 0) ++cuts;
+            if (expect_invariants(piece, {normal, nudged[0]->offset}, name + " round " + std::to_string(round)) > 0)
+                ++cuts;
         }
     }
     EXPECT_GT(cuts, 500U);
 }
 
-TEST(Cut, PiecesOfPiecesKeepTheLawsAndTheirBounds) {
+TEST(Cut, PiecesOfPiecesKeepTheInvariantsAndTheirBounds) {
     std::mt19937 random(5);
     for (const auto& [name, mesh, solids] : shapes::all_closed()) {
         std::vector<Piece> pieces{piece_of(mesh)};
@@ -153,18 +154,19 @@ TEST(Cut, PiecesOfPiecesKeepTheLawsAndTheirBounds) {
 
 TEST(Cut, ATorusAcrossItsAxisFallsIntoTwoAndAlongItIntoRings) {
     const Piece torus = piece_of(shapes::torus({0, 0, 0}, 40, 12, 24));
-    EXPECT_EQ(expect_lawful(torus, {{1, 0, 0}, 0.37}, "across"), 2U);
+    EXPECT_EQ(expect_invariants(torus, {{1, 0, 0}, 0.37}, "across"), 2U);
     EXPECT_EQ(cut(*torus.mesh, {{1, 0, 0}, 0.37}, 1)->loops, 2U);
-    EXPECT_EQ(expect_lawful(torus, {{0, 0, 1}, 0.37}, "along"), 2U);
-    EXPECT_EQ(expect_lawful(torus, {{1, 0, 0}, 35}, "a corner of the ring"), 2U);
+    EXPECT_EQ(expect_invariants(torus, {{0, 0, 1}, 0.37}, "along"), 2U);
+    EXPECT_EQ(expect_invariants(torus, {{1, 0, 0}, 35}, "a corner of the ring"), 2U);
     const Piece bent = piece_of(shapes::torus({0, 0, 0}, 40, 12, 24));
-    EXPECT_EQ(expect_lawful(bent, {{1, 0, 0}, 29}, "just outside the hole"), 2U);
+    EXPECT_EQ(expect_invariants(bent, {{1, 0, 0}, 29}, "just outside the hole"), 2U);
 }
 
 TEST(Cut, ACavityStaysWithItsSolidAndABallInsideItIsAPieceOfItsOwn) {
     const Piece piece = piece_of(shapes::nested());
-    EXPECT_EQ(expect_lawful(piece, {{0, 0, 1}, 90.3}, "above the cavity"), 3U);  // slab, box with cavity, ball inside
-    EXPECT_EQ(expect_lawful(piece, {{0, 0, 1}, 50.3}, "through all"), 4U);
+    EXPECT_EQ(expect_invariants(piece, {{0, 0, 1}, 90.3}, "above the cavity"),
+              3U);  // slab, box with cavity, ball inside
+    EXPECT_EQ(expect_invariants(piece, {{0, 0, 1}, 50.3}, "through all"), 4U);
 }
 
 TEST(Cut, APlaneThatMissesIsAnAnswer) {

@@ -19,9 +19,9 @@ namespace {
 TEST(CutDragon, BothHalvesAreClosedOnEveryPlane) {
     const std::filesystem::path file = std::filesystem::path(QCHOPPER_MESHES) / "dragon_vrip_871k.ply";
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "skipped: the dragon is not here";
-    IntakeOptions options;
+    ImportOptions options;
     options.mm_per_unit = 1000;
-    const Piece dragon = piece_of(take_in(file, options).mesh);
+    const Piece dragon = piece_of(import_scan(file, options).mesh);
     const double whole = volume_mm3(*dragon.mesh);
     std::mt19937 random(8);
     for (int round = 0; round < 6; ++round) {

@@ -33,63 +33,63 @@ struct TemporaryFile {
     TemporaryFile& operator=(const TemporaryFile&) = delete;
 };
 
-Intake taken(const TriangleMesh& mesh, const IntakeOptions& options = {1, 1}) {
-    return take_in(TemporaryFile(to_ply(mesh)).path, options);
+ImportedScan taken(const TriangleMesh& mesh, const ImportOptions& options = {1, 1}) {
+    return import_scan(TemporaryFile(to_ply(mesh)).path, options);
 }
 
 std::string refused(const TriangleMesh& mesh) {
     return refusal([&] { taken(mesh); });
 }
 
-bool has_warning(const IntakeReport& report, const std::string& words) {
+bool has_warning(const ImportReport& report, const std::string& words) {
     return std::any_of(report.warnings.begin(), report.warnings.end(),
                        [&](const std::string& w) { return w.find(words) != std::string::npos; });
 }
 
-TEST(Intake, EveryClosedShapeComesOutAsItWentIn) {
+TEST(ImportedScan, EveryClosedShapeComesOutAsItWentIn) {
     for (const shapes::Named& shape : shapes::all_closed()) {
         const TriangleMesh mesh = shapes::moved(shape.mesh, {1000, -2000, 500});
-        const Intake intake = taken(mesh);
-        EXPECT_EQ(intake.mesh.triangles, mesh.triangles) << shape.name;
-        EXPECT_TRUE(edges(intake.mesh).faults.is_closed()) << shape.name;
-        EXPECT_NEAR(norm(bounds(intake.mesh).centre()), 0, 1e-9) << shape.name;
+        const ImportedScan imported = taken(mesh);
+        EXPECT_EQ(imported.mesh.triangles, mesh.triangles) << shape.name;
+        EXPECT_TRUE(edges(imported.mesh).faults.is_closed()) << shape.name;
+        EXPECT_NEAR(norm(bounds(imported.mesh).centre()), 0, 1e-9) << shape.name;
         for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-            EXPECT_NEAR(norm(intake.mesh.points[v] + intake.centre - mesh.points[v]), 0, 1e-9) << shape.name;
+            EXPECT_NEAR(norm(imported.mesh.points[v] + imported.centre - mesh.points[v]), 0, 1e-9) << shape.name;
         }
-        EXPECT_EQ(intake.sha256, sha256(to_ply(mesh)));
-        EXPECT_EQ(intake.report.repair.faces_in, mesh.triangles.size());
-        EXPECT_EQ(intake.report.repair.shells, shells(mesh).count());
-        EXPECT_EQ(intake.report.repair.shells_turned, 0U) << shape.name;
+        EXPECT_EQ(imported.sha256, sha256(to_ply(mesh)));
+        EXPECT_EQ(imported.report.repair.faces_in, mesh.triangles.size());
+        EXPECT_EQ(imported.report.repair.shells, shells(mesh).count());
+        EXPECT_EQ(imported.report.repair.shells_turned, 0U) << shape.name;
     }
 }
 
-TEST(Intake, FormatDoesNotMatter) {
+TEST(ImportedScan, FormatDoesNotMatter) {
     const TriangleMesh ball = shapes::ball({5, 5, 5}, 50, 20);
-    const Intake from_ply = taken(ball);
-    const Intake from_stl = take_in(TemporaryFile(to_stl(ball)).path, {1, 1});
+    const ImportedScan from_ply = taken(ball);
+    const ImportedScan from_stl = import_scan(TemporaryFile(to_stl(ball)).path, {1, 1});
     EXPECT_EQ(from_stl.mesh.triangles.size(), from_ply.mesh.triangles.size());
     EXPECT_EQ(from_stl.mesh.points.size(), from_ply.mesh.points.size());
     EXPECT_NEAR(volume_mm3(from_stl.mesh) / volume_mm3(from_ply.mesh), 1, 1e-6);
 }
 
-TEST(Intake, UnitsAndScaleEnlarge) {
+TEST(ImportedScan, UnitsAndScaleEnlarge) {
     const TriangleMesh box = shapes::box({1, 1, 1}, {2, 3, 4});
-    const Intake inches = taken(box, {mm_per(unit_named("in")), 1});
+    const ImportedScan inches = taken(box, {mm_per(unit_named("in")), 1});
     EXPECT_NEAR(volume_mm3(inches.mesh), 6 * 25.4 * 25.4 * 25.4, 1e-6);
     EXPECT_FALSE(has_warning(inches.report, "--scale"));
-    const Intake twice = taken(box, {mm_per(unit_named("cm")), 2});
+    const ImportedScan twice = taken(box, {mm_per(unit_named("cm")), 2});
     EXPECT_NEAR(volume_mm3(twice.mesh), 6 * 8000, 1e-6);
     EXPECT_TRUE(has_warning(twice.report, "--scale"));
     EXPECT_EQ(twice.centre, (Vec3{30, 40, 50}));
 }
 
-TEST(Intake, WarnsOfAnUnlikelySize) {
+TEST(ImportedScan, WarnsOfAnUnlikelySize) {
     EXPECT_TRUE(has_warning(taken(shapes::box({0, 0, 0}, {1, 1, 1})).report, "--units"));
     EXPECT_TRUE(has_warning(taken(shapes::box({0, 0, 0}, {1, 1, 1}), {1e5, 1}).report, "--units"));
     EXPECT_FALSE(has_warning(taken(shapes::box({0, 0, 0}, {1, 1, 1}), {1000, 1}).report, "--units"));
 }
 
-TEST(Intake, UnitsHaveNames) {
+TEST(ImportedScan, UnitsHaveNames) {
     EXPECT_EQ(mm_per(unit_named("mm")), 1);
     EXPECT_EQ(mm_per(unit_named("cm")), 10);
     EXPECT_EQ(mm_per(unit_named("m")), 1000);
@@ -105,10 +105,10 @@ TEST(Intake, UnitsHaveNames) {
     }
 }
 
-TEST(Intake, RefusesImpossibleScales) {
+TEST(ImportedScan, RefusesImpossibleScales) {
     const TriangleMesh box = shapes::box({0, 0, 0}, {1, 1, 1});
-    for (const IntakeOptions& options :
-         {IntakeOptions{0, 1}, IntakeOptions{1, -1}, IntakeOptions{1, std::nan("")}, IntakeOptions{1e300, 1e300}}) {
+    for (const ImportOptions& options :
+         {ImportOptions{0, 1}, ImportOptions{1, -1}, ImportOptions{1, std::nan("")}, ImportOptions{1e300, 1e300}}) {
         try {
             taken(box, options);
             ADD_FAILURE();
@@ -118,38 +118,39 @@ TEST(Intake, RefusesImpossibleScales) {
     }
 }
 
-TEST(Intake, TurnsWhatIsInsideOutAndKeepsCavities) {
+TEST(ImportedScan, TurnsWhatIsInsideOutAndKeepsCavities) {
     const TriangleMesh hollow =
         shapes::joined({shapes::box({0, 0, 0}, {9, 9, 9}), shapes::turned_inside_out(shapes::ball({4, 4, 4}, 2)),
                         shapes::ball({20, 4, 4}, 3)});
     const double volume = volume_mm3(hollow);
-    const Intake kept = taken(hollow);
+    const ImportedScan kept = taken(hollow);
     EXPECT_EQ(kept.report.repair.shells_turned, 0U);
     EXPECT_EQ(kept.report.repair.cavities, 1U);
     EXPECT_NEAR(volume_mm3(kept.mesh), volume, 1e-9 * volume);
 
-    const Intake turned = taken(shapes::turned_inside_out(hollow));
+    const ImportedScan turned = taken(shapes::turned_inside_out(hollow));
     EXPECT_EQ(turned.report.repair.shells_turned, 3U);
     EXPECT_EQ(turned.report.repair.cavities, 1U);
     EXPECT_NEAR(volume_mm3(turned.mesh), volume, 1e-9 * volume);
     EXPECT_TRUE(has_warning(turned.report, "inside out"));
 }
 
-TEST(Intake, WarnsOfSolidsInSolids) {
-    const Intake intake = taken(shapes::joined({shapes::box({0, 0, 0}, {90, 90, 90}), shapes::ball({40, 40, 40}, 20)}));
-    EXPECT_EQ(intake.report.repair.shells_turned, 0U);
-    EXPECT_TRUE(has_warning(intake.report, "overlaps itself"));
+TEST(ImportedScan, WarnsOfSolidsInSolids) {
+    const ImportedScan imported =
+        taken(shapes::joined({shapes::box({0, 0, 0}, {90, 90, 90}), shapes::ball({40, 40, 40}, 20)}));
+    EXPECT_EQ(imported.report.repair.shells_turned, 0U);
+    EXPECT_TRUE(has_warning(imported.report, "overlaps itself"));
 }
 
-TEST(Intake, SplitsSurfacesThatOnlyTouch) {
-    const Intake intake =
+TEST(ImportedScan, SplitsSurfacesThatOnlyTouch) {
+    const ImportedScan imported =
         taken(shapes::joined({shapes::box({0, 0, 0}, {10, 10, 10}), shapes::box({10, 10, 10}, {20, 20, 20})}));
-    EXPECT_EQ(intake.report.repair.welded, 1U);
-    EXPECT_EQ(intake.report.repair.points_copied, 1U);
-    EXPECT_EQ(intake.report.repair.shells, 2U);
+    EXPECT_EQ(imported.report.repair.welded, 1U);
+    EXPECT_EQ(imported.report.repair.points_copied, 1U);
+    EXPECT_EQ(imported.report.repair.shells, 2U);
 }
 
-TEST(Intake, ClosesHolesThatTouch) {
+TEST(ImportedScan, ClosesHolesThatTouch) {
     TriangleMesh box = shapes::box({0, 0, 0}, {40, 40, 40}, 4);
     std::erase_if(box.triangles, [&](const Triangle& t) {
         const Vec3 middle = (1.0 / 3) * (box.points[t[0]] + box.points[t[1]] + box.points[t[2]]);
@@ -157,15 +158,15 @@ TEST(Intake, ClosesHolesThatTouch) {
         const bool second = middle.x > 20 && middle.x < 30 && middle.y > 20 && middle.y < 30;
         return middle.z == 40 && (first || second);
     });
-    const Intake intake = taken(box);
-    EXPECT_EQ(intake.report.repair.points_copied, 1U);
-    EXPECT_EQ(intake.report.repair.holes_filled, 1U);  // the two have become one
-    EXPECT_EQ(intake.report.repair.faces_added, 4U);
-    EXPECT_NEAR(volume_mm3(intake.mesh), 64000, 1e-9);
-    EXPECT_TRUE(has_warning(intake.report, "1 hole closed"));
+    const ImportedScan imported = taken(box);
+    EXPECT_EQ(imported.report.repair.points_copied, 1U);
+    EXPECT_EQ(imported.report.repair.holes_filled, 1U);  // the two have become one
+    EXPECT_EQ(imported.report.repair.faces_added, 4U);
+    EXPECT_NEAR(volume_mm3(imported.mesh), 64000, 1e-9);
+    EXPECT_TRUE(has_warning(imported.report, "1 hole closed"));
 }
 
-TEST(Intake, RefusesWhatIsNoSolidAndSaysWhere) {
+TEST(ImportedScan, RefusesWhatIsNoSolidAndSaysWhere) {
     const TriangleMesh box = shapes::moved(shapes::box({0, 0, 0}, {10, 10, 10}, 2), {100, 0, 0});
     TriangleMesh fin = box;
     const Triangle side = box.triangles[0];
@@ -186,11 +187,11 @@ TEST(Intake, RefusesWhatIsNoSolidAndSaysWhere) {
     EXPECT_NE(refused(shapes::moved(box, {1e300, 0, 0})).find("100 000 km"), std::string::npos);
 }
 
-TEST(Intake, MendsEdgesThatAreNoSolids) {
+TEST(ImportedScan, MendsEdgesThatAreNoSolids) {
     const TriangleMesh box = shapes::box({0, 0, 0}, {10, 10, 10}, 2);
     TriangleMesh turned = box;
     std::swap(turned.triangles[3][0], turned.triangles[3][1]);
-    const Intake agreeing = taken(turned);
+    const ImportedScan agreeing = taken(turned);
     EXPECT_EQ(agreeing.report.repair.faces_turned, 1U);
     EXPECT_NEAR(volume_mm3(agreeing.mesh), 1000, 1e-9);
     EXPECT_TRUE(has_warning(agreeing.report, "1 face was turned"));
@@ -199,20 +200,20 @@ TEST(Intake, MendsEdgesThatAreNoSolids) {
     const Triangle side = box.triangles[0];
     fin.points.push_back(fin.points[side[0]] + Vec3{0.01, 0.01, 0.01});
     fin.triangles.push_back({side[0], side[1], static_cast<std::uint32_t>(fin.points.size() - 1)});
-    const Intake parted = taken(fin);
+    const ImportedScan parted = taken(fin);
     EXPECT_EQ(parted.mesh.triangles.size(), box.triangles.size());
     EXPECT_TRUE(has_warning(parted.report, "1 edge belonged to three faces"));
-    EXPECT_TRUE(has_warning(parted.report, "1 small loose sheet"));
+    EXPECT_TRUE(has_warning(parted.report, "1 small open component"));
 }
 
-TEST(Intake, PlacesInErrorsAreInTheUnitsOfTheFile) {
+TEST(ImportedScan, PlacesInErrorsAreInTheUnitsOfTheFile) {
     TriangleMesh sheet = shapes::moved(shapes::box({0, 0, 0}, {1, 1, 1}), {7, 7, 7});
     sheet.triangles.resize(2);
     const std::string what = refusal([&] { taken(sheet, {25.4, 3}); });
     EXPECT_TRUE(what.find("(7.5, ") != std::string::npos || what.find("(8, ") != std::string::npos) << what;
 }
 
-TEST(Intake, AsksForAUnitThatNobodySaid) {
+TEST(ImportedScan, AsksForAUnitThatNobodySaid) {
     try {
         taken(shapes::box({0, 0, 0}, {1, 1, 1}), {});
         ADD_FAILURE();
@@ -222,7 +223,7 @@ TEST(Intake, AsksForAUnitThatNobodySaid) {
     }
 }
 
-TEST(Intake, UnitsHaveLengths) {
+TEST(ImportedScan, UnitsHaveLengths) {
     for (const Unit unit : {Unit::mm, Unit::cm, Unit::m, Unit::in, Unit::ft, Unit::um}) {
         EXPECT_EQ(unit_of(mm_per(unit)), unit);
         EXPECT_EQ(unit_named(name_of(unit)), unit);
@@ -230,10 +231,10 @@ TEST(Intake, UnitsHaveLengths) {
     EXPECT_THROW(unit_of(17), InputError);
 }
 
-TEST(Intake, RepairsInTheUnitAndPlaceOfTheFile) {
+TEST(ImportedScan, RepairsInTheUnitAndPlaceOfTheFile) {
     TriangleMesh open = shapes::moved(shapes::ball({0, 0, 0}, 3, 12), {1.0 / 3, 1e5, -7.1});
     open.triangles.pop_back();
-    IntakeOptions options;
+    ImportOptions options;
     options.may_lack_unit = true;
     const TemporaryFile file(to_ply(open));
     const RepairedScan scan = repair_scan(file.path, options);
@@ -242,15 +243,15 @@ TEST(Intake, RepairsInTheUnitAndPlaceOfTheFile) {
     EXPECT_EQ(scan.mesh.triangles.size(), open.triangles.size() + 1);
     options.repair.fill.fill = Fill::none;
     EXPECT_EQ(repair_scan(file.path, options).report.open_edges, 3U);
-    EXPECT_NE(refusal([&] { take_in(file.path, options); }).find("1 hole cannot be closed"), std::string::npos);
+    EXPECT_NE(refusal([&] { import_scan(file.path, options); }).find("1 hole cannot be closed"), std::string::npos);
 }
 
-TEST(Intake, StopsWhenAsked) {
+TEST(ImportedScan, StopsWhenAsked) {
     const std::atomic<bool> stop = true;
     Context context;
     context.cancelled = &stop;
     const TemporaryFile file(to_ply(shapes::ball({0, 0, 0}, 10)));
-    EXPECT_THROW(take_in(file.path, {1, 1}, context), Cancelled);
+    EXPECT_THROW(import_scan(file.path, {1, 1}, context), Cancelled);
 }
 
 struct RealScan {
@@ -261,7 +262,7 @@ struct RealScan {
     std::size_t holes;
 };
 
-TEST(Intake, TakesInTheRealScans) {
+TEST(ImportedScan, TakesInTheRealScans) {
     NEEDS_MESH("bunny_bun_zipper.ply");
     const RealScan scans[] = {{"bunny_bun_zipper.ply", 69664, 1, 0, 5},
                               {"ct_head_371k.ply", 371162, 222, 6, 0},
@@ -277,24 +278,24 @@ TEST(Intake, TakesInTheRealScans) {
                               {"nasty/slic3r-prusa_tests_data_test_stl_ASCII_20mmbox-CR.stl", 12, 1, 0, 0}};
     for (const RealScan& scan : scans) {
         SCOPED_TRACE(scan.name);
-        const Intake intake = take_in(real_mesh(scan.name), {1000, 1});
-        EXPECT_EQ(intake.mesh.triangles.size(), scan.faces);
-        EXPECT_EQ(intake.report.repair.shells, scan.shells);
-        EXPECT_EQ(intake.report.repair.collapsed, scan.collapsed);
-        EXPECT_EQ(intake.report.repair.holes_filled, scan.holes);
-        EXPECT_TRUE(edges(intake.mesh).faults.is_closed());
-        EXPECT_GT(volume_mm3(intake.mesh), 0);
+        const ImportedScan imported = import_scan(real_mesh(scan.name), {1000, 1});
+        EXPECT_EQ(imported.mesh.triangles.size(), scan.faces);
+        EXPECT_EQ(imported.report.repair.shells, scan.shells);
+        EXPECT_EQ(imported.report.repair.collapsed, scan.collapsed);
+        EXPECT_EQ(imported.report.repair.holes_filled, scan.holes);
+        EXPECT_TRUE(edges(imported.mesh).faults.is_closed());
+        EXPECT_GT(volume_mm3(imported.mesh), 0);
     }
-    EXPECT_EQ(take_in(real_mesh("ct_head_371k.ply"), {1, 1}).report.repair.cavities, 39U);
-    EXPECT_EQ(take_in(real_mesh("nasty/made_inside_out.stl"), {1000, 1}).report.repair.shells_turned, 1U);
+    EXPECT_EQ(import_scan(real_mesh("ct_head_371k.ply"), {1, 1}).report.repair.cavities, 39U);
+    EXPECT_EQ(import_scan(real_mesh("nasty/made_inside_out.stl"), {1000, 1}).report.repair.shells_turned, 1U);
 }
 
-TEST(Intake, RefusesTheRealScansThatAreNoSolids) {
+TEST(ImportedScan, RefusesTheRealScansThatAreNoSolids) {
     NEEDS_MESH("nasty");
     for (const char* name : {"nasty/trimesh_soup.stl", "nasty/ocl_stl_mount_rush.stl", "nasty/made_truncated.stl",
                              "nasty/assimp_STL_triangle_with_two_solids.stl", "nasty/cgal_pig.stl"}) {
         SCOPED_TRACE(name);
-        EXPECT_NE(refusal([&] { take_in(real_mesh(name), {1, 1}); }).find(name), std::string::npos);
+        EXPECT_NE(refusal([&] { import_scan(real_mesh(name), {1, 1}); }).find(name), std::string::npos);
     }
 }
 

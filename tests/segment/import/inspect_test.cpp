@@ -59,14 +59,14 @@ TEST(Inspect, CountsEveryFault) {
     twice.triangles.push_back(twice.triangles[0]);
     EXPECT_EQ(inspect(raw(twice)).non_manifold, 3U);
 
-    EXPECT_EQ(
-        inspect(raw(shapes::joined({shapes::box({0, 0, 0}, {1, 1, 1}), shapes::box({1, 1, 1}, {2, 2, 2})}))).pinched,
-        1U);
+    EXPECT_EQ(inspect(raw(shapes::joined({shapes::box({0, 0, 0}, {1, 1, 1}), shapes::box({1, 1, 1}, {2, 2, 2})})))
+                  .non_manifold,
+              1U);
 
     TriangleMesh flat;
     flat.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
     flat.triangles = {{0, 1, 2}};
-    EXPECT_EQ(inspect(raw(flat)).no_area, 1U);
+    EXPECT_EQ(inspect(raw(flat)).degenerate, 1U);
 }
 
 TEST(Inspect, CallsSolidsThatOnlyTouchReady) {
@@ -114,17 +114,17 @@ TEST(Inspect, TellsTheLongestHoleAndWhereItIs) {
     EXPECT_EQ(found.sheets, 0U);
 }
 
-TEST(Inspect, CountsCrumbsWithTheirCavities) {
+TEST(Inspect, CountsFragmentsWithTheirCavities) {
     const TriangleMesh large = shapes::box({0, 0, 0}, {100, 100, 100});
-    const TriangleMesh crumb = shapes::box({200, 0, 0}, {202, 2, 2});
+    const TriangleMesh fragment = shapes::box({200, 0, 0}, {202, 2, 2});
     const TriangleMesh piece = shapes::box({300, 0, 0}, {303, 3, 3});
     const TriangleMesh thin = shapes::joined(  // 27 mm3 in all, but only 7 of them are solid
         {shapes::box({400, 0, 0}, {403, 3, 3}),
          shapes::turned_inside_out(shapes::box({400.15, 0.15, 0.15}, {402.85, 2.85, 2.85}))});
-    const Inspection found = inspect(raw(shapes::joined({large, crumb, piece, thin})));
-    EXPECT_EQ(found.crumbs, 2U);
+    const Inspection found = inspect(raw(shapes::joined({large, fragment, piece, thin})));
+    EXPECT_EQ(found.fragments, 2U);
     const double area = 24 + 54 + 6 * 2.7 * 2.7;
-    EXPECT_NEAR(found.crumb_area_share, (area - 0) / (60'000 + 24 + 54 + 54 + 6 * 2.7 * 2.7), 1e-12);
+    EXPECT_NEAR(found.fragment_area_share, (area - 0) / (60'000 + 24 + 54 + 54 + 6 * 2.7 * 2.7), 1e-12);
     EXPECT_EQ(judge(found).verdict, Verdict::ready);
 }
 
@@ -158,15 +158,15 @@ TEST(Inspect, JudgesWhatItSees) {
     EXPECT_EQ(judge(inspect(raw(shapes::turned_inside_out(shapes::box({0, 0, 0}, {1, 1, 1}))))).verdict,
               Verdict::to_repair);
     mesh.triangles.resize(1);
-    EXPECT_EQ(judge(inspect(raw(mesh))).verdict, Verdict::hopeless);
+    EXPECT_EQ(judge(inspect(raw(mesh))).verdict, Verdict::unrepairable);
     TriangleMesh line;
     line.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
     line.triangles = {{0, 1, 2}};
-    EXPECT_EQ(judge(inspect(raw(line))).verdict, Verdict::hopeless);
+    EXPECT_EQ(judge(inspect(raw(line))).verdict, Verdict::unrepairable);
     line.triangles = {{0, 0, 1}};
     const Inspection nothing = inspect(raw(line));
     EXPECT_EQ(nothing.triangles, 0U);
-    EXPECT_EQ(judge(nothing).verdict, Verdict::hopeless);
+    EXPECT_EQ(judge(nothing).verdict, Verdict::unrepairable);
 }
 
 // Reading and welding in one gives what reading, then welding gives.

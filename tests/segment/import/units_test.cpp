@@ -27,9 +27,9 @@ class Units : public testing::Test {
     // The size of the scan in mm.
     Vec3 size(const Bytes& bytes, std::optional<double> mm_per_unit) {
         write_file(folder / "scan", bytes);
-        IntakeOptions options;
+        ImportOptions options;
         options.mm_per_unit = mm_per_unit;
-        return bounds(take_in(folder / "scan", options).mesh).size();
+        return bounds(import_scan(folder / "scan", options).mesh).size();
     }
 
     // What is said where it is refused as wrong use.
@@ -91,11 +91,11 @@ TEST_F(Units, TheHashOfAScanCoversTheFilesBesideIt) {
     }
     write_file(folder / "bone.gltf", json);
     write_file(folder / "bone.bin", numbers);
-    const Sha256 before = take_in(folder / "bone.gltf", {}).sha256;
-    EXPECT_EQ(take_in(folder / "bone.gltf", {}).sha256, before);
+    const Sha256 before = import_scan(folder / "bone.gltf", {}).sha256;
+    EXPECT_EQ(import_scan(folder / "bone.gltf", {}).sha256, before);
     numbers[95] ^= 0x80;  // the sign of a coordinate that is not zero, or of one that is
     write_file(folder / "bone.bin", numbers);
-    EXPECT_NE(take_in(folder / "bone.gltf", {}).sha256, before);
+    EXPECT_NE(import_scan(folder / "bone.gltf", {}).sha256, before);
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ TEST(Read3mf, ComponentsAreTurnedOneInTheOther) {
     EXPECT_DOUBLE_EQ(volume_mm3(scan.mesh), 48);
 }
 
-TEST(Read3mf, AMirroredItemStillFacesOutwards) {
+TEST(Read3mf, AMirroredItemStillFacesOutward) {
     EXPECT_DOUBLE_EQ(volume_mm3(read(model_3mf(object_3mf(box, 1), item(1, "-1 0 0 0 1 0 0 0 1 0 0 0"))).mesh), 6);
 }
 

@@ -70,7 +70,7 @@ TEST(ReadGltf, NodesAreTurnedOneInTheOther) {
     EXPECT_EQ(bounds(read(matrix).mesh).min, (Vec3{3, -10, 6}));
 }
 
-TEST(ReadGltf, AMirroredNodeStillFacesOutwards) {
+TEST(ReadGltf, AMirroredNodeStillFacesOutward) {
     EXPECT_DOUBLE_EQ(volume_mm3(read(gltf_of(box, R"("mesh":0,"scale":[-1,1,1])")).mesh), 6);
 }
 

@@ -49,7 +49,7 @@ TEST(WriteStl, HeaderIsNoText) {
     EXPECT_NE(std::string(bytes.begin(), bytes.begin() + 5), "solid");
 }
 
-TEST(WriteStl, NormalsPointOutwards) {
+TEST(WriteStl, NormalsPointOutward) {
     const Bytes bytes = to_stl(shapes::box({-1, -1, -1}, {1, 1, 1}));
     for (std::size_t t = 0; t < 12; ++t) {
         float value[6] = {};

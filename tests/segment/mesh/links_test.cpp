@@ -18,14 +18,14 @@ void expect_as_before(const TriangleMesh& mesh, const std::string& name) {
     const Links links = qchopper::links(mesh);
     EXPECT_EQ(links.faults, found.faults) << name;
     EXPECT_EQ(links.open, expected.open) << name;
-    EXPECT_EQ(links.faulty, expected.faulty) << name;
-    EXPECT_EQ(links.extra_fans.size(), count_pinched(mesh, found)) << name;
+    EXPECT_EQ(links.non_manifold, expected.non_manifold) << name;
+    EXPECT_EQ(links.extra_fans.size(), count_non_manifold_vertices(mesh, found)) << name;
     if (found.faults.non_manifold + found.faults.inconsistent > 0) return;
     TriangleMesh ours = mesh;
     split_fans(ours, links.extra_fans);
     TriangleMesh theirs = mesh;
-    split_pinched(theirs, found);
-    EXPECT_EQ(count_pinched(ours, edges(ours)), 0U) << name;
+    split_non_manifold_vertices(theirs, found);
+    EXPECT_EQ(count_non_manifold_vertices(ours, edges(ours)), 0U) << name;
     EXPECT_EQ(edges(ours).faults.open, found.faults.open) << name;
     // The same copies, perhaps in another order.
     ASSERT_EQ(ours.points.size(), theirs.points.size()) << name;
@@ -37,7 +37,7 @@ void expect_as_before(const TriangleMesh& mesh, const std::string& name) {
     }
 }
 
-TEST(Links, SayWhatEdgesAndPinchedPointsSay) {
+TEST(Links, SayWhatEdgesAndNonManifoldVerticesSay) {
     for (const shapes::Named& shape : shapes::all_closed()) {
         expect_as_before(shape.mesh, shape.name);
         for (unsigned seed = 0; seed < 12; ++seed) {

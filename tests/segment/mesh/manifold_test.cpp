@@ -17,11 +17,11 @@ TriangleMesh touching_boxes() {
     return both;
 }
 
-TEST(Manifold, ClosedShapesHaveNoPinchedPoint) {
+TEST(Manifold, ClosedShapesHaveNoNonManifoldPoint) {
     for (const shapes::Named& shape : shapes::all_closed()) {
         TriangleMesh mesh = shape.mesh;
-        EXPECT_EQ(count_pinched(mesh, edges(mesh)), 0U) << shape.name;
-        EXPECT_EQ(split_pinched(mesh, edges(mesh)), 0U) << shape.name;
+        EXPECT_EQ(count_non_manifold_vertices(mesh, edges(mesh)), 0U) << shape.name;
+        EXPECT_EQ(split_non_manifold_vertices(mesh, edges(mesh)), 0U) << shape.name;
         EXPECT_EQ(mesh, shape.mesh) << shape.name;
     }
 }
@@ -29,12 +29,12 @@ TEST(Manifold, ClosedShapesHaveNoPinchedPoint) {
 TEST(Manifold, SplitsAPointWhereTwoSurfacesTouch) {
     TriangleMesh both = touching_boxes();
     EXPECT_EQ(both.points.size(), 15U);
-    EXPECT_EQ(count_pinched(both, edges(both)), 1U);
-    EXPECT_EQ(split_pinched(both, edges(both)), 1U);
+    EXPECT_EQ(count_non_manifold_vertices(both, edges(both)), 1U);
+    EXPECT_EQ(split_non_manifold_vertices(both, edges(both)), 1U);
     EXPECT_EQ(both.points.size(), 16U);
     EXPECT_EQ(both.points.back(), (Vec3{1, 1, 1}));
     EXPECT_TRUE(edges(both).faults.is_closed());
-    EXPECT_EQ(count_pinched(both, edges(both)), 0U);
+    EXPECT_EQ(count_non_manifold_vertices(both, edges(both)), 0U);
 }
 
 // The two holes become one: its border passes the point twice, once for each copy.
@@ -47,9 +47,9 @@ TEST(Manifold, JoinsHolesThatTouchInAPoint) {
         const bool second = middle.x > 2 && middle.x < 3 && middle.y > 2 && middle.y < 3;
         return middle.z == 4 && (first || second);
     });
-    EXPECT_EQ(split_pinched(box, edges(box)), 1U);
+    EXPECT_EQ(split_non_manifold_vertices(box, edges(box)), 1U);
     const Edges found = edges(box);
-    const std::vector<std::vector<std::uint32_t>> loops = border_loops(box, unpaired(box, found).open);
+    const IndexLists loops = border_loops(box, unpaired(box, found).open);
     ASSERT_EQ(loops.size(), 1U);
     EXPECT_EQ(loops[0].size(), 8U);
 }
@@ -62,8 +62,8 @@ TEST(Manifold, BorderLoopsRunAroundTheHole) {
     const Edges found = edges(ball);
     const Unpaired open = unpaired(ball, found);
     EXPECT_EQ(open.open.size(), found.faults.open);
-    EXPECT_TRUE(open.faulty.empty());
-    const std::vector<std::vector<std::uint32_t>> loops = border_loops(ball, open.open);
+    EXPECT_TRUE(open.non_manifold.empty());
+    const IndexLists loops = border_loops(ball, open.open);
     ASSERT_EQ(loops.size(), 1U);
     EXPECT_EQ(loops[0].size(), found.faults.open);
     for (std::size_t i = 0; i < loops[0].size(); ++i) {
@@ -73,14 +73,14 @@ TEST(Manifold, BorderLoopsRunAroundTheHole) {
     EXPECT_GT(centre_of(ball, loops[0]).z, 4);
 }
 
-TEST(Manifold, TellsFaultyEdgesFromOpenOnes) {
+TEST(Manifold, TellsNonManifoldEdgesFromOpenOnes) {
     TriangleMesh box = shapes::box({0, 0, 0}, {1, 1, 1});
     std::swap(box.triangles[0][0], box.triangles[0][1]);
     const Unpaired turned = unpaired(box, edges(box));
-    EXPECT_EQ(turned.faulty.size(), 6U);  // both half-edges of three edges
+    EXPECT_EQ(turned.non_manifold.size(), 6U);  // both half-edges of three edges
     EXPECT_TRUE(turned.open.empty());
     box.triangles.push_back(box.triangles[5]);
-    EXPECT_GT(unpaired(box, edges(box)).faulty.size(), 6U);
+    EXPECT_GT(unpaired(box, edges(box)).non_manifold.size(), 6U);
 }
 
 }  // namespace

@@ -33,21 +33,21 @@ double distance_to_exit(const TriangleMesh& mesh, Vec3 from, Vec3 direction) {
     return least;
 }
 
-TEST(StraightWay, AgreesWithEachTriangleAskedInTurnOnEveryShape) {
+TEST(ParallelRays, AgreesWithEachTriangleAskedInTurnOnEveryShape) {
     std::mt19937 random(3);
     std::normal_distribution<double> normal;
     std::size_t asked = 0;
     for (const auto& [name, mesh, solids] : shapes::all_closed()) {
         for (int round = 0; round < 4; ++round) {
             const Vec3 n = normalized({normal(random), normal(random), normal(random)});
-            std::vector<WayQuery> queries;
+            std::vector<RayQuery> queries;
             for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {  // from every face inwards
                 const Triangle& v = mesh.triangles[t];
                 const Vec3 middle = (1.0 / 3) * (mesh.points[v[0]] + mesh.points[v[1]] + mesh.points[v[2]]);
                 const double along = dot(normalized(area_vector(mesh, t)), n);
                 if (std::abs(along) > 0.5) queries.push_back({middle, along < 0});
             }
-            const std::vector<double> ways = straight_ways(mesh, n, queries, 1e9);
+            const std::vector<double> ways = ray_distances(mesh, n, queries, 1e9);
             for (std::size_t q = 0; q < queries.size(); ++q) {
                 const double distance = distance_to_exit(mesh, queries[q].from, queries[q].up ? n : -n);
                 ASSERT_TRUE(std::isfinite(distance)) << name;
@@ -59,25 +59,25 @@ TEST(StraightWay, AgreesWithEachTriangleAskedInTurnOnEveryShape) {
     EXPECT_GT(asked, 5000U);
 }
 
-TEST(StraightWay, ThroughEdgesAndVerticesOfAGridTheBoxIsNeverMissed) {
+TEST(ParallelRays, ThroughEdgesAndVerticesOfAGridTheBoxIsNeverMissed) {
     const TriangleMesh box = shapes::box({0, 0, 0}, {10, 10, 10}, 5);
-    std::vector<WayQuery> queries;
+    std::vector<RayQuery> queries;
     for (int i = 1; i < 20; ++i) {
         for (int j = 1; j < 20; ++j) queries.push_back({{0.5 * i, 0.5 * j, 4}, (i + j) % 2 == 0});
     }
-    const std::vector<double> ways = straight_ways(box, {0, 0, 1}, queries, 6);
+    const std::vector<double> ways = ray_distances(box, {0, 0, 1}, queries, 6);
     for (std::size_t q = 0; q < queries.size(); ++q) EXPECT_DOUBLE_EQ(ways[q], queries[q].up ? 6 : 4) << q;
 }
 
-TEST(StraightWay, StopsAtACavityAndMeetsNothingOutside) {
+TEST(ParallelRays, StopsAtACavityAndMeetsNothingOutside) {
     const TriangleMesh mesh = shapes::nested();
-    const std::vector<WayQuery> queries{{{50, 50, 95}, false}, {{50, 50, 110}, true}, {{150, 50, 50}, false}};
-    const std::vector<double> ways = straight_ways(mesh, {0, 0, 1}, queries, 20);
+    const std::vector<RayQuery> queries{{{50, 50, 95}, false}, {{50, 50, 110}, true}, {{150, 50, 50}, false}};
+    const std::vector<double> ways = ray_distances(mesh, {0, 0, 1}, queries, 20);
     EXPECT_DOUBLE_EQ(ways[0], 15);
     EXPECT_TRUE(std::isinf(ways[1]));
     EXPECT_TRUE(std::isinf(ways[2]));
-    EXPECT_TRUE(std::isinf(straight_ways(mesh, {0, 0, 1}, queries, 14.9)[0]));
-    EXPECT_TRUE(straight_ways(mesh, {0, 0, 1}, {}, 20).empty());
+    EXPECT_TRUE(std::isinf(ray_distances(mesh, {0, 0, 1}, queries, 14.9)[0]));
+    EXPECT_TRUE(ray_distances(mesh, {0, 0, 1}, {}, 20).empty());
 }
 
 }  // namespace

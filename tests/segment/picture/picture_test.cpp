@@ -9,8 +9,8 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "segment/picture/light.h"
 #include "segment/picture/png.h"
+#include "segment/picture/shade.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
@@ -210,7 +210,7 @@ TEST(Png, PixelsComeBackAsTheyWent) {
     EXPECT_EQ(picture.pixels, pixels);
 }
 
-TEST(Light, ColoursGoForthAndBack) {
+TEST(Shade, ColoursGoForthAndBack) {
     for (int value = 0; value < 256; ++value) {
         const Rgb grey{static_cast<std::uint8_t>(value), 0, static_cast<std::uint8_t>(255 - value)};
         EXPECT_EQ(to_rgb(to_linear(grey)), grey);

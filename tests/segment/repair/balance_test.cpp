@@ -198,7 +198,7 @@ void expect_it_can_be_cut(TriangleMesh mesh, std::uint32_t seed, int planes) {
 }
 
 void expect_nothing_was_filled(const RepairReport& report) {
-    EXPECT_EQ(report.holes_filled + report.faces_added + report.points_added + report.loose_sheets, 0U);
+    EXPECT_EQ(report.holes_filled + report.faces_added + report.points_added + report.open_components, 0U);
     EXPECT_EQ(report.repeated + report.faces_turned + report.edges_cut + report.stitched, 0U);
     EXPECT_EQ(report.open_edges, 0U);
 }
@@ -233,7 +233,7 @@ TEST(Balance, InsideOutShellsDoNotKeepThemFromClosing) {
         faces_left_over(mesh, &left);
         if (left == 0) continue;
         RepairOptions options;
-        options.turn_outwards = false;
+        options.orient_outward = false;
         const Repaired as_it_is = repair(mesh, options);
         expect_closed_manifold(as_it_is.mesh);
         expect_same_volume(as_it_is.mesh, mesh);

@@ -38,9 +38,9 @@ const Row rows[] = {
      2760,
      {"weld: 837 points welded", "faces: 6 faces of flat double sheets dropped",
       "split: 28 edges of more than two faces split, 79 copies of points made",
-      "no_area: 10 faces without area removed",
-      "fill: 4 holes closed, with 62 faces, 3 of them faired, 13 points added, 1 loose sheet taken away",
-      "crumbs: 1 crumb with 0.038 % of the surface kept"}},
+      "degenerate: 10 faces without area removed",
+      "fill: 4 holes closed, with 62 faces, 3 of them faired, 13 points added, 1 open component taken away",
+      "fragments: 1 fragment with 0.038 % of the surface kept"}},
     {"assimp_PLY_cube_uv.ply", 12, {"weld: 16 points welded"}},
     {"assimp_PLY_issue623.ply", refused, {"holds no faces"}},
     {"assimp_STL_triangle_with_two_solids.stl", refused, {"is open: 2 parts of it are sheets"}},
@@ -68,7 +68,7 @@ const Row rows[] = {
     {"made_count_lies.stl", refused, {"a binary STL of 5000 triangles has 250084 bytes, but the file has 25084"}},
     {"made_far_from_origin.stl",
      69372,
-     {"no_area: 66 faces without area removed", "fill: 5 holes closed, with 213 faces"}},
+     {"degenerate: 66 faces without area removed", "fill: 5 holes closed, with 213 faces"}},
     {"made_flipped_half.stl",
      69664,
      {"orient: 34725 faces turned to agree with their neighbours", "fill: 5 holes closed, with 213 faces"}},
@@ -87,7 +87,7 @@ const Row rows[] = {
     {"pychop3d_test_test_meshes_fragility_test_1.stl", 244, {}},
     {"pychop3d_test_test_meshes_wing.stl",
      8192,
-     {"no_area: 50 faces without area removed, 95 faces without area left", "fill: 2 holes closed, with 160 faces"}},
+     {"degenerate: 50 faces without area removed, 95 faces without area left", "fill: 2 holes closed, with 160 faces"}},
     {"slic3r-prusa_tests_data_extruder_idler_quads.obj", 7334, {"faces: 10 faces of flat double sheets dropped"}},
     {"slic3r-prusa_tests_data_test_stl_ASCII_20mmbox-CR.stl", 12, {}},
     {"trimesh_box.STL", 8954, {}},
@@ -106,8 +106,8 @@ const Row rows[] = {
     {"trimesh_soup.stl", refused, {"is open: 100 parts of it are sheets"}},
 };
 
-IntakeOptions options() {
-    IntakeOptions options;
+ImportOptions options() {
+    ImportOptions options;
     options.may_lack_unit = true;
     return options;
 }
@@ -206,7 +206,7 @@ TEST_P(Nasty, IsRepairedOrRefusedWithWords) {
     expect_a_solid_once_and_for_all(scan.mesh, {});
     RawMesh result;
     result.mesh = scan.mesh;
-    if (scan.report.no_area_left == 0) {
+    if (scan.report.degenerate_left == 0) {
         EXPECT_EQ(judge(inspect(result)).verdict, Verdict::ready);
     }
 }
@@ -214,7 +214,7 @@ TEST_P(Nasty, IsRepairedOrRefusedWithWords) {
 TEST_P(Nasty, StaysASolidWhenSelfIntersectionsAreResolved) {
     NEEDS_MESH(std::string("nasty/") + GetParam().file);
     if (GetParam().faces == refused) return;
-    IntakeOptions resolving = options();
+    ImportOptions resolving = options();
     resolving.repair.resolve_self_intersections = true;
     const RepairedScan scan = repair_scan(path(), resolving);
     ASSERT_TRUE(scan.report.resolved.has_value());

@@ -112,14 +112,15 @@ TEST(Repair, StepsComeInTheirOrderWithWordsAndCounts) {
         names.push_back(step.name);
         EXPECT_EQ(step.count, 0U) << step.name;
     }
-    EXPECT_EQ(names, (std::vector<std::string>{"weld", "weld_borders", "faces", "split", "orient", "stitch", "no_area",
-                                               "fill", "outwards", "crumbs", "resolve", "marks", "wrap"}));
+    EXPECT_EQ(names,
+              (std::vector<std::string>{"weld", "weld_borders", "faces", "split", "orient", "stitch", "degenerate",
+                                        "fill", "outwards", "fragments", "resolve", "marks", "wrap"}));
 }
 
 TEST(Repair, StepsCanBeLeftOut) {
     const TriangleMesh ball = shapes::ball({0, 0, 0}, 10);
     RepairOptions options;
-    options.turn_outwards = false;
+    options.orient_outward = false;
     EXPECT_LT(repair(shapes::turned_inside_out(ball), options).report.volume, 0);
     options = {};
     options.fill.fill = Fill::none;
@@ -141,12 +142,12 @@ TEST(Repair, StepsCanBeLeftOut) {
     EXPECT_EQ(repair(repeated, options).report.repeated, 0U);
 }
 
-TEST(Repair, DropsCrumbsOnlyWhenAsked) {
+TEST(Repair, DropsFragmentsOnlyWhenAsked) {
     const TriangleMesh mesh = shapes::joined({shapes::ball({0, 0, 0}, 10), shapes::ball({20, 0, 0}, 0.01)});
     EXPECT_EQ(repair(mesh).mesh, mesh);
-    EXPECT_EQ(repair(mesh).report.crumbs, 1U);
+    EXPECT_EQ(repair(mesh).report.fragments, 1U);
     RepairOptions options;
-    options.drop_crumbs = true;
+    options.drop_fragments = true;
     EXPECT_EQ(repair(mesh, options).mesh, shapes::ball({0, 0, 0}, 10));
 }
 
@@ -211,9 +212,9 @@ TEST(Repair, LengthsAreMillimetres) {
     RepairOptions options;
     options.weld_mm = 0.2;
     options.mm_per_unit = 1000;  // the gap is 0.1 mm
-    EXPECT_GT(repair(torn, options).report.border_welded, 0U);
+    EXPECT_GT(repair(torn, options).report.borders_snapped, 0U);
     options.weld_mm = 0.05;
-    EXPECT_EQ(repair(torn, options).report.border_welded, 0U);
+    EXPECT_EQ(repair(torn, options).report.borders_snapped, 0U);
     for (const double wrong : {-1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
         options.weld_mm = wrong;
         EXPECT_THROW(repair(torn, options), InputError);

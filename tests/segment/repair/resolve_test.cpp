@@ -28,7 +28,7 @@ std::array<Vec3, 3> places(const TriangleMesh& mesh, const Triangle& t) {
 }
 
 // What holds whatever the mesh.
-Resolved expect_laws(TriangleMesh& mesh, const std::string& name) {
+Resolved expect_invariants(TriangleMesh& mesh, const std::string& name) {
     const TriangleMesh before = mesh;
     const Resolved result = resolve_self_intersections(mesh);
     EXPECT_EQ(result.pairs, pairs_in(before)) << name;
@@ -70,7 +70,7 @@ TriangleMesh pierced() {
 TEST(Resolve, LeavesSoundMeshesAsTheyAre) {
     for (const shapes::Named& shape : shapes::all_closed()) {
         TriangleMesh mesh = shape.mesh;
-        EXPECT_EQ(expect_laws(mesh, shape.name).pairs, 0U);
+        EXPECT_EQ(expect_invariants(mesh, shape.name).pairs, 0U);
         EXPECT_EQ(mesh, shape.mesh) << shape.name;
     }
 }
@@ -78,7 +78,7 @@ TEST(Resolve, LeavesSoundMeshesAsTheyAre) {
 TEST(Resolve, MendsAPlaceThatIsPiercedAndNothingElse) {
     TriangleMesh mesh = pierced();
     const TriangleMesh before = mesh;
-    const Resolved result = expect_laws(mesh, "pierced plate");
+    const Resolved result = expect_invariants(mesh, "pierced plate");
     EXPECT_GT(result.pairs, 0U);
     EXPECT_EQ(result.left, 0U);
     EXPECT_GE(result.places, 1U);
@@ -100,7 +100,7 @@ TEST(Resolve, MendsCrumpledSurfacesOrLeavesThemAsTheyWere) {
             Vec3& p = mesh.points[random() % mesh.points.size()];
             p = p + Vec3{shift(random), shift(random), shift(random)};
         }
-        const Resolved result = expect_laws(mesh, "crumpled " + std::to_string(seed));
+        const Resolved result = expect_invariants(mesh, "crumpled " + std::to_string(seed));
         before += result.pairs;
         after += result.left;
     }
@@ -112,7 +112,7 @@ TEST(Resolve, LeavesWhatIsNoSmallPlace) {
     TriangleMesh crossed =
         shapes::joined({shapes::box({0, 0, 0}, {10, 4, 4}, 4), shapes::box({3, -3, 1}, {7, 7, 3}, 4)});
     const TriangleMesh before = crossed;
-    const Resolved result = expect_laws(crossed, "crossed bars");
+    const Resolved result = expect_invariants(crossed, "crossed bars");
     EXPECT_GT(result.left, 0U);
     EXPECT_EQ(crossed, before);
 }
@@ -121,7 +121,7 @@ TEST(Resolve, StaysAwayFromOpenBorders) {
     TriangleMesh mesh = pierced();
     mesh.triangles.erase(mesh.triangles.begin());
     const std::size_t open = edges(mesh).faults.open;
-    EXPECT_EQ(expect_laws(mesh, "open plate").left, 0U);
+    EXPECT_EQ(expect_invariants(mesh, "open plate").left, 0U);
     EXPECT_EQ(edges(mesh).faults.open, open);
 }
 
@@ -129,7 +129,7 @@ TEST(Resolve, MendsTheDragon) {
     NEEDS_MESH("dragon_vrip_871k.ply");
     TriangleMesh mesh = read_mesh(real_mesh("dragon_vrip_871k.ply")).mesh;
     weld(mesh);
-    split_pinched(mesh, edges(mesh));
+    split_non_manifold_vertices(mesh, edges(mesh));
     const TriangleMesh before = mesh;
     const Resolved result = resolve_self_intersections(mesh);
     EXPECT_GT(result.pairs, 100U);
@@ -139,7 +139,7 @@ TEST(Resolve, MendsTheDragon) {
     EXPECT_EQ(edges(mesh).faults.is_closed(), edges(before).faults.is_closed());
 }
 
-TEST(Resolve, KeepsItsLawsOnWhatOthersFoundNasty) {
+TEST(Resolve, KeepsItsInvariantsOnWhatOthersFoundNasty) {
     NEEDS_MESH("nasty");
     std::size_t looked_at = 0;
     for (const auto& entry : std::filesystem::directory_iterator(real_mesh("nasty"))) {
@@ -152,8 +152,8 @@ TEST(Resolve, KeepsItsLawsOnWhatOthersFoundNasty) {
         weld(mesh);
         if (mesh.triangles.size() > 20'000) continue;
         const Edges found = edges(mesh);
-        if (found.faults.non_manifold + found.faults.inconsistent == 0) split_pinched(mesh, found);
-        expect_laws(mesh, entry.path().filename());
+        if (found.faults.non_manifold + found.faults.inconsistent == 0) split_non_manifold_vertices(mesh, found);
+        expect_invariants(mesh, entry.path().filename());
         ++looked_at;
     }
     EXPECT_GT(looked_at, 10U);

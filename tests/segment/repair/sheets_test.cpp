@@ -16,11 +16,11 @@
 namespace qchopper {
 namespace {
 
-// Manifold: no faulty edge, and nothing left to part.
+// Manifold: no non-manifold edge, and nothing left to part.
 void expect_manifold(const TriangleMesh& mesh, const std::string& what) {
     const Edges found = edges(mesh);
     EXPECT_EQ(found.faults.non_manifold + found.faults.inconsistent, 0U) << what;
-    EXPECT_EQ(count_pinched(mesh, found), 0U) << what;
+    EXPECT_EQ(count_non_manifold_vertices(mesh, found), 0U) << what;
 }
 
 void expect_welded_and_parted_is_the_same(const TriangleMesh& mesh, const std::string& what) {

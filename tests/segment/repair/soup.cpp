@@ -22,7 +22,7 @@ class Stirring {
         for (std::uint32_t i = 0; i < shells; ++i) {
             TriangleMesh shell = some_shell();
             const double volume = volume_mm3(shell);
-            const bool inwards = soup_.all_outwards ? volume < 0 : below(3) == 0;
+            const bool inwards = soup_.all_outward ? volume < 0 : below(3) == 0;
             add(inwards ? shapes::turned_inside_out(shell) : shell);
             if (below(8) == 0) add(inwards ? shapes::turned_inside_out(shell) : shell);
         }

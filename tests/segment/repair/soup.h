@@ -10,7 +10,7 @@
 namespace qchopper {
 
 struct Soup {
-    bool all_outwards = true;  // else shells are inside out at random
+    bool all_outward = true;  // else shells are inside out at random
     std::uint32_t seed = 0;
 };
 

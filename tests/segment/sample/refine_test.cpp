@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/segment/sample/laws.h"
+#include "tests/segment/sample/invariants.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "segment/sample/bones.h"
 #include "segment/sample/surface.h"
-#include "tests/segment/sample/laws.h"
+#include "tests/segment/sample/invariants.h"
 #include "tests/segment/sample/self_intersections.h"
 
 namespace qchopper {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "segment/sample/bones.h"
-#include "tests/segment/sample/laws.h"
+#include "tests/segment/sample/invariants.h"
 #include "tests/segment/sample/self_intersections.h"
 
 namespace qchopper {
@@ -42,7 +42,7 @@ TEST(Surface, IsValidOnEveryLattice) {
             const TriangleMesh mesh = surface(bone.field, bone.box, factor * bone.base_spacing, {});
             const Edges found = edges(mesh);
             EXPECT_TRUE(found.faults.is_closed());
-            EXPECT_EQ(pinched_points(mesh, found), 0U);
+            EXPECT_EQ(non_manifold_vertices(mesh, found), 0U);
             EXPECT_EQ(count_self_intersections(mesh), 0U);
             EXPECT_GT(volume_mm3(mesh), 0);
         }

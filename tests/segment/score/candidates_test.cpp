@@ -4,7 +4,7 @@
 
 #include "base/parallel.h"
 #include "segment/cut/nudge.h"
-#include "segment/score/pricing.h"
+#include "segment/score/evaluate.h"
 #include "tests/pieces.h"
 #include "tests/shapes.h"
 
@@ -23,33 +23,33 @@ TEST(Candidates, FortyOffsetsEvenlyInsideTheExtentOfThreeNormals) {
     }
 }
 
-TEST(Candidates, PricesComeInTheOrderOfTheCandidates) {
+TEST(Candidates, EvaluationsComeInTheOrderOfTheCandidates) {
     const TriangleMesh mesh = shapes::linked_tori();
     const Piece piece = piece_of(mesh);
     const std::vector<Candidate> some = candidates_along(piece, {0, 0, 1}, 0, 9);
-    const auto prices = price_all(piece, some, {}, {});
+    const auto evaluations = evaluate_all(piece, some, {}, {});
     for (std::size_t i = 0; i < some.size(); ++i) {
-        const auto alone = price_by_cutting(piece, some[i].plane, {});
-        ASSERT_EQ(prices[i].has_value(), alone.has_value());
-        EXPECT_NEAR(prices[i]->fragility, alone->fragility, 1e-9);
-        EXPECT_NEAR(prices[i]->cap_area_mm2, alone->cap_area_mm2, 1e-6);
+        const auto alone = evaluate_by_cutting(piece, some[i].plane, {});
+        ASSERT_EQ(evaluations[i].has_value(), alone.has_value());
+        EXPECT_NEAR(evaluations[i]->fragility, alone->fragility, 1e-9);
+        EXPECT_NEAR(evaluations[i]->cap_area_mm2, alone->cap_area_mm2, 1e-6);
     }
 }
 
-TEST(Candidates, PricesAreTheSameToTheLastBitForAnyNumberOfThreads) {
+TEST(Candidates, EvaluationsAreTheSameToTheLastBitForAnyNumberOfThreads) {
     const TriangleMesh mesh = shapes::joined({shapes::nested(), shapes::torus({200, 0, 0}, 40, 12, 90)});
     const Piece piece = piece_of(mesh);
     const std::vector<Candidate> all = candidate_planes(piece, {});
-    const auto price_with = [&](std::size_t threads, FragilityForm form) {
+    const auto evaluate_with = [&](std::size_t threads, FragilityForm form) {
         const ThreadLimit limit(threads);
         Objectives objectives;
         objectives.fragility_form = form;
-        return price_all(piece, all, objectives, {});
+        return evaluate_all(piece, all, objectives, {});
     };
     for (const FragilityForm form : {FragilityForm::thinness, FragilityForm::thesis}) {
-        const auto one = price_with(1, form);
+        const auto one = evaluate_with(1, form);
         for (const std::size_t threads : {2, 3}) {
-            const auto many = price_with(threads, form);
+            const auto many = evaluate_with(threads, form);
             ASSERT_EQ(many.size(), one.size());
             for (std::size_t i = 0; i < one.size(); ++i) {
                 ASSERT_EQ(many[i].has_value(), one[i].has_value());
@@ -66,13 +66,13 @@ TEST(Candidates, PricesAreTheSameToTheLastBitForAnyNumberOfThreads) {
     }
 }
 
-TEST(Candidates, PricingStopsWhenAsked) {
+TEST(Candidates, EvaluationStopsWhenAsked) {
     const TriangleMesh mesh = shapes::ball({0, 0, 0}, 10);
     const std::atomic<bool> stop{true};
     Context context;
     context.cancelled = &stop;
     const Piece piece = piece_of(mesh);
-    EXPECT_THROW(price_all(piece, candidates_along(piece, {0, 0, 1}, 0, 9), {}, context), Cancelled);
+    EXPECT_THROW(evaluate_all(piece, candidates_along(piece, {0, 0, 1}, 0, 9), {}, context), Cancelled);
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ TEST(Fragility, AnOldCapStopsTheRayBehindIt) {
     // A bar bent back: after the first cut only one leg belongs to the piece.
     const TriangleMesh box = shapes::box({0, 0, 0}, {40, 40, 40}, 80);
     const auto pieces = cut_piece(piece_of(box), {normalized({1, 0, 1}), 50}, 1)->pieces;
-    // Above the slanting cap the corner piece's top is at 40; every straight way down from it at x < 30 leaves through
+    // Above the slanting cap the corner piece's top is at 40; every parallel ray down from it at x < 30 leaves through
     // the cap before it reaches z = 31.
     const double cap = cut(*pieces[0].mesh, {{0, 0, 1}, 38.0}, 2)->cap_area_mm2;
     const double all = thinness(pieces[0], {{0, 0, 1}, 38.0}, cap, 20);

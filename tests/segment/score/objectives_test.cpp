@@ -5,11 +5,11 @@
 namespace qchopper {
 namespace {
 
-Price two_halves(std::size_t a, std::size_t b) {
-    Price price;
-    price.cap_area_mm2 = 1;
-    price.solids = {{a, 10, true, {{1, 2, 10, 3, 6}}}, {b, 10, false, {{1, 1, 10, 1, 5}, {2, 4, 10, 0, 5}}}};
-    return price;
+CutEvaluation two_halves(std::size_t a, std::size_t b) {
+    CutEvaluation evaluation;
+    evaluation.cap_area_mm2 = 1;
+    evaluation.solids = {{a, 10, true, {{1, 2, 10, 3, 6}}}, {b, 10, false, {{1, 1, 10, 1, 5}, {2, 4, 10, 0, 5}}}};
+    return evaluation;
 }
 
 TEST(Objectives, EvenPiecesCostNothingUpToTheThreshold) {
@@ -29,26 +29,26 @@ TEST(Objectives, UndercutIsTheMeanOverPiecesOfTheLeastOverBases) {
 }
 
 TEST(Objectives, ASolidWithoutCapCountsOneHalf) {
-    EXPECT_EQ(undercut(SolidPrice{}, true), 0.5);
+    EXPECT_EQ(undercut(SolidEvaluation{}, true), 0.5);
 }
 
-TEST(Objectives, CrumbsEnterNothingAndACutThatOnlyShavesThemIsNoCandidate) {
-    Price price = two_halves(100, 100);
-    price.solids.push_back({4, 0.001, true, {}});
+TEST(Objectives, FragmentsEnterNothingAndACutThatOnlyShavesThemIsNoCandidate) {
+    CutEvaluation evaluation = two_halves(100, 100);
+    evaluation.solids.push_back({4, 0.001, true, {}});
     Objectives objectives;
-    objectives.crumb_volume_mm3 = 0.01;
-    const auto t = terms(price, {}, objectives);
+    objectives.fragment_volume_mm3 = 0.01;
+    const auto t = terms(evaluation, {}, objectives);
     EXPECT_EQ(t->piece_count, 0);
     EXPECT_EQ(t->face_ratio, 0);
-    price.solids[1].volume_mm3 = 0.001;
-    EXPECT_FALSE(terms(price, {}, objectives).has_value());
+    evaluation.solids[1].volume_mm3 = 0.001;
+    EXPECT_FALSE(terms(evaluation, {}, objectives).has_value());
 }
 
 TEST(Objectives, TheTotalIsTheWeightedSum) {
-    Price price = two_halves(100, 300);
-    price.fragility = 0.7;
-    price.solids.push_back({100, 5, true, {}});
-    const auto t = terms(price, {}, {});
+    CutEvaluation evaluation = two_halves(100, 300);
+    evaluation.fragility = 0.7;
+    evaluation.solids.push_back({100, 5, true, {}});
+    const auto t = terms(evaluation, {}, {});
     EXPECT_DOUBLE_EQ(t->total, 10 * t->face_ratio + 5 * 0.7 + 50 * 1 + 10 * t->undercut);
 }
 

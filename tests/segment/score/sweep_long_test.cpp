@@ -9,12 +9,12 @@
 #include "segment/cut/cut_piece.h"
 #include "segment/import/import_scan.h"
 #include "segment/mesh/order.h"
-#include "segment/mesh/shells.h"
+#include "segment/mesh/solids.h"
 #include "segment/sample/sample.h"
 #include "segment/score/candidates.h"
-#include "segment/score/pricing.h"
+#include "segment/score/evaluate.h"
 #include "tests/real_scans.h"
-#include "tests/segment/score/same_price.h"
+#include "tests/segment/score/same_evaluation.h"
 
 namespace qchopper {
 namespace {
@@ -35,15 +35,15 @@ std::vector<Piece> pieces_of(const TriangleMesh& scan, std::size_t most) {
     return pieces;
 }
 
-// The best of all candidates by both ways of pricing; the same one, or one as good to 1e-9.
+// The best of all candidates by both ways of evaluation; the same one, or one as good to 1e-9.
 struct Winner {
     std::size_t candidate = 0;
     double total = std::numeric_limits<double>::infinity();
 };
-Winner winner(const std::vector<std::optional<Price>>& prices, const Objectives& objectives) {
+Winner winner(const std::vector<std::optional<CutEvaluation>>& evaluations, const Objectives& objectives) {
     Winner best;
-    for (std::size_t i = 0; i < prices.size(); ++i) {
-        const auto t = prices[i] ? terms(*prices[i], {}, objectives) : std::nullopt;
+    for (std::size_t i = 0; i < evaluations.size(); ++i) {
+        const auto t = evaluations[i] ? terms(*evaluations[i], {}, objectives) : std::nullopt;
         if (t && t->total < best.total) best = {i, t->total};
     }
     return best;
@@ -55,11 +55,11 @@ Plane expect_same_candidates(const Piece& piece, const Objectives& objectives, i
     CandidateOptions options;
     options.offsets_per_normal = per_normal;
     const std::vector<Candidate> candidates = candidate_planes(piece, options);
-    const auto fast = price_all(piece, candidates, objectives, {});
-    std::vector<std::optional<Price>> plain;
+    const auto fast = evaluate_all(piece, candidates, objectives, {});
+    std::vector<std::optional<CutEvaluation>> plain;
     const double size = norm(bounds(*piece.mesh).size());
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-        plain.push_back(price_by_cutting(piece, candidates[i].plane, objectives));
+        plain.push_back(evaluate_by_cutting(piece, candidates[i].plane, objectives));
         EXPECT_EQ(fast[i].has_value(), plain[i].has_value()) << what;
         if (!fast[i] || !plain[i]) continue;
         expect_equal(*fast[i], *plain[i], size, objectives.undercut_by_area, what + " candidate " + std::to_string(i));
@@ -74,7 +74,7 @@ Plane expect_same_candidates(const Piece& piece, const Objectives& objectives, i
 // The scan, then the pieces of three cuts along the winners.
 void expect_same_along_cuts(const TriangleMesh& scan, int per_normal, const std::string& what) {
     Objectives objectives;
-    objectives.crumb_volume_mm3 = 1e-5 * volume_mm3(scan);
+    objectives.fragment_volume_mm3 = 1e-5 * volume_mm3(scan);
     for (Piece piece : pieces_of(scan, 2)) {
         for (std::int32_t cut_number = 1; cut_number <= 3; ++cut_number) {
             objectives.undercut_by_area = cut_number % 2 == 1;
@@ -123,16 +123,16 @@ TEST(SweepLong, EqualsCuttingOnEveryValidScan) {
     if (!std::filesystem::exists(QCHOPPER_MESHES)) GTEST_SKIP() << "skipped: the real meshes are not here";
     std::size_t taken = 0;
     for (const RealScan& scan : scans) {
-        Intake intake;
+        ImportedScan imported;
         try {
-            IntakeOptions options;
+            ImportOptions options;
             options.mm_per_unit = 100;
-            intake = take_in(std::filesystem::path(QCHOPPER_MESHES) / scan.file, options);
+            imported = import_scan(std::filesystem::path(QCHOPPER_MESHES) / scan.file, options);
         } catch (const InputError&) {
-            continue;  // what intake refuses is not a valid mesh for us
+            continue;  // what import refuses is not a valid mesh for us
         }
         ++taken;
-        expect_same_along_cuts(intake.mesh, scan.faces > 100'000 ? 8 : 40, scan.file);
+        expect_same_along_cuts(imported.mesh, scan.faces > 100'000 ? 8 : 40, scan.file);
         if (HasFailure()) return;
     }
     EXPECT_GE(taken, 5U);

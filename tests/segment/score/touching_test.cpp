@@ -9,13 +9,13 @@
 #include "segment/cut/cut.h"
 #include "segment/mesh/edges.h"
 #include "tests/pieces.h"
-#include "tests/segment/score/same_price.h"
+#include "tests/segment/score/same_evaluation.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
 namespace {
 
-// The laws of a cut through solids that touch but do not cross.
+// The invariants of a cut through solids that touch but do not cross.
 void expect_flat_caps(const TriangleMesh& mesh, const Plane& plane, const std::string& what) {
     const auto halves = cut(mesh, plane, 1);
     if (!halves) return;
@@ -37,7 +37,7 @@ void expect_flat_caps(const TriangleMesh& mesh, const Plane& plane, const std::s
 }
 
 // Evenly spread planes and planes asked through points of contact.
-void expect_lawful(const TriangleMesh& mesh, Vec3 normal, std::mt19937& random, const std::string& what) {
+void expect_invariants(const TriangleMesh& mesh, Vec3 normal, std::mt19937& random, const std::string& what) {
     const Piece piece = piece_of(mesh);
     const Extent range = extent(mesh, normal);
     std::vector<double> wanted;
@@ -49,9 +49,10 @@ void expect_lawful(const TriangleMesh& mesh, Vec3 normal, std::mt19937& random, 
     const double size = norm(bounds(mesh).size());
     for (const auto& nudged : nudge(piece, normal, wanted)) {
         if (!nudged) continue;
-        const auto price = price_by_cutting(piece, {normal, nudged->offset}, objectives);
-        if (!price) continue;
-        for (const SolidPrice& solid : price->solids) EXPECT_GE(solid.volume_mm3, -1e-9 * size * size * size) << what;
+        const auto evaluation = evaluate_by_cutting(piece, {normal, nudged->offset}, objectives);
+        if (!evaluation) continue;
+        for (const SolidEvaluation& solid : evaluation->solids)
+            EXPECT_GE(solid.volume_mm3, -1e-9 * size * size * size) << what;
     }
     for (const auto& nudged : nudge(piece, normal, wanted)) {
         if (nudged) expect_flat_caps(mesh, {normal, nudged->offset}, what);
@@ -74,9 +75,9 @@ TEST(Touching, TheSweepPredictsTheCutAndNoCapIsFolded) {
             axis = canonical({normalized(area_vector(mesh, random() % mesh.triangles.size())), 0}).normal;
         }
         const std::string what = "round " + std::to_string(round);
-        expect_lawful(mesh, axis, random, what + " along");
-        expect_lawful(mesh, random_normal(random), random, what + " across");
-        expect_lawful(mesh, random_normal(random), random, what + " across again");
+        expect_invariants(mesh, axis, random, what + " along");
+        expect_invariants(mesh, random_normal(random), random, what + " across");
+        expect_invariants(mesh, random_normal(random), random, what + " across again");
         if (HasFailure()) return;
     }
 }

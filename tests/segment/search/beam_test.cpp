@@ -25,14 +25,14 @@ struct Found {
 };
 
 Found searched(const TriangleMesh& mesh, const SearchSettings& settings) {
-    Found found{uncut(mesh, settings.objectives.crumb_volume_mm3), {}};
-    PieceBook book(settings.objectives, settings.candidates);
+    Found found{uncut(mesh, settings.objectives.fragment_volume_mm3), {}};
+    EvaluationCache book(settings.objectives, settings.candidates);
     found.end = search(found.segmentation, settings, book, {}, [](const Segmentation&) {}, {});
     return found;
 }
 
 double cost_of(const Segmentation& segmentation, const SearchSettings& settings) {
-    PieceBook book(settings.objectives, settings.candidates);
+    EvaluationCache book(settings.objectives, settings.candidates);
     return cost(segmentation, settings.objectives, book);
 }
 
@@ -42,7 +42,7 @@ TEST(Beam, OfOneIsTheGreedySearchOnEveryShape) {
         Segmentation greedy = uncut(mesh, 0);
         const bool is_finished = greedy::search(greedy, settings);
         const Found beam = searched(mesh, settings);
-        EXPECT_EQ(beam.end.is_finished, is_finished) << name;
+        EXPECT_EQ(beam.end.is_finished(), is_finished) << name;
         ASSERT_EQ(beam.segmentation.cuts.size(), greedy.cuts.size()) << name;
         for (std::size_t i = 0; i < greedy.cuts.size(); ++i) {
             EXPECT_TRUE(beam.segmentation.cuts[i] == greedy.cuts[i]) << name << " cut " << i + 1;
@@ -75,7 +75,7 @@ TEST(Beam, OfAnyWidthFindsTheGreedyCutIfOneIsAskedFor) {
 // Every pair of cuts that the search could make, made. Least cost of all.
 double least_of_all_pairs(const TriangleMesh& mesh, const SearchSettings& settings) {
     const Segmentation start = uncut(mesh, 0);
-    PieceBook book(settings.objectives, settings.candidates);
+    EvaluationCache book(settings.objectives, settings.candidates);
     double least = std::numeric_limits<double>::infinity();
     const std::size_t first = *next_piece(start, settings.stop, {}, {}).piece;
     const std::vector<Ranked> firsts = rank(start, first, settings, book, {});
@@ -111,7 +111,7 @@ TEST(Beam, AsWideAsAllCandidatesFindsTheCheapestTwoCuts) {
     }
 }
 
-TEST(Beam, CostOfThePricesIsTheCostOfTheRealPieces) {
+TEST(Beam, CostOfTheEvaluationsIsTheCostOfTheRealPieces) {
     for (const std::size_t width : {1U, 3U}) {
         const SearchSettings settings = settings_of(3, width);
         const Found found = searched(shapes::linked_tori(), settings);
@@ -148,7 +148,7 @@ TEST(Beam, TellsTheBestOfEveryRoundAndEndsInOneThatItTold) {
     const TriangleMesh mesh = shapes::linked_tori();
     const SearchSettings settings = settings_of(4, 5);
     Segmentation segmentation = uncut(mesh, 0);
-    PieceBook book(settings.objectives, settings.candidates);
+    EvaluationCache book(settings.objectives, settings.candidates);
     std::vector<std::size_t> told;
     search(segmentation, settings, book, {}, [&](const Segmentation& s) { told.push_back(s.cuts.size()); }, {});
     EXPECT_EQ(told, (std::vector<std::size_t>{1, 2, 3, 4}));
@@ -160,39 +160,42 @@ TEST(Beam, WhatIsStoppedForTimeEndsWithTheDecisionBeingMade) {
     for (const std::size_t width : {1U, 3U}) {
         const SearchSettings settings = settings_of(400, width);
         Segmentation segmentation = uncut(mesh, 0);
-        PieceBook book(settings.objectives, settings.candidates);
+        EvaluationCache book(settings.objectives, settings.candidates);
         std::size_t told = 0;
         const SearchEnd end = search(
             segmentation, settings, book, {}, [&](const Segmentation&) { ++told; }, {}, 1e-9);
-        EXPECT_TRUE(end.is_out_of_time);
-        EXPECT_FALSE(end.is_finished);
+        EXPECT_TRUE(end.is_out_of_time());
+        EXPECT_FALSE(end.is_finished());
         EXPECT_EQ(told, 1U);
         EXPECT_EQ(segmentation.cuts.size(), 1U);
-        EXPECT_NE(end.reason.find("time limit"), std::string::npos);
+        EXPECT_EQ(end.reason, EndReason::time_limit);
+        EXPECT_NE(end.sentence.find("time limit"), std::string::npos);
     }
 }
 
 TEST(Beam, ThatHasNoTimeButIsFinishedSaysSo) {
     const SearchSettings settings = settings_of(1, 1);
     Segmentation segmentation = uncut(shapes::ball({0, 0, 0}, 10), 0);
-    PieceBook book(settings.objectives, settings.candidates);
+    EvaluationCache book(settings.objectives, settings.candidates);
     const SearchEnd end = search(
         segmentation, settings, book, {}, [](const Segmentation&) {}, {}, 1e-9);
-    EXPECT_TRUE(end.is_finished);
-    EXPECT_FALSE(end.is_out_of_time);
+    EXPECT_TRUE(end.is_finished());
+    EXPECT_FALSE(end.is_out_of_time());
 }
 
 TEST(Beam, StopsInWordsWhereNothingCanBeCutOrTheSafetyStopIsReached) {
     for (const std::size_t width : {1U, 3U}) {
         SearchSettings settings = settings_of(2, width, 0);
         const Found stuck = searched(shapes::ball({0, 0, 0}, 10), settings);
-        EXPECT_FALSE(stuck.end.is_finished);
-        EXPECT_EQ(stuck.end.reason, "no plane parts any of the unfinished pieces");
+        EXPECT_FALSE(stuck.end.is_finished());
+        EXPECT_EQ(stuck.end.reason, EndReason::no_plane);
+        EXPECT_EQ(stuck.end.sentence, "no plane parts any of the unfinished pieces");
         settings = settings_of(9, width);
         settings.stop.max_cuts = 2;
         const Found safe = searched(shapes::ball({0, 0, 0}, 10), settings);
-        EXPECT_FALSE(safe.end.is_finished);
-        EXPECT_EQ(safe.end.reason, "the safety stop of 2 cuts is reached");
+        EXPECT_FALSE(safe.end.is_finished());
+        EXPECT_EQ(safe.end.reason, EndReason::max_cuts);
+        EXPECT_EQ(safe.end.sentence, "the safety stop of 2 cuts is reached");
         EXPECT_EQ(safe.segmentation.cuts.size(), 2U);
     }
 }

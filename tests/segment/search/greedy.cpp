@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "segment/score/pricing.h"
+#include "segment/score/evaluate.h"
 
 namespace qchopper::greedy {
 namespace {
@@ -14,10 +14,11 @@ std::vector<Ranked> ranked(const Segmentation& segmentation, std::size_t piece, 
     }
     std::vector<Ranked> all;
     const std::vector<Candidate> candidates = candidate_planes(segmentation.pieces[piece], settings.candidates);
-    const auto prices = price_all(segmentation.pieces[piece], candidates, settings.objectives, Context{});
+    const auto evaluations = evaluate_all(segmentation.pieces[piece], candidates, settings.objectives, Context{});
     for (std::size_t i = 0; i < candidates.size(); ++i) {
         const Candidate& c = candidates[i];
-        const std::optional<Terms> t = prices[i] ? terms(*prices[i], others, settings.objectives) : std::nullopt;
+        const std::optional<Terms> t =
+            evaluations[i] ? terms(*evaluations[i], others, settings.objectives) : std::nullopt;
         if (t) all.push_back({c.plane, c.wanted_offset, c.normal, c.offset, *t});
     }
     // The order of the candidates is that of ties: a plane goes before another only if it is better by more than a tie
@@ -56,7 +57,8 @@ bool search(Segmentation& segmentation, const SearchSettings& settings) {
             const auto last = std::min(all.size(), settings.runners_up + 1);
             cut.runners_up.assign(all.begin() + 1, all.begin() + static_cast<std::ptrdiff_t>(last));
         }
-        if (all.empty() || !apply(segmentation, cut, settings.objectives.crumb_volume_mm3)) passed_over.push_back(name);
+        if (all.empty() || !apply(segmentation, cut, settings.objectives.fragment_volume_mm3))
+            passed_over.push_back(name);
     }
 }
 

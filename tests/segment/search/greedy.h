@@ -1,4 +1,4 @@
-// The greedy search as plainly as it can be, for the beam to be held against: prices everything anew each time.
+// The greedy search as plainly as it can be, for the beam to be held against: evaluations everything anew each time.
 
 #pragma once
 

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "app/project/presets.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
 #include "tests/shapes.h"
@@ -13,7 +12,7 @@ namespace {
 double total_volume(const Segmentation& segmentation) {
     double sum = 0;
     for (const Piece& piece : segmentation.pieces) sum += volume_mm3(*piece.mesh);
-    for (const Crumb& crumb : segmentation.crumbs) sum += crumb.volume_mm3;
+    for (const Fragment& fragment : segmentation.fragments) sum += fragment.volume_mm3;
     return sum;
 }
 
@@ -25,10 +24,10 @@ SearchSettings quick(int cuts) {
 }
 
 Segmentation searched(const TriangleMesh& mesh, const SearchSettings& settings) {
-    Segmentation segmentation = uncut(mesh, settings.objectives.crumb_volume_mm3);
-    PieceBook book(settings.objectives, settings.candidates);
+    Segmentation segmentation = uncut(mesh, settings.objectives.fragment_volume_mm3);
+    EvaluationCache book(settings.objectives, settings.candidates);
     const SearchEnd end = search(segmentation, settings, book, {}, [](const Segmentation&) {}, {});
-    EXPECT_TRUE(end.is_finished) << end.reason;
+    EXPECT_TRUE(end.is_finished()) << end.sentence;
     return segmentation;
 }
 
@@ -62,7 +61,7 @@ TEST(Search, TiesGoToTheLowerNormalThenOffset) {
     SearchSettings settings = quick(1);
     settings.objectives.weights = {0, 0, 1, 0};  // every plane gives two pieces: all tie
     const Segmentation segmentation = uncut(cube, 0);
-    PieceBook book(settings.objectives, settings.candidates);
+    EvaluationCache book(settings.objectives, settings.candidates);
     const std::vector<Ranked> ranked = rank(segmentation, 0, settings, book, {});
     for (std::size_t i = 1; i < ranked.size(); ++i) {
         EXPECT_LT(std::pair(ranked[i - 1].normal, ranked[i - 1].offset), std::pair(ranked[i].normal, ranked[i].offset));
@@ -76,14 +75,14 @@ TEST(Search, ThePieceWithMostFacesIsCutFirst) {
     EXPECT_EQ(segmentation.cuts[0].pieces, (std::vector<std::string>{"C", "D"}));
 }
 
-TEST(Search, CrumbsAreListedAndNotCut) {
+TEST(Search, FragmentsAreListedAndNotCut) {
     const TriangleMesh mesh = shapes::joined({shapes::ball({0, 0, 0}, 10, 8), shapes::ball({40, 0, 0}, 0.1, 6)});
     SearchSettings settings = quick(1);
-    settings.objectives.crumb_volume_mm3 = 1e-5 * volume_mm3(mesh);
+    settings.objectives.fragment_volume_mm3 = 1e-5 * volume_mm3(mesh);
     const Segmentation segmentation = searched(mesh, settings);
-    ASSERT_EQ(segmentation.crumbs.size(), 1U);
-    EXPECT_EQ(segmentation.crumbs[0].cut, 0);
-    EXPECT_NEAR(segmentation.crumbs[0].centre.x, 40, 0.1);
+    ASSERT_EQ(segmentation.fragments.size(), 1U);
+    EXPECT_EQ(segmentation.fragments[0].cut, 0);
+    EXPECT_NEAR(segmentation.fragments[0].centre.x, 40, 0.1);
     EXPECT_NEAR(total_volume(segmentation) / volume_mm3(mesh), 1, 1e-9);
 }
 
@@ -92,10 +91,11 @@ TEST(Search, StopsInWordsWhenNoPlanePartsAnything) {
     settings.candidates.offsets_per_normal = 0;
     const TriangleMesh mesh = shapes::ball({0, 0, 0}, 10);
     Segmentation segmentation = uncut(mesh, 0);
-    PieceBook book(settings.objectives, settings.candidates);
+    EvaluationCache book(settings.objectives, settings.candidates);
     const SearchEnd end = search(segmentation, settings, book, {}, [](const Segmentation&) {}, {});
-    EXPECT_FALSE(end.is_finished);
-    EXPECT_EQ(end.reason, "no plane parts any of the unfinished pieces");
+    EXPECT_FALSE(end.is_finished());
+    EXPECT_EQ(end.reason, EndReason::no_plane);
+    EXPECT_EQ(end.sentence, "no plane parts any of the unfinished pieces");
 }
 
 TEST(Search, WhenStoppedTheCutsMadeUntilThenStand) {
@@ -106,7 +106,7 @@ TEST(Search, WhenStoppedTheCutsMadeUntilThenStand) {
     Segmentation segmentation = uncut(mesh, 0);
     std::size_t told = 0;
     const SearchSettings settings = quick(9);
-    PieceBook book(settings.objectives, settings.candidates);
+    EvaluationCache book(settings.objectives, settings.candidates);
     EXPECT_THROW(search(
                      segmentation, settings, book, {},
                      [&](const Segmentation& s) {
@@ -130,15 +130,6 @@ TEST(PieceNames, CountOnAfterZ) {
     EXPECT_EQ(piece_name(26), "AA");
     EXPECT_EQ(piece_name(27), "AB");
     EXPECT_EQ(piece_name(26 + 26 * 26), "AAA");
-}
-
-TEST(Presets, TheFourCasesOfTheThesisAreThere) {
-    EXPECT_EQ(preset("bunny")->stop.min_cuts, 3);
-    EXPECT_EQ(preset("bunny")->objectives.weights, (Weights{10, 5, 50, 10}));
-    EXPECT_EQ(preset("skull")->stop.max_faces, 100'000U);
-    EXPECT_EQ(preset("vertebrae")->objectives.weights, (Weights{5, 1, 200, 1}));
-    EXPECT_TRUE(preset("femur"));
-    EXPECT_FALSE(preset("rabbit"));
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 
 #include "base/error.h"
 #include "segment/cut/cut.h"
+#include "segment/mesh/distance.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
-#include "segment/mesh/sampled_distance.h"
 #include "segment/sample/sample.h"
 #include "tests/shapes.h"
 
@@ -31,11 +31,6 @@ SimplifyOptions at_most(std::size_t faces) {
 }
 
 using Corners = std::array<Vec3, 3>;
-
-Corners corners_of(const TriangleMesh& mesh, std::size_t t) {
-    const Triangle& c = mesh.triangles[t];
-    return {mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]]};
-}
 
 // Written here once more, and in another way than where it is used: the nearest of the inside and the three sides.
 double distance(Vec3 p, const Corners& c) {

@@ -1,0 +1,124 @@
+#include "app/cli/option_values.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "segment/io/text.h"
+
+namespace qchopper {
+namespace {
+
+constexpr double largest_weight = 1e12;
+
+std::vector<std::string> split(const std::string& text) {
+    std::vector<std::string> words{""};
+    for (const char c : text) {
+        if (c == ',')
+            words.emplace_back();
+        else
+            words.back() += c;
+    }
+    return words;
+}
+
+std::optional<double> number_from(const std::string& text) {
+    const std::optional<double> value = number(text);  // what is too small for a double is zero
+    return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+// The length of a direction of any length but zero. Scaling by a power of two keeps all bits, and squares then neither
+// vanish nor overflow.
+std::optional<Vec3> unit_from(Vec3 direction) {
+    const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+    if (largest == 0) return std::nullopt;
+    const int power = -std::ilogb(largest);
+    const Vec3 scaled{std::ldexp(direction.x, power), std::ldexp(direction.y, power), std::ldexp(direction.z, power)};
+    return std::abs(norm(direction) - 1) > 1e-14 ? normalized(scaled) : direction;
+}
+
+std::optional<double>* weight_named(GivenWeights& weights, const std::string& name) {
+    if (name == "face_ratio") return &weights.face_ratio;
+    if (name == "fragility") return &weights.fragility;
+    if (name == "piece_count") return &weights.piece_count;
+    if (name == "undercut") return &weights.undercut;
+    return nullptr;
+}
+
+}  // namespace
+
+Weights GivenWeights::over(Weights weights) const {
+    return {face_ratio.value_or(weights.face_ratio), fragility.value_or(weights.fragility),
+            piece_count.value_or(weights.piece_count), undercut.value_or(weights.undercut)};
+}
+
+std::optional<GivenWeights> weights_from(const std::string& text) {
+    const std::vector<std::string> words = split(text);
+    GivenWeights weights;
+    const bool is_bare = text.find('=') == std::string::npos;
+    if (is_bare && words.size() != 4) return std::nullopt;
+    const std::array<const char*, 4> order{"face_ratio", "fragility", "piece_count", "undercut"};
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const std::size_t equals = words[i].find('=');
+        if (!is_bare && equals == std::string::npos) return std::nullopt;
+        std::optional<double>* weight = weight_named(weights, is_bare ? order[i] : words[i].substr(0, equals));
+        if (weight == nullptr || *weight) return std::nullopt;  // unknown, or named twice
+        *weight = number_from(is_bare ? words[i] : words[i].substr(equals + 1));
+        if (!*weight || **weight < 0 || **weight > largest_weight) return std::nullopt;
+    }
+    return weights;
+}
+
+std::optional<Plane> plane_from(const std::string& text) {
+    const std::vector<std::string> words = split(text);
+    if (words.size() != 4) return std::nullopt;
+    std::array<double, 4> v{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        const std::optional<double> value = number_from(words[i]);
+        if (!value) return std::nullopt;
+        v[i] = *value;
+    }
+    const std::optional<Vec3> unit = unit_from({v[0], v[1], v[2]});
+    if (!unit) return std::nullopt;
+    return canonical({*unit, v[3]});
+}
+
+std::optional<Vec3> lengths_from(const std::string& text) {
+    std::istringstream in(text);
+    Vec3 v;
+    char comma[2] = {};
+    if (!(in >> v.x >> comma[0] >> v.y >> comma[1] >> v.z) || comma[0] != ',' || comma[1] != ',') return std::nullopt;
+    char rest = 0;
+    if (in >> rest || !(v.x > 0 && v.y > 0 && v.z > 0)) return std::nullopt;
+    return v;
+}
+
+std::optional<std::size_t> place_from(const std::string& text) {
+    const std::optional<double> value = number_from(text);
+    if (!value || *value < 1 || *value > 1e6 || *value != std::floor(*value)) return std::nullopt;
+    return static_cast<std::size_t>(*value);
+}
+
+// Own words instead of those of the option parser, which print type names and 300-digit bounds.
+OptionCheck number_between(double low, double high, const std::string& words) {
+    return [=](const std::string& text) {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool ok = error == std::errc() && end == text.data() + text.size() && value >= low && value <= high;
+        return ok ? std::string() : "\"" + text + "\" is not " + words;
+    };
+}
+
+OptionCheck one_of(const std::vector<std::string>& words) {
+    return [=](const std::string& text) {
+        if (std::find(words.begin(), words.end(), text) != words.end()) return std::string();
+        std::string list;
+        for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+        return "\"" + text + "\" is not one of " + list;
+    };
+}
+
+}  // namespace qchopper

@@ -1,0 +1,190 @@
+#include "app/cli/parse_arguments.h"
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+
+#include "app/cli/examples.h"
+#include "app/cli/option_values.h"
+#include "app/cli/project_options.h"
+#include "app/cli/version.h"
+#include "base/edit_distance.h"
+#include "base/error.h"
+
+namespace qchopper {
+namespace {
+
+std::string hint(CLI::App& app, int argc, const char* const* argv) {
+    if (argc < 2 || argv[1][0] == '-') return {};
+    for (const CLI::App* command : app.get_subcommands({})) {
+        if (command->get_name() == argv[1]) return {};
+    }
+    for (const CLI::App* command : app.get_subcommands({})) {
+        if (edit_distance(command->get_name(), argv[1]) <= 2) {
+            return "\"" + std::string(argv[1]) + "\" is no command; did you mean \"" + command->get_name() + "\"?";
+        }
+    }
+    return "\"" + std::string(argv[1]) + "\" is no command";
+}
+
+struct Parser {
+    CLI::App app{"From the scan of a bone to carving jobs for a robot cell.", "qchopper"};
+    Arguments common;
+    SampleArguments sample;
+    InspectArguments inspect;
+    RepairArguments repair;
+    PrepareArguments prepare;
+    SegmentArguments segment;
+    ExplainArguments explain;
+    ExportArguments exported;
+    DryRunArguments dry_run;
+    CellSimArguments cell_sim;
+    DispatchArguments dispatch;
+
+    Parser() {
+        app.footer(examples_of(""));
+        app.require_subcommand(1);
+        app.set_version_flag("--version", std::string("qchopper ") + version);
+        add_sample();
+        add_inspect();
+        add_repair(app, repair, common);
+        add_prepare(app, prepare, common);
+        add_segment(app, segment, common);
+        add_explain();
+        add_export();
+        add_dry_run();
+        add_cell_sim();
+        add_dispatch();
+        for (CLI::App* command : app.get_subcommands({})) command->footer(examples_of(command->get_name()));
+    }
+
+    void add_sample() {
+        CLI::App* c = app.add_subcommand("sample", "make a specimen that looks like a bone and is hard like one");
+        c->add_option("SPECIMEN", sample.specimen, "vertebra, femur or skull")
+            ->required()
+            ->check(one_of({"vertebra", "femur", "skull"}));
+        c->add_option("--faces", sample.faces, "how many faces (100000)")
+            ->check(number_between(1, many, "a count of faces"));
+        c->add_option("--holes", sample.holes, "leave so many holes (0)")
+            ->check(number_between(0, 1e6, "a count of holes"));
+        c->add_option("--marks", sample.marks, "draw so many shallow dents, as a marker pen leaves them in a scan (0)")
+            ->check(number_between(0, 1e6, "a count of marks"));
+        c->add_option("-o,--out", sample.out, "the file to write: .ply, or .stl")->required();
+        add_common(c, common);
+    }
+
+    void add_inspect() {
+        CLI::App* c = app.add_subcommand("inspect", "say what a scan is and what is wrong with it");
+        c->add_option("SCAN", inspect.scan, std::string(scan_formats) + "; - is standard input")->required();
+        c->add_option("--units", inspect.units, "what one unit of the file is: mm, cm, m, in")
+            ->check(one_of({"mm", "cm", "m", "in"}));
+        c->add_flag("--deep", inspect.deep, "look for faces that run through each other too");
+        add_common(c, common);
+    }
+
+    void add_explain() {
+        CLI::App* c =
+            app.add_subcommand("explain", "say why a cut lies where it lies, with a plot of what all planes cost");
+        c->add_option("PROJECT", explain.project, "the folder NAME.qch")->required();
+        c->add_option("--cut", explain.cut, "the number of the cut (the last)")
+            ->check(number_between(1, 1e6, "the number of a cut"));
+        c->add_option("-o,--out", explain.out, "the plot to write, .svg (PROJECT/pictures/cut-K.svg)");
+        add_common(c, common);
+    }
+
+    void add_export() {
+        CLI::App* c = app.add_subcommand("export", "write pieces as 3MF, STL, PLY or GLB for other programs");
+        c->add_option("PROJECT", exported.project, "the folder NAME.qch")->required();
+        c->add_option("--format", exported.format, "3mf, stl, ply or glb")
+            ->required()
+            ->check(one_of({"3mf", "stl", "ply", "glb"}));
+        c->add_option("--pose", exported.pose,
+                      "place: as they sit in the scan; setup: as they lie in the stock (place)")
+            ->check(one_of({"place", "setup"}));
+        c->add_option("--piece", exported.piece, "only this piece");
+        c->add_option("--simplify", exported.simplify_mm,
+                      "as few faces as a deviation of so many mm allows; caps stay as they are")
+            ->check(number_between(1e-9, many, "a length in mm above 0"));
+        c->add_option("--max-faces", exported.max_faces, "no more than so many faces a piece; the deviation is told")
+            ->check(number_between(4, many, "a count of faces from 4"));
+        c->add_option("-o,--out", exported.out,
+                      "the file to make, or for STL and PLY the folder (NAME.3mf, NAME-stl beside the project)");
+        add_common(c, common);
+    }
+
+    void add_dry_run() {
+        CLI::App* c = app.add_subcommand("dry-run", "hand every piece to a simulated cell inside, over real TCP");
+        c->add_option("PROJECT", dry_run.project, "the folder NAME.qch")->required();
+        c->add_option("--piece", dry_run.piece, "only this piece");
+        c->add_option("--speed", dry_run.speed, "simulated seconds per second (100000)")
+            ->check(number_between(1e-3, 1e9, "a factor above 0"));
+        add_common(c, common);
+    }
+
+    void add_cell_sim() {
+        CLI::App* c = app.add_subcommand("cell-sim", "be a simulated cell until stopped");
+        c->add_option("--listen", cell_sim.listen, "HOST:PORT (127.0.0.1:15020); port 0 takes a free one");
+        c->add_option("--drop", cell_sim.drop, "the folder where job files arrive")->required();
+        c->add_option("--consent", cell_sim.consent, "auto, ask (on this terminal) or never (auto)")
+            ->check(one_of({"auto", "ask", "never"}));
+        c->add_option("--store", cell_sim.store, "the folder of the cell's lasting memory; none: it forgets");
+        c->add_option("--cell", cell_sim.cell, "take id, reach and stock from this cell file");
+        c->add_option("--speed", cell_sim.speed, "simulated seconds per second (1)")
+            ->check(number_between(1e-3, 1e9, "a factor above 0"));
+        add_common(c, common);
+    }
+
+    void add_dispatch() {
+        CLI::App* c = app.add_subcommand("dispatch", "hand the jobs to the cell and follow them to their end");
+        c->add_option("PROJECT", dispatch.project, "the folder NAME.qch")->required();
+        c->add_option("--piece", dispatch.piece, "only this piece");
+        c->add_option("--to", dispatch.to, "HOST:PORT of the cell (from the cell file)");
+        c->add_option("--drop", dispatch.drop, "the folder where the cell fetches job files (from the cell file)");
+        c->add_flag("--yes", dispatch.yes, "do not ask before a real cell is set in motion");
+        add_common(c, common);
+    }
+
+    Arguments result() {
+        const std::string name = app.get_subcommands().front()->get_name();
+        if (name == "sample")
+            common.command = sample;
+        else if (name == "inspect")
+            common.command = inspect;
+        else if (name == "repair")
+            common.command = repair;
+        else if (name == "prepare")
+            common.command = prepare;
+        else if (name == "segment")
+            common.command = segment;
+        else if (name == "explain")
+            common.command = explain;
+        else if (name == "export")
+            common.command = exported;
+        else if (name == "dry-run")
+            common.command = dry_run;
+        else if (name == "cell-sim")
+            common.command = cell_sim;
+        else
+            common.command = dispatch;
+        return common;
+    }
+};
+
+}  // namespace
+
+std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
+    Parser parser;
+    try {
+        parser.app.parse(argc, argv);
+        return parser.result();
+    } catch (const CLI::ParseError& e) {
+        if (e.get_exit_code() == 0) {  // help, version
+            parser.app.exit(e, std::cout, std::cerr);
+            return std::nullopt;
+        }
+        const std::string near = hint(parser.app, argc, argv);
+        throw InputError(InputFault::use, near.empty() ? e.what() : near, "see qchopper --help");
+    }
+}
+
+}  // namespace qchopper

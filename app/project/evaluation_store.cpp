@@ -1,0 +1,196 @@
+#include "app/project/evaluation_store.h"
+
+#include <cassert>
+#include <cstring>
+#include <type_traits>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/sha256.h"
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+
+// To be raised whenever candidates or evaluations come out differently for the same piece.
+constexpr std::uint32_t version_of_evaluations = 2;
+
+class Writer {
+ public:
+    template <typename T>
+    void put(T value) {
+        static_assert(std::is_arithmetic_v<T>);
+        add(&value, sizeof value);
+    }
+    template <typename T>
+    void put_all(const std::vector<T>& values) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        put(values.size());
+        add(values.data(), values.size() * sizeof(T));
+    }
+    void put(const Plane& p) {
+        for (const double x : {p.normal.x, p.normal.y, p.normal.z, p.offset}) put(x);
+    }
+    void put(const std::string& text) { put_all(std::vector<char>(text.begin(), text.end())); }
+    Bytes& bytes() { return bytes_; }
+
+ private:
+    void add(const void* from, std::size_t count) {
+        if (count == 0) return;
+        const std::size_t before = bytes_.size();
+        bytes_.resize(before + count);
+        std::memcpy(bytes_.data() + before, from, count);
+    }
+
+    Bytes bytes_;
+};
+
+// Never reads beyond the end; is_whole() tells afterwards.
+class Reader {
+ public:
+    explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+    template <typename T>
+    T get() {
+        T value{};
+        if (bytes_.size() < sizeof value) {
+            is_short_ = true;
+            return value;
+        }
+        std::memcpy(&value, bytes_.data(), sizeof value);
+        bytes_ = bytes_.subspan(sizeof value);
+        return value;
+    }
+    // A count of things that take at least a byte each.
+    std::size_t count() {
+        const auto n = get<std::size_t>();
+        if (n <= bytes_.size()) return n;
+        is_short_ = true;
+        return 0;
+    }
+    bool is_whole() const { return !is_short_ && bytes_.empty(); }
+
+ private:
+    std::span<const std::uint8_t> bytes_;
+    bool is_short_ = false;
+};
+
+void put(Writer& out, const BaseShare& b) {
+    out.put(b.cut);
+    for (const double x : {b.down_mm2, b.all_mm2, b.down_count, b.all_count}) out.put(x);
+}
+
+void put(Writer& out, const CutEvaluation& evaluation) {
+    out.put(evaluation.cap_area_mm2);
+    out.put(evaluation.fragility);
+    out.put(evaluation.solids.size());
+    for (const SolidEvaluation& solid : evaluation.solids) {
+        out.put(solid.faces);
+        out.put(solid.volume_mm3);
+        out.put(static_cast<std::uint8_t>(solid.above));
+        out.put(solid.bases.size());
+        for (const BaseShare& base : solid.bases) put(out, base);
+    }
+}
+
+CutEvaluation evaluation_from(Reader& in) {
+    CutEvaluation evaluation;
+    evaluation.cap_area_mm2 = in.get<double>();
+    evaluation.fragility = in.get<double>();
+    evaluation.solids.resize(in.count());
+    for (SolidEvaluation& solid : evaluation.solids) {
+        solid.faces = in.get<std::size_t>();
+        solid.volume_mm3 = in.get<double>();
+        solid.above = in.get<std::uint8_t>() != 0;
+        solid.bases.resize(in.count());
+        for (BaseShare& b : solid.bases) {
+            b.cut = in.get<std::int32_t>();
+            for (double* x : {&b.down_mm2, &b.all_mm2, &b.down_count, &b.all_count}) *x = in.get<double>();
+        }
+    }
+    return evaluation;
+}
+
+Bytes to_bytes(const PieceEvaluations& evaluations) {
+    Writer out;
+    assert(evaluations.candidates.size() == evaluations.evaluations.size());
+    out.put(evaluations.candidates.size());
+    for (std::size_t i = 0; i < evaluations.candidates.size(); ++i) {
+        const Candidate& c = evaluations.candidates[i];
+        out.put(c.plane);
+        out.put(c.wanted_offset);
+        out.put(c.normal);
+        out.put(c.offset);
+        out.put(static_cast<std::uint8_t>(evaluations.evaluations[i].has_value()));
+        if (evaluations.evaluations[i]) put(out, *evaluations.evaluations[i]);
+    }
+    const Sha256 digest = sha256(out.bytes());
+    out.bytes().insert(out.bytes().end(), digest.begin(), digest.end());
+    return std::move(out.bytes());
+}
+
+std::optional<PieceEvaluations> from_bytes(std::span<const std::uint8_t> bytes) {
+    if (bytes.size() < sizeof(Sha256)) return std::nullopt;
+    const auto body = bytes.first(bytes.size() - sizeof(Sha256));
+    const Sha256 digest = sha256(body);
+    if (std::memcmp(digest.data(), bytes.data() + body.size(), digest.size()) != 0) return std::nullopt;
+    Reader in(body);
+    PieceEvaluations evaluations;
+    evaluations.candidates.resize(in.count());
+    for (Candidate& c : evaluations.candidates) {
+        for (double* x : {&c.plane.normal.x, &c.plane.normal.y, &c.plane.normal.z, &c.plane.offset, &c.wanted_offset})
+            *x = in.get<double>();
+        c.normal = in.get<int>();
+        c.offset = in.get<int>();
+        evaluations.evaluations.emplace_back();
+        if (in.get<std::uint8_t>() != 0) evaluations.evaluations.back() = evaluation_from(in);
+    }
+    if (!in.is_whole()) return std::nullopt;
+    return evaluations;
+}
+
+std::string name_of_file(const std::string& settings, const Piece& piece) {
+    Writer out;
+    out.put(settings);
+    out.put_all(piece.mesh->points);
+    out.put_all(piece.mesh->triangles);
+    out.put_all(piece.mesh->cap_of);
+    for (const Bound& bound : piece.bounds) {
+        out.put(bound.cut);
+        out.put(bound.plane);
+        out.put(static_cast<std::uint8_t>(bound.above));
+    }
+    return to_hex(sha256(out.bytes())) + ".evaluations";
+}
+
+}  // namespace
+
+EvaluationStore evaluation_store(const fs::path& folder, const Objectives& objectives,
+                                 const CandidateOptions& options) {
+    Writer w;
+    w.put(version_of_evaluations);
+    w.put(static_cast<int>(objectives.fragility_form));
+    w.put(objectives.fragility_distance);
+    w.put(static_cast<std::uint8_t>(objectives.undercut_by_area));
+    w.put(options.offsets_per_normal);
+    const std::string settings(w.bytes().begin(), w.bytes().end());
+    EvaluationStore store;
+    store.find = [=](const Piece& piece) -> std::optional<PieceEvaluations> {
+        try {
+            return from_bytes(read_file(folder / name_of_file(settings, piece)));
+        } catch (const InputError&) {
+            return std::nullopt;
+        }
+    };
+    store.keep = [=](const Piece& piece, const PieceEvaluations& evaluations) {
+        std::error_code error;
+        fs::create_directories(folder, error);
+        try {
+            write_file(folder / name_of_file(settings, piece), to_bytes(evaluations));
+        } catch (const InputError&) {  // a full disk costs time, not work
+        }
+    };
+    return store;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,177 @@
+#include "app/project/export_pieces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/project/project_folder.h"
+#include "app/project/shell_word.h"
+#include "base/error.h"
+#include "base/staged_folder.h"
+#include "segment/io/read_mesh.h"
+#include "segment/picture/picture.h"
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double gap_in_row = 20;  // mm
+
+void check_options(const ExportRequest& a) {
+    if (a.simplify_mm && a.max_faces) {
+        throw InputError(InputFault::use, "--simplify and --max-faces are two ways to say the same", "say one of them");
+    }
+}
+
+bool is_one_file(const ExportRequest& a) {
+    return a.piece || holds_many(export_format_named(a.format));
+}
+
+// What is named, or NAME.3mf, NAME-A.stl, NAME-stl beside the project; in the folder that is named if there is one.
+fs::path output_of(const ExportRequest& a, const fs::path& project) {
+    const std::string name =
+        project.stem().string() + (a.piece ? "-" + *a.piece : "") + (is_one_file(a) ? "." : "-") + a.format;
+    std::error_code error;
+    if (!a.out) return project.parent_path() / name;
+    if (fs::is_directory(*a.out, error)) return *a.out / name;
+    const fs::path out = without_slash(*a.out);
+    if (is_one_file(a) != (out.extension() == "." + a.format)) {
+        throw InputError(InputFault::use,
+                         is_one_file(a) ? out.string() + " does not end in ." + a.format
+                                        : out.string() + " is one file, and of " + a.format + " every piece has one",
+                         is_one_file(a) ? "name a ." + a.format + " file, or a folder that is there"
+                                        : "name a folder to make, or one piece by --piece");
+    }
+    return out;
+}
+
+// The pieces as the project's folder has them; else, while it is being cut, the scan is cut again. So it is, too, for
+// setups, which want to know the planes.
+std::vector<Piece> pieces_of(OpenProject& open, bool with_bounds) {
+    const Project& project = open.project();
+    if (project.stage == Stage::cutting || with_bounds) return open.segmentation().pieces;
+    std::vector<Piece> pieces;
+    for (const SolidRecord& solid : project.pieces) {
+        const fs::path file = open.folder() / "pieces" / (solid.name + ".ply");
+        Piece piece;
+        piece.name = solid.name;
+        piece.mesh = std::make_shared<const TriangleMesh>(read_mesh(file).mesh);
+        if (piece.mesh->triangles.size() != solid.faces) {
+            throw InputError(InputFault::mesh, file.string() + " is not the piece that the project made",
+                             "write it again by: qchopper prepare " + shell_word(open.folder()));
+        }
+        pieces.push_back(std::move(piece));
+    }
+    return pieces;
+}
+
+double linear(std::uint8_t srgb) {
+    const double c = srgb / 255.0;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+ExportPiece exported(const Piece& piece, std::size_t place, const Project& project) {
+    ExportPiece made;
+    made.name = piece.name;
+    made.mesh = piece.mesh;
+    for (const Cut& cut : project.cuts) {
+        if (std::find(cut.pieces.begin(), cut.pieces.end(), piece.name) == cut.pieces.end()) continue;
+        made.step = cut.number;
+        made.parent = cut.piece;
+    }
+    const Rgb colour = piece_colour(place);
+    made.colour = {linear(colour.r), linear(colour.g), linear(colour.b)};
+    return made;
+}
+
+// In setup pose where `setups` is there.
+std::vector<ExportedPiece> rows_of(OpenProject& open, const ExportRequest& request, Setups* setups) {
+    const std::vector<Piece> pieces = pieces_of(open, setups != nullptr);
+    std::vector<ExportedPiece> rows;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        if (request.piece && pieces[i].name != *request.piece) continue;
+        ExportedPiece row{exported(pieces[i], i, open.project()), {}, {}};
+        if (setups != nullptr) {
+            const Carving& carving = setups->of(pieces[i]);
+            row.piece.pose = carving.setup.piece_in_setup;
+            row.piece.fits = carving.envelope.fits();
+        }
+        rows.push_back(std::move(row));
+    }
+    if (rows.empty()) {
+        throw InputError(InputFault::use, "the project has no piece " + request.piece.value_or("at all"),
+                         "see its pieces by: qchopper segment " + shell_word(open.folder()));
+    }
+    return rows;
+}
+
+void simplify_all(std::vector<ExportedPiece>& rows, const ExportRequest& request, const Context& context) {
+    SimplifyOptions options;
+    options.tolerance = request.simplify_mm;
+    options.most_faces = request.max_faces;
+    for (ExportedPiece& row : rows) {
+        TriangleMesh mesh = *row.piece.mesh;
+        row.simplified = simplify(mesh, options, context);
+        row.piece.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
+    }
+}
+
+// The folder appears whole or not at all.
+void write_folder(std::vector<ExportedPiece>& rows, ExportFormat format, const std::string& ending, const fs::path& out,
+                  const Context& context) {
+    try {
+        StagedFolder aside(out);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            context.check_cancelled();
+            context.progress("pieces written", i, rows.size());
+            const std::string name = rows[i].piece.name + "." + ending;
+            write_file(aside.path() / name, export_file(format, rows[i].piece));
+            rows[i].file = out / name;
+        }
+        aside.move_to_its_place();
+    } catch (const fs::filesystem_error& e) {
+        throw InputError(InputFault::create, out.string() + " cannot be made: " + e.code().message(),
+                         "choose another place");
+    }
+}
+
+void write_all(ExportedProject& exported, const ExportRequest& request, const ExportNotes& notes,
+               const Context& context) {
+    const ExportFormat format = export_format_named(request.format);
+    if (!is_one_file(request)) return write_folder(exported.pieces, format, request.format, exported.out, context);
+    for (ExportedPiece& row : exported.pieces) row.file = exported.out;
+    if (!holds_many(format)) return write_file(exported.out, export_file(format, exported.pieces.front().piece));
+    std::vector<ExportPiece> pieces;
+    for (const ExportedPiece& row : exported.pieces) pieces.push_back(row.piece);
+    if (request.pose == "setup" && pieces.size() > 1) stand_in_a_row(pieces, gap_in_row);
+    context.check_cancelled();
+    write_file(exported.out, export_file(format, pieces, notes));
+}
+
+}  // namespace
+
+bool ExportedProject::is_demand_met() const {
+    return std::none_of(pieces.begin(), pieces.end(),
+                        [](const ExportedPiece& p) { return p.simplified.has_too_many_faces; });
+}
+
+ExportedProject export_pieces(OpenProject& project, const ExportRequest& request, const std::string& program_version,
+                              const Context& context) {
+    check_options(request);
+    ExportedProject exported{output_of(request, project.folder()), request.simplify_mm || request.max_faces, {}};
+    check_output(exported.out);
+    const bool in_setup = request.pose == "setup";
+    if (in_setup && project.setups() == nullptr) {
+        throw InputError(
+            InputFault::use, project.folder().string() + " knows no cell, so nobody knows how its pieces lie",
+            "name one by: qchopper segment " + shell_word(project.folder()) + " --cell FILE; or leave --pose out");
+    }
+    exported.pieces = rows_of(project, request, in_setup ? project.setups() : nullptr);
+    if (exported.is_simplified) simplify_all(exported.pieces, request, context);
+    const ScanSource& scan = project.project().scan;
+    const ExportNotes notes{project.folder().stem().string(), program_version, scan.sha256, scan.centre};
+    write_all(exported, request, notes, context);
+    return exported;
+}
+
+}  // namespace qchopper

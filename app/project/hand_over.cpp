@@ -1,0 +1,73 @@
+#include "app/project/hand_over.h"
+
+#include "app/project/ordered_job.h"
+#include "app/project/project_folder.h"
+#include "app/project/shell_word.h"
+#include "base/error.h"
+#include "base/text.h"
+#include "cam/job/job_file.h"
+
+namespace qchopper {
+namespace {
+
+// Nothing if prepare wrote no job for the piece, because it does not fit.
+std::optional<PieceJob> job_of(const JobOrder& order) {
+    std::error_code error;
+    const bool is_there = std::filesystem::exists(std::filesystem::symlink_status(order.file, error));
+    if (written_job_of(order.project, order.piece) == nullptr) {
+        if (is_there) refuse_unrecorded(order.folder, order.file);
+        return std::nullopt;
+    }
+    if (!is_there) {
+        throw InputError(InputFault::missing, order.file.string() + " is gone",
+                         "write the jobs again: qchopper prepare " + shell_word(order.folder));
+    }
+    Bytes bytes = read_job(order.file);
+    const ReadJob job = parse_job(bytes, order.file.string());
+    check_ordered(job, order);
+    const JobTicket ticket = job_ticket(job, order.file.filename().string());
+    return PieceJob{order.piece, std::move(bytes), ticket};
+}
+
+}  // namespace
+
+ProjectJobs jobs_of(const std::filesystem::path& folder, const std::optional<std::string>& piece) {
+    const Project project = load_project(folder);
+    if (project.stage != Stage::done) {
+        throw InputError(InputFault::use, folder.string() + " is not finished",
+                         "finish it first: qchopper prepare " + shell_word(folder));
+    }
+    ProjectJobs found{read_cell(folder / "cell.toml"), {}};
+    for (const SolidRecord& record : project.pieces) {
+        if (piece && record.name != *piece) continue;
+        const JobOrder order{project, record.name, found.cell, folder, folder / "jobs" / job_file_name(record.name)};
+        if (std::optional<PieceJob> job = job_of(order)) {
+            found.jobs.push_back(std::move(*job));
+        } else if (piece) {  // prepare said which pieces do not fit, and only one of them was asked for
+            throw InputError(InputFault::missing, "piece " + *piece + " has no job",
+                             "prepare told why: it does not fit");
+        }
+    }
+    if (found.jobs.empty()) {
+        throw InputError(piece ? InputFault::use : InputFault::missing,
+                         piece ? "there is no piece " + *piece + " in " + folder.string()
+                               : folder.string() + " holds no job that fits",
+                         "look at the table that prepare printed");
+    }
+    return found;
+}
+
+std::vector<HandedOver> hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options,
+                                  const std::function<void(std::size_t)>& on_complete, const Context& context) {
+    std::vector<HandedOver> handed;
+    for (const PieceJob& job : jobs) {
+        context.message("piece " + job.piece + ": " + job.ticket.file_name + ", " + with_commas(job.ticket.file_size) +
+                        " bytes");
+        handed.push_back({job.piece, dispatch_job(bus, job.ticket, job.file, options, context)});
+        if (!handed.back().outcome.is_complete()) break;
+        on_complete(handed.size());
+    }
+    return handed;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,78 @@
+#include "app/project/ordered_job.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/project/shell_word.h"
+#include "base/error.h"
+#include "base/hex.h"
+
+namespace qchopper {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& folder, const std::string& what) {
+    throw InputError(InputFault::mesh, what, "write the jobs again: qchopper prepare " + shell_word(folder));
+}
+
+}  // namespace
+
+Uuid project_id(const Project& project) {
+    std::string text = project.scan.sha256;
+    char line[128];
+    for (const Cut& cut : project.cuts) {
+        const Plane& p = cut.chosen.plane;
+        std::snprintf(line, sizeof line, "\n%s %a %a %a %a", cut.piece.c_str(), p.normal.x, p.normal.y, p.normal.z,
+                      p.offset);
+        text += line;
+    }
+    for (const Discard& discard : project.discards) {
+        text += "\ndiscard " + discard.piece + " " + std::to_string(discard.after);
+    }
+    std::snprintf(line, sizeof line, "\n%a %s", project.scan.scale, name_of(project.scan.unit).c_str());
+    text += line;
+    const Sha256 digest = sha256({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    Uuid id{};
+    std::copy_n(digest.begin(), id.size(), id.begin());
+    return id;
+}
+
+WrittenJob written_job(const std::string& piece, const Bytes& file, const Uuid& project_id) {
+    return {piece, to_hex(sha256(file)), to_hex(project_id)};
+}
+
+const WrittenJob* written_job_of(const Project& project, const std::string& piece) {
+    const auto found = std::find_if(project.jobs.begin(), project.jobs.end(),
+                                    [&](const WrittenJob& job) { return job.piece == piece; });
+    return found == project.jobs.end() ? nullptr : &*found;
+}
+
+void check_ordered(const ReadJob& job, const JobOrder& order) {
+    const std::string file = order.file.string();
+    const WrittenJob* written = written_job_of(order.project, order.piece);
+    if (written == nullptr) refuse_unrecorded(order.folder, order.file);
+    if (job.piece != order.piece) {
+        refuse(order.folder, file + " is the job of piece " + job.piece + ", not of piece " + order.piece);
+    }
+    // The decisions are asked too: a record that came with the jobs of another project would agree with them.
+    const std::string id = to_hex(job.project_id);
+    if (id != written->project_id || job.project_id != project_id(order.project)) {
+        refuse(order.folder, file + " is a job of another project, or of other cuts");
+    }
+    if (job.cell_id != order.cell.id) {
+        refuse(order.folder, file + " is made for cell " + std::to_string(job.cell_id) + ", and the cell here is " +
+                                 std::to_string(order.cell.id) + " (" + order.cell.name + ")");
+    }
+    if (!job.envelope.fits()) {
+        refuse(order.folder, file + " says that its piece does not fit the cell");
+    }
+    if (to_hex(job.file_sha256) != written->sha256) {
+        refuse(order.folder, file + " is not the file that prepare wrote: its SHA-256 is not the one in project.json");
+    }
+}
+
+void refuse_unrecorded(const std::filesystem::path& folder, const std::filesystem::path& file) {
+    refuse(folder, "project.json keeps no record of " + file.string() +
+                       " (older programs kept none), so nobody can tell whether it is the job that was ordered");
+}
+
+}  // namespace qchopper

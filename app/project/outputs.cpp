@@ -1,0 +1,117 @@
+#include "app/project/outputs.h"
+
+#include <cassert>
+#include <set>
+
+#include "app/project/ordered_job.h"
+#include "app/project/project_folder.h"
+#include "base/file.h"
+#include "base/hex.h"
+#include "cam/job/job_file.h"
+#include "segment/io/write_ply.h"
+#include "segment/mesh/measure.h"
+#include "segment/picture/exploded.h"
+#include "segment/picture/picture.h"
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+
+TriangleMesh together(const std::vector<Fragment>& fragments) {
+    TriangleMesh all;
+    for (const Fragment& fragment : fragments) {
+        const auto first = static_cast<std::uint32_t>(all.points.size());
+        all.points.insert(all.points.end(), fragment.mesh->points.begin(), fragment.mesh->points.end());
+        for (std::size_t t = 0; t < fragment.mesh->triangles.size(); ++t) {
+            const Triangle& v = fragment.mesh->triangles[t];
+            all.triangles.push_back({v[0] + first, v[1] + first, v[2] + first});
+            all.cap_of.push_back(cap_of(*fragment.mesh, t));
+        }
+    }
+    assert(is_consistent(all));
+    return all;
+}
+
+// Files of a folder that are not named; the folder may be missing.
+void remove_but(const fs::path& folder, const std::set<std::string>& keep) {
+    std::error_code error;
+    std::vector<fs::path> old;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        if (!keep.contains(entry.path().filename().string())) old.push_back(entry.path());
+    }
+    for (const fs::path& file : old) fs::remove(file, error);
+}
+
+}  // namespace
+
+void write_pieces(const fs::path& folder, const Segmentation& segmentation, FragmentChoice fragments) {
+    fs::create_directories(folder / "pieces");
+    std::set<std::string> written;
+    for (const Piece& piece : segmentation.pieces) {
+        const std::string name = piece.name + ".ply";
+        assert(!piece.name.empty() && !written.contains(name));
+        write_file(folder / "pieces" / name, to_ply(*piece.mesh));
+        written.insert(name);
+    }
+    if (!segmentation.fragments.empty() && fragments == FragmentChoice::keep) {
+        write_file(folder / "pieces" / "fragments.ply", to_ply(together(segmentation.fragments)));
+        written.insert("fragments.ply");
+    }
+    remove_but(folder / "pieces", written);
+}
+
+std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, const Segmentation& segmentation,
+                                    Setups& setups, const std::string& program_version, const Context& context) {
+    project.jobs.clear();
+    JobInput input;
+    input.piece_no = 0;
+    input.piece_count = static_cast<std::uint16_t>(segmentation.pieces.size());
+    input.program_version = program_version;
+    input.project_id = project_id(project);
+    input.scan_sha256 = from_hex<std::tuple_size_v<Sha256>>(project.scan.sha256).value_or(Sha256{});
+    input.cell = setups.cell();
+    input.warnings = project.warnings;
+    std::vector<PieceReport> reports;
+    for (const Piece& piece : segmentation.pieces) {
+        context.check_cancelled();
+        context.progress("jobs written", input.piece_no, segmentation.pieces.size());
+        ++input.piece_no;
+        const Carving& carving = setups.of(piece);
+        PieceReport report{piece.name, piece.mesh->triangles.size(), volume_mm3(*piece.mesh), carving, {}};
+        report.carving.keeps_alive.reset();
+        const fs::path file = folder / "jobs" / job_file_name(piece.name);
+        if (carving.envelope.fits()) {
+            input.piece = piece;
+            input.setup = carving.setup;
+            input.envelope = carving.envelope;
+            const Bytes bytes = job_file(input);
+            write_file(file, bytes);
+            project.jobs.push_back(written_job(piece.name, bytes, input.project_id));
+            report.job = file;
+        } else {
+            fs::remove(file);  // a job that cannot be carved must not lie around
+        }
+        reports.push_back(std::move(report));
+    }
+    return reports;
+}
+
+void write_pictures(const fs::path& folder, const std::vector<Piece>& pieces, const Context& context) {
+    const std::vector<Vec3> shifts = exploded_shifts(pieces);
+    write_file(folder / "pictures" / "segmentation.png", render_png(coloured(pieces), {}, context));
+    write_file(folder / "pictures" / "exploded.png", render_png(coloured(pieces, shifts), {}, context));
+}
+
+void remove_outputs(const fs::path& folder, Project& project) {
+    if (project.stage != Stage::cutting || !project.jobs.empty()) {
+        project.jobs.clear();
+        project.stage = Stage::cutting;
+        project.end_reason.reset();
+        project.ended_because.clear();
+        save_project(folder, project);
+    }
+    for (const char* room : {"pieces", "jobs", "pictures"}) remove_but(folder / room, {});
+}
+
+}  // namespace qchopper

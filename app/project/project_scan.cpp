@@ -1,0 +1,73 @@
+#include "app/project/project_scan.h"
+
+#include "base/error.h"
+#include "base/text.h"
+#include "segment/import/inspect.h"
+#include "segment/mesh/measure.h"
+#include "segment/repair/fragments.h"
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+
+void report_import(const fs::path& scan, const ImportedScan& imported, const Context& context) {
+    const RepairReport& r = imported.report.repair;
+    std::string line = scan.filename().string() + ": " + with_commas(imported.mesh.triangles.size()) + " faces, " +
+                       size_in_words(bounds(imported.mesh).size()) + ".";
+    if (r.holes_filled > 0) line += " " + with_commas(r.holes_filled) + " holes closed.";
+    if (r.collapsed > 0) line += " " + with_commas(r.collapsed) + " collapsed faces dropped.";
+    if (r.points_copied > 0) line += " " + with_commas(r.points_copied) + " non-manifold vertices split.";
+    if (r.shells_turned > 0) line += " " + with_commas(r.shells_turned) + " shells turned outwards.";
+    context.message(line);
+}
+
+}  // namespace
+
+ImportedScan import_project_scan(const ProjectChoices& choices, const Context& context) {
+    if (choices.scan == "-") {
+        throw InputError(InputFault::use, "a project needs its scan again, and standard input is read only once",
+                         "save the scan in a file and name that");
+    }
+    ImportOptions options;
+    options.mm_per_unit = choices.mm_per_unit;
+    options.scale = choices.scale;
+    options.repair = options_of(choices.repair);
+    ImportedScan imported = import_scan(choices.scan, options, context);
+    report_import(choices.scan, imported, context);
+    return imported;
+}
+
+ImportedScan import_project_scan(const Project& project, const Context& context) {
+    const ScanSource& s = project.scan;
+    ImportedScan imported = import_project_scan(ProjectChoices{s.path, mm_per(s.unit), s.scale, s.repair}, context);
+    if (to_hex(imported.sha256) != s.sha256) {
+        throw InputError(InputFault::mesh, s.path.string() + " is not the scan that the project was made from",
+                         "put that scan back, or prepare this one as a new project");
+    }
+    return imported;
+}
+
+Project new_project(const ProjectChoices& choices, const ImportedScan& imported) {
+    Project project;
+    ScanSource& scan = project.scan;
+    scan.path = fs::absolute(choices.scan);
+    scan.unit = unit_of(imported.mm_per_unit);
+    scan.repair = choices.repair;
+    scan.scale = choices.scale;
+    scan.sha256 = to_hex(imported.sha256);
+    scan.centre = imported.centre;
+    scan.faces = imported.mesh.triangles.size();
+    scan.volume_mm3 = volume_mm3(imported.mesh);
+    scan.warnings = imported.report.warnings;
+    project.preset = choices.preset;
+    project.settings = choices.settings;
+    project.settings.objectives.fragment_volume_mm3 =
+        choices.fragment_volume_mm3.value_or(fragment_share * scan.volume_mm3);
+    project.history.weights_at_start = project.settings.objectives.weights;
+    project.fragments = choices.fragments;
+    project.warnings = imported.report.warnings;
+    return project;
+}
+
+}  // namespace qchopper

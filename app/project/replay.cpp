@@ -1,0 +1,83 @@
+#include "app/project/replay.h"
+
+#include <cassert>
+#include <span>
+
+#include "base/error.h"
+#include "segment/mesh/measure.h"
+
+namespace qchopper {
+namespace {
+
+std::int32_t made_by(const Piece& piece) {
+    return piece.bounds.empty() ? 0 : piece.bounds.back().cut;
+}
+
+SolidRecord record_of(const Piece& piece) {
+    return {piece.name, made_by(piece), piece.mesh->triangles.size(), volume_mm3(*piece.mesh),
+            bounds(*piece.mesh).centre()};
+}
+
+// Takes out what was discarded after so many cuts as the segmentation has.
+void discard_now(Segmentation& segmentation, const std::vector<Discard>& discards) {
+    for (const Discard& d : discards) {
+        if (d.after != segmentation.cuts.size() || discard(segmentation, d.piece)) continue;
+        throw InputError(InputFault::config,
+                         "piece " + d.piece + " of the project cannot be discarded: it is not there",
+                         "prepare the scan again");
+    }
+}
+
+}  // namespace
+
+void record(Project& project, const Segmentation& segmentation) {
+    follow(project.history, segmentation.cuts);
+    for (std::size_t i = standing_discards(project.history).size(); i < segmentation.discarded.size(); ++i) {
+        assert(segmentation.discarded[i].after == segmentation.cuts.size());
+        decide(project.history, Discard{segmentation.discarded[i].piece.name, segmentation.cuts.size()});
+    }
+    project.cuts = segmentation.cuts;
+    project.discards = standing_discards(project.history);
+    project.pieces.clear();
+    for (const Piece& piece : segmentation.pieces) project.pieces.push_back(record_of(piece));
+    project.discarded.clear();
+    for (const Discarded& discarded : segmentation.discarded) project.discarded.push_back(record_of(discarded.piece));
+    project.fragment_list.clear();
+    for (const Fragment& fragment : segmentation.fragments) {
+        project.fragment_list.push_back(
+            {"", fragment.cut, fragment.mesh->triangles.size(), fragment.volume_mm3, fragment.centre});
+    }
+    project.warnings = project.scan.warnings;
+    project.warnings.insert(project.warnings.end(), segmentation.warnings.begin(), segmentation.warnings.end());
+}
+
+Segmentation replay(const Project& project, const TriangleMesh& scan) {
+    return replay(project, scan, project.cuts.size());
+}
+
+Segmentation replay(const Project& project, const TriangleMesh& scan, std::size_t cuts) {
+    const double fragment_volume = project.settings.objectives.fragment_volume_mm3;
+    Segmentation segmentation = uncut(scan, fragment_volume);
+    discard_now(segmentation, project.discards);
+    for (const Cut& cut : std::span(project.cuts).first(cuts)) {
+        if (!apply(segmentation, cut, fragment_volume)) {
+            throw InputError(InputFault::config,
+                             "cut " + std::to_string(cut.number) + " of the project does not part piece " + cut.piece,
+                             "prepare the scan again");
+        }
+        discard_now(segmentation, project.discards);
+    }
+    return segmentation;
+}
+
+BeamProgress beam_progress(const Project& project, const Segmentation& standing,
+                           const std::function<const TriangleMesh&()>& scan) {
+    BeamProgress progress;
+    if (!project.beam || project.settings.beam <= 1) return progress;
+    progress.state = *project.beam;
+    const bool has_root = progress.state.from == standing.cuts.size();
+    progress.root = has_root ? standing : replay(project, scan(), progress.state.from);
+    return progress;
+}
+
+}  // namespace qchopper

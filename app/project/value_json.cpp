@@ -1,0 +1,146 @@
+#include "app/project/value_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "app/project/enum_words.h"
+
+namespace qchopper {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr EnumWord<Stop> stop_words[] = {{Stop::any, "any"}, {Stop::all, "all"}};
+constexpr EnumWord<FragilityForm> fragility_words[] = {{FragilityForm::thinness, "thinness"},
+                                                       {FragilityForm::thesis, "thesis"}};
+
+}  // namespace
+
+Json json_of(Vec3 v) {
+    return Json::array({v.x, v.y, v.z});
+}
+
+Vec3 vec3_from(const Json& json) {
+    return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
+
+Json json_of(const Weights& w) {
+    return {{"face_ratio", w.face_ratio},
+            {"fragility", w.fragility},
+            {"piece_count", w.piece_count},
+            {"undercut", w.undercut}};
+}
+
+Weights weights_from(const Json& json) {
+    return {json.at("face_ratio").get<double>(), json.at("fragility").get<double>(),
+            json.at("piece_count").get<double>(), json.at("undercut").get<double>()};
+}
+
+Json json_of(const Terms& t) {
+    return {{"face_ratio", t.face_ratio},
+            {"fragility", t.fragility},
+            {"piece_count", t.piece_count},
+            {"undercut", t.undercut},
+            {"total", t.total}};
+}
+
+Terms terms_from(const Json& json) {
+    return {json.at("face_ratio").get<double>(), json.at("fragility").get<double>(),
+            json.at("piece_count").get<double>(), json.at("undercut").get<double>(), json.at("total").get<double>()};
+}
+
+Json json_of(const SolidRecord& solid) {
+    Json json;
+    if (!solid.name.empty()) json["name"] = solid.name;
+    json["cut"] = solid.cut;
+    json["faces"] = solid.faces;
+    json["volume_mm3"] = solid.volume_mm3;
+    json["centre_mm"] = json_of(solid.centre);
+    return json;
+}
+
+SolidRecord solid_from(const Json& json) {
+    return {json.value("name", ""), json.at("cut").get<std::int32_t>(), json.at("faces").get<std::size_t>(),
+            json.at("volume_mm3").get<double>(), vec3_from(json.at("centre_mm"))};
+}
+
+Json json_of(const SearchSettings& s) {
+    const Objectives& o = s.objectives;
+    Json stop{{"combine", word_of(stop_words, s.stop.combine)},
+              {"fits_cell", s.stop.fits_cell},
+              {"max_cuts", s.stop.max_cuts}};
+    if (s.stop.max_faces) stop["max_faces"] = *s.stop.max_faces;
+    if (s.stop.min_cuts) stop["min_cuts"] = *s.stop.min_cuts;
+    if (s.stop.max_obb) stop["max_obb_mm"] = json_of(*s.stop.max_obb);
+    return {{"weights", json_of(o.weights)},
+            {"face_ratio_threshold", o.face_ratio_threshold},
+            {"fragility_form", word_of(fragility_words, o.fragility_form)},
+            {"fragility_distance_mm", o.fragility_distance},
+            {"undercut_by_area", o.undercut_by_area},
+            {"fragment_volume_mm3", o.fragment_volume_mm3},
+            {"offsets_per_normal", s.candidates.offsets_per_normal},
+            {"runners_up", s.runners_up},
+            {"beam", s.beam},
+            {"near", s.near},
+            {"stop", stop}};
+}
+
+SearchSettings settings_from(const Json& json) {
+    SearchSettings s;
+    s.objectives.weights = weights_from(json.at("weights"));
+    s.objectives.face_ratio_threshold = json.at("face_ratio_threshold").get<double>();
+    s.objectives.fragility_form = value_of(fragility_words, json.at("fragility_form"));
+    s.objectives.fragility_distance = json.at("fragility_distance_mm").get<double>();
+    s.objectives.undercut_by_area = json.at("undercut_by_area").get<bool>();
+    s.objectives.fragment_volume_mm3 = json.at("fragment_volume_mm3").get<double>();
+    s.candidates.offsets_per_normal = json.at("offsets_per_normal").get<int>();
+    s.runners_up = json.at("runners_up").get<std::size_t>();
+    s.beam = json.at("beam").get<std::size_t>();
+    s.near = json.at("near").get<double>();
+    const Json& stop = json.at("stop");
+    s.stop.combine = value_of(stop_words, stop.at("combine"));
+    s.stop.fits_cell = stop.at("fits_cell").get<bool>();
+    s.stop.max_cuts = stop.at("max_cuts").get<int>();
+    if (stop.contains("max_faces")) s.stop.max_faces = stop.at("max_faces").get<std::size_t>();
+    if (stop.contains("min_cuts")) s.stop.min_cuts = stop.at("min_cuts").get<int>();
+    if (stop.contains("max_obb_mm")) s.stop.max_obb = vec3_from(stop.at("max_obb_mm"));
+    return s;
+}
+
+Json json_of(const Ranked& r) {
+    return {{"normal", json_of(r.plane.normal)}, {"offset_mm", r.plane.offset}, {"wanted_offset_mm", r.wanted_offset},
+            {"normal_number", r.normal},         {"offset_number", r.offset},   {"terms", json_of(r.terms)}};
+}
+
+Ranked ranked_from(const Json& json) {
+    return {{vec3_from(json.at("normal")), json.at("offset_mm").get<double>()},
+            json.at("wanted_offset_mm").get<double>(),
+            json.at("normal_number").get<int>(),
+            json.at("offset_number").get<int>(),
+            terms_from(json.at("terms"))};
+}
+
+Json json_of(const Cut& cut) {
+    Json runners_up = Json::array();
+    for (const Ranked& r : cut.runners_up) runners_up.push_back(json_of(r));
+    return {{"number", cut.number},         {"piece", cut.piece},   {"chosen", json_of(cut.chosen)},
+            {"candidates", cut.candidates}, {"pieces", cut.pieces}, {"fragments", cut.fragments},
+            {"runners_up", runners_up}};
+}
+
+Cut cut_from(const Json& json) {
+    Cut cut;
+    cut.number = json.at("number").get<std::int32_t>();
+    cut.piece = json.at("piece").get<std::string>();
+    cut.chosen = ranked_from(json.at("chosen"));
+    cut.candidates = json.at("candidates").get<std::size_t>();
+    cut.pieces = json.at("pieces").get<std::vector<std::string>>();
+    cut.fragments = json.at("fragments").get<std::size_t>();
+    for (const Json& r : json.at("runners_up")) cut.runners_up.push_back(ranked_from(r));
+    return cut;
+}
+
+std::string text_of(const Json& document) {
+    return document.dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace qchopper

@@ -1,0 +1,32 @@
+// The JSON of the values that project.json and the documents of the commands have in common.
+//
+// Keys are those of docs/project-folder.md (VECTOR, WEIGHTS, TERMS, SOLID, SETTINGS, CUT). The readers
+// throw nlohmann's exceptions, and InputError (config) for a word that is not known.
+
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "app/project/project.h"
+
+namespace qchopper {
+
+nlohmann::ordered_json json_of(Vec3 v);
+nlohmann::ordered_json json_of(const Weights& weights);
+nlohmann::ordered_json json_of(const Terms& terms);
+nlohmann::ordered_json json_of(const SolidRecord& solid);  // a fragment has no name
+nlohmann::ordered_json json_of(const SearchSettings& settings);
+nlohmann::ordered_json json_of(const Cut& cut);
+
+Vec3 vec3_from(const nlohmann::ordered_json& json);
+Weights weights_from(const nlohmann::ordered_json& json);
+Terms terms_from(const nlohmann::ordered_json& json);
+SolidRecord solid_from(const nlohmann::ordered_json& json);
+SearchSettings settings_from(const nlohmann::ordered_json& json);
+Cut cut_from(const nlohmann::ordered_json& json);
+
+// A document as it is written: one space a level, bytes that are no UTF-8 replaced.
+std::string text_of(const nlohmann::ordered_json& document);
+
+}  // namespace qchopper

@@ -1,0 +1,70 @@
+#include "app/report/export_report.h"
+
+#include <nlohmann/json.hpp>
+
+#include "app/project/value_json.h"
+#include "app/report/columns.h"
+#include "app/report/segment_report.h"
+#include "base/text.h"
+
+namespace qchopper {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<std::string> warnings(const ExportedProject& exported, const ExportRequest& request) {
+    std::vector<std::string> text;
+    for (const ExportedPiece& row : exported.pieces) {
+        if (!row.simplified.has_too_many_faces) continue;
+        text.push_back("piece " + row.piece.name + " keeps " + with_commas(row.simplified.faces_after) +
+                       " faces, more than " + with_commas(*request.max_faces) + ": " +
+                       with_commas(row.simplified.cap_faces) + " are caps, which stay as they are");
+    }
+    return text;
+}
+
+std::vector<std::string> lines(const ExportedProject& exported, const Project& project) {
+    std::vector<std::vector<std::string>> cells{{"piece", "faces"}};
+    if (exported.is_simplified) cells[0].insert(cells[0].end(), {"before", "farthest (mm)"});
+    cells[0].push_back("file");
+    for (const ExportedPiece& row : exported.pieces) {
+        cells.push_back({row.piece.name, with_commas(row.piece.mesh->triangles.size())});
+        if (exported.is_simplified) {
+            cells.back().push_back(with_commas(row.simplified.faces_before));
+            cells.back().push_back(fixed(row.simplified.deviation(), 4));
+        }
+        cells.back().push_back(row.file.string());
+    }
+    std::vector<std::string> text = columns(cells);
+    for (const std::string& line : discarded_lines(project)) text.push_back(line);
+    return text;
+}
+
+std::string document(const ExportedProject& exported, const ExportRequest& request, const Project& project,
+                     const std::filesystem::path& folder) {
+    Json pieces = Json::array();
+    for (const ExportedPiece& row : exported.pieces) {
+        Json piece{{"piece", row.piece.name},
+                   {"file", row.file.string()},
+                   {"faces", row.piece.mesh->triangles.size()},
+                   {"cut", row.piece.step},
+                   {"fits", row.piece.fits ? Json(*row.piece.fits) : Json()}};
+        if (exported.is_simplified) {
+            piece["simplified"] = {{"faces_before", row.simplified.faces_before},
+                                   {"cap_faces", row.simplified.cap_faces},
+                                   {"from_piece_mm", row.simplified.from_piece},
+                                   {"from_result_mm", row.simplified.from_result}};
+        }
+        pieces.push_back(std::move(piece));
+    }
+    return text_of({{"schema", "qchopper-export-1"},
+                    {"project", folder.string()},
+                    {"format", request.format},
+                    {"pose", request.pose},
+                    {"units", request.format == "glb" ? "m" : "mm"},
+                    {"output", exported.out.string()},
+                    {"centre_mm", json_of(project.scan.centre)},
+                    {"pieces", pieces},
+                    {"discarded", discarded_json(project)}});
+}
+
+}  // namespace qchopper

@@ -1,0 +1,71 @@
+#include "app/report/hand_over_report.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/project/value_json.h"
+#include "app/report/columns.h"
+#include "base/text.h"
+#include "base/uuid.h"
+
+namespace qchopper {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string ending(const JobOutcome& outcome) {
+    return outcome.is_complete() ? "Ended, complete" : outcome.why;
+}
+
+Json job_json(const HandedOver& handed) {
+    const JobOutcome& o = handed.outcome;
+    return {{"piece", handed.piece},
+            {"job_id", to_text(o.job_id)},
+            {"verdict", describe(o.verdict)},
+            {"job_state", static_cast<int>(o.job_state)},
+            {"job_result", static_cast<int>(o.job_result)},
+            {"ended_complete", o.is_complete()},
+            {"starts", o.starts_known ? Json(o.starts) : Json()},
+            {"elapsed_s", o.elapsed_s},
+            {"why", o.why},
+            {"to_do", o.to_do},
+            {"log", o.log}};
+}
+
+}  // namespace
+
+bool HandOverReport::is_complete() const {
+    return handed.size() == wanted &&
+           std::all_of(handed.begin(), handed.end(), [](const HandedOver& h) { return h.outcome.is_complete(); });
+}
+
+bool HandOverReport::is_cancelled() const {
+    return std::any_of(handed.begin(), handed.end(), [](const HandedOver& h) { return h.outcome.cancelled; });
+}
+
+std::vector<std::string> lines(const HandOverReport& report) {
+    std::vector<std::vector<std::string>> rows{{"piece", "job", "start", "STARTS", "end", "s"}};
+    for (const auto& [piece, o] : report.handed) {
+        rows.push_back({piece, to_text(o.job_id), describe(o.verdict), o.starts_known ? std::to_string(o.starts) : "?",
+                        ending(o), fixed(o.took_s, 1)});
+    }
+    std::vector<std::string> text = columns(rows);
+    const std::string cell = report.is_simulated ? "the simulated cell" : "the cell";
+    text.push_back(report.is_complete()
+                       ? "all " + std::to_string(report.wanted) + " jobs ended complete on " + cell
+                       : std::to_string(report.handed.size()) + " of " + std::to_string(report.wanted) +
+                             " jobs were handed to " + cell + "; not all ended complete");
+    return text;
+}
+
+std::string document(const HandOverReport& report, const std::string& schema) {
+    Json jobs = Json::array();
+    for (const HandedOver& handed : report.handed) jobs.push_back(job_json(handed));
+    return text_of({{"schema", schema},
+                    {"simulated", report.is_simulated},
+                    {"jobs_wanted", report.wanted},
+                    {"all_complete", report.is_complete()},
+                    {"jobs", jobs}});
+}
+
+}  // namespace qchopper

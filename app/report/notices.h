@@ -1,0 +1,28 @@
+// The small JSON documents: an error, a sample that was made, a simulated cell that listens.
+
+#pragma once
+
+#include <string>
+
+#include "segment/mesh/triangle_mesh.h"
+#include "segment/sample/sample.h"
+
+namespace qchopper {
+
+std::string error_document(const std::string& error, const std::string& unchanged, const std::string& to_do,
+                           int exit_code);
+
+// A specimen that was written to a file.
+struct WrittenSample {
+    std::string specimen;
+    std::string file;
+    int holes = 0;
+    TriangleMesh mesh;  // mm
+    DrawnMarks marks;
+};
+std::vector<std::string> lines(const WrittenSample& sample);
+std::string document(const WrittenSample& sample);
+
+std::string listening_document(const std::string& address);
+
+}  // namespace qchopper

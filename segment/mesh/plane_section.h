@@ -1,0 +1,84 @@
+// Where a plane crosses a mesh: the one place that the cut, the sweep and the outline share.
+//
+// mm. Which side a point lies on is decided by height() in plane.h alone; at the plane's height counts as above. The
+// point of a crossed edge is computed from its upper end, so that both triangles, and every caller, get the same bits
+// (tests/segment/score/touching_test.cpp, tests/app/project/outline_test.cpp).
+
+#pragma once
+
+#include <cassert>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "segment/mesh/plane.h"
+#include "segment/mesh/plane_frame.h"
+#include "segment/mesh/polygon.h"
+#include "segment/mesh/triangle_mesh.h"
+
+namespace qchopper {
+
+// How a plane crosses a triangle: one corner, the apex, lies alone on its side.
+struct TriangleCrossing {
+    std::uint32_t apex = 0;  // 0..2
+    bool apex_is_above = false;
+    // The edges, by the corner that they start at, through which the surface leaves downwards and enters upwards.
+    std::uint32_t exit() const { return apex_is_above ? apex : (apex + 2) % 3; }
+    std::uint32_t entry() const { return apex_is_above ? (apex + 2) % 3 : apex; }
+};
+
+// Precondition: the corners are not all on one side.
+inline TriangleCrossing triangle_crossing(bool above_0, bool above_1, bool above_2) {
+    const bool apex_is_above = above_0 + above_1 + above_2 == 1;
+    const std::uint32_t apex = above_0 == apex_is_above ? 0 : above_1 == apex_is_above ? 1 : 2;
+    assert(above_0 + above_1 + above_2 == (apex_is_above ? 1 : 2));
+    return {apex, apex_is_above};
+}
+
+struct EdgeEnd {
+    Vec3 point;
+    double height = 0;
+};
+
+inline Vec3 edge_crossing(const EdgeEnd& upper, const EdgeEnd& lower, double offset) {
+    assert(upper.height >= offset && lower.height < offset);
+    return upper.point + ((upper.height - offset) / (upper.height - lower.height)) * (lower.point - upper.point);
+}
+
+inline Point2 flattened(const PlaneFrame& frame, Vec3 origin, Vec3 point) {
+    const Vec3 d = point - origin;
+    return {dot(frame.u, d), dot(frame.v, d)};
+}
+
+// The cycles of a permutation, numbered by their first member.
+struct Cycles {
+    struct Cycle {
+        std::uint32_t first = 0;
+        std::uint32_t size = 0;
+    };
+    std::vector<std::uint32_t> cycle_of;  // per member
+    std::vector<Cycle> cycles;
+};
+Cycles cycles(std::span<const std::uint32_t> next);
+
+struct SectionTriangle {
+    std::uint32_t triangle = 0;
+    TriangleCrossing crossing;
+    std::uint32_t exit_point = 0;  // in PlaneSection::points, on the edges of the crossing
+    std::uint32_t entry_point = 0;
+};
+
+struct PlaneSection {
+    std::vector<SectionTriangle> triangles;  // ascending
+    std::vector<Vec3> points;                // one per crossed edge
+    std::vector<Loop> loops;                 // counter-clockwise around material seen against the normal
+};
+
+// Per point of the mesh: 1 if it is above the plane, else 0.
+std::vector<std::uint8_t> points_above(const TriangleMesh& mesh, const Plane& plane);
+
+// Empty where the plane misses. `is_above` is points_above of the same plane. Throws InputError if the mesh is open
+// where the plane passes. O(triangles + c log c) for c crossed triangles.
+PlaneSection plane_section(const TriangleMesh& mesh, const Plane& plane, std::span<const std::uint8_t> is_above);
+
+}  // namespace qchopper

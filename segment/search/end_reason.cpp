@@ -1,0 +1,38 @@
+#include "segment/search/end_reason.h"
+
+#include <algorithm>
+#include <array>
+
+namespace qchopper {
+namespace {
+
+// A sentence is what stands before its figure, the figure, and what stands after it.
+struct Sentence {
+    EndReason reason;
+    const char* before;
+    const char* after;
+};
+constexpr std::array<Sentence, 5> sentences{{
+    {EndReason::rules_hold, "the stop rules hold", ""},
+    {EndReason::no_rule, "no stop rule is set", ""},
+    {EndReason::no_plane, "no plane parts any of the unfinished pieces", ""},
+    {EndReason::max_cuts, "the safety stop of ", " cuts is reached"},
+    {EndReason::time_limit, "the time limit of ", " s is reached"},
+}};
+
+}  // namespace
+
+std::string describe(EndReason reason, const std::string& figure) {
+    const Sentence& s =
+        *std::find_if(sentences.begin(), sentences.end(), [&](const auto& x) { return x.reason == reason; });
+    return s.before + figure + s.after;
+}
+
+std::optional<EndReason> end_reason_of(std::string_view sentence) {
+    for (const Sentence& s : sentences) {
+        if (sentence.starts_with(s.before)) return s.reason;
+    }
+    return std::nullopt;
+}
+
+}  // namespace qchopper

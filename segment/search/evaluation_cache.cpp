@@ -1,0 +1,140 @@
+#include "segment/search/evaluation_cache.h"
+
+#include <cassert>
+#include <mutex>
+#include <set>
+
+#include "base/parallel.h"
+#include "segment/score/evaluate.h"
+
+namespace qchopper {
+namespace {
+
+// Several pieces report as one: counts add up, and one thread speaks at a time.
+class SharedProgress {
+ public:
+    SharedProgress(const Context& context, std::size_t total) : context_(context), total_(total) {}
+
+    Context of_one_piece() {
+        Context context;
+        context.cancelled = context_.cancelled;
+        context.on_progress = [this, before = std::size_t{0}](const Progress& p) mutable {
+            const std::lock_guard lock(speaking_);
+            done_ += p.done - before;
+            before = p.done;
+            context_.progress(p.what, done_, total_);
+        };
+        return context;
+    }
+
+ private:
+    const Context& context_;
+    std::size_t total_;
+    std::size_t done_ = 0;
+    std::mutex speaking_;
+};
+
+}  // namespace
+
+EvaluationCache::EvaluationCache(const Objectives& objectives, const CandidateOptions& options, EvaluationStore store)
+    : objectives_(objectives), options_(options), store_(std::move(store)) {}
+
+EvaluationCache::Entry& EvaluationCache::entry(const Piece& piece) {
+    Entry& e = entries_[piece.mesh.get()];
+    e.mesh = piece.mesh;
+    return e;
+}
+
+const OrientedBox& EvaluationCache::box(const Piece& piece) {
+    Entry& e = entry(piece);
+    if (!e.box) {
+        e.box = oriented_box(piece.mesh->points);
+        ++box_count_;
+    }
+    return *e.box;
+}
+
+const SolidEvaluation& EvaluationCache::own(const Piece& piece) {
+    Entry& e = entry(piece);
+    if (!e.own) e.own = measure(piece);
+    return *e.own;
+}
+
+bool EvaluationCache::is_known(const Piece& piece, Entry& e) {
+    if (e.evaluations) return true;
+    if (!store_.find) return false;
+    if (std::optional<PieceEvaluations> found = store_.find(piece)) {
+        e.evaluations = std::make_shared<const PieceEvaluations>(std::move(*found));
+    }
+    return e.evaluations != nullptr;
+}
+
+// What candidate_planes() gives, from the box that is known already.
+std::vector<Candidate> EvaluationCache::candidates_of(const Piece& piece, const OrientedBox& box) const {
+    std::vector<Candidate> all;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::vector<Candidate> some =
+            candidates_along(piece, box.axis[static_cast<std::size_t>(axis)], axis, options_.offsets_per_normal);
+        all.insert(all.end(), some.begin(), some.end());
+    }
+    return all;
+}
+
+void EvaluationCache::evaluate(std::span<const Piece* const> pieces, const Context& context) {
+    struct Task {
+        const Piece* piece;
+        Entry* entry;
+        PieceEvaluations evaluations;
+    };
+    std::vector<Task> tasks;
+    for (const Piece* piece : pieces) {
+        Entry& e = entry(*piece);
+        if (is_known(*piece, e)) continue;
+        if (!e.box) ++box_count_;
+        tasks.push_back({piece, &e, {}});
+    }
+    if (tasks.empty()) return;
+    parallel_for(0, tasks.size(), [&](std::size_t i) {
+        Task& task = tasks[i];
+        if (!task.entry->box) task.entry->box = oriented_box(task.piece->mesh->points);
+        task.evaluations.candidates = candidates_of(*task.piece, *task.entry->box);
+    });
+    std::size_t planes = 0;
+    for (const Task& task : tasks) planes += task.evaluations.candidates.size();
+    SharedProgress progress(context, planes);
+    parallel_for(0, tasks.size(), [&](std::size_t i) {
+        Task& task = tasks[i];
+        task.evaluations.evaluations =
+            evaluate_all(*task.piece, task.evaluations.candidates, objectives_, progress.of_one_piece());
+    });
+    for (Task& task : tasks) {
+        if (store_.keep) store_.keep(*task.piece, task.evaluations);
+        task.entry->evaluations = std::make_shared<const PieceEvaluations>(std::move(task.evaluations));
+        ++evaluated_count_;
+    }
+}
+
+bool EvaluationCache::is_evaluated(const Piece& piece) const {
+    const auto found = entries_.find(piece.mesh.get());
+    return found != entries_.end() && found->second.evaluations != nullptr;
+}
+
+const PieceEvaluations& EvaluationCache::evaluations(const Piece& piece) const {
+    assert(is_evaluated(piece));
+    return *entries_.at(piece.mesh.get()).evaluations;
+}
+
+std::optional<CutEvaluation> EvaluationCache::evaluation_of(const Piece& piece, const Candidate& plane,
+                                                            const Context& context) {
+    return evaluate_all(piece, std::span(&plane, 1), objectives_, context).front();
+}
+
+void EvaluationCache::keep_only(std::span<const Segmentation* const> segmentations) {
+    std::set<const TriangleMesh*> held;
+    for (const Segmentation* s : segmentations) {
+        for (const Piece& piece : s->pieces) held.insert(piece.mesh.get());
+    }
+    std::erase_if(entries_, [&](const auto& e) { return !held.contains(e.first); });
+}
+
+}  // namespace qchopper

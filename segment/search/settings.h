@@ -1,0 +1,24 @@
+// What a search is told: weights, candidates, stop rules, width of the beam.
+
+#pragma once
+
+#include <cstddef>
+
+#include "segment/score/candidates.h"
+#include "segment/score/objectives.h"
+#include "segment/search/stop_rules.h"
+
+namespace qchopper {
+
+struct SearchSettings {
+    Objectives objectives;
+    CandidateOptions candidates;
+    StopRules stop;
+    std::size_t runners_up = 9;  // how many are kept beside the chosen one
+    std::size_t beam = 1;        // b: how many BSPs are kept per round
+    double near = 0.06;          // of two candidates of one parent with one normal and offsets nearer than this share
+                                 // of the piece's extent, the worse is culled; of no effect at b = 1
+    bool operator==(const SearchSettings&) const = default;
+};
+
+}  // namespace qchopper
