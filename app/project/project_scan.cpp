@@ -44,7 +44,8 @@ ImportedScan import_project_scan(const ProjectChoices& choices, const Context& c
 
 ImportedScan import_project_scan(const Project& project, const Context& context) {
     const ScanSource& s = project.scan;
-    ImportedScan imported = import_scan(s.path, options_of(ProjectChoices{s.path, mm_per(s.unit), s.scale, s.repair}), context);
+    ImportedScan imported =
+        import_scan(s.path, options_of(ProjectChoices{s.path, mm_per(s.unit), s.scale, s.repair}), context);
     if (to_hex(imported.sha256) != s.sha256) {
         throw InputError(InputFault::mesh, s.path.string() + " is not the scan that the project was made from",
                          "put that scan back, or prepare this one as a new project");
