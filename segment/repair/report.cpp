@@ -9,11 +9,6 @@ namespace {
 
 constexpr double warn_added_share = 0.05;
 
-// Without the commas of counted(): programs read these words in the JSON of a repair.
-std::string amount(std::size_t count, const std::string& one, const std::string& many) {
-    return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
 std::string in_digits(double value) {
     return significant(value, 3);
 }
@@ -22,7 +17,7 @@ std::string in_digits(double value) {
 class Words {
  public:
     Words& add(std::size_t count, const std::string& one, const std::string& many) {
-        if (count > 0) add(amount(count, one, many));
+        if (count > 0) add(counted(count, one, many));
         return *this;
     }
     Words& add(const std::string& words) {
@@ -38,7 +33,7 @@ class Words {
 std::string filling(const RepairReport& r) {
     Words words;
     words.add(r.holes_filled, "hole closed", "holes closed");
-    if (r.holes_filled > 0) words.add("with " + amount(r.faces_added, "face", "faces"));
+    if (r.holes_filled > 0) words.add("with " + counted(r.faces_added, "face", "faces"));
     words.add(r.holes_faired, "of them faired", "of them faired");
     words.add(r.points_added, "point added", "points added");
     words.add(r.left_open.size(), "hole left open", "holes left open");
@@ -48,22 +43,22 @@ std::string filling(const RepairReport& r) {
 
 std::string fragments(const RepairReport& r) {
     if (r.fragments == 0) return "none";
-    return amount(r.fragments, "fragment", "fragments") + " with " + in_digits(100 * r.fragment_area_share) +
+    return counted(r.fragments, "fragment", "fragments") + " with " + in_digits(100 * r.fragment_area_share) +
            " % of the surface " + (r.fragments_dropped ? "dropped" : "kept");
 }
 
 std::string resolving(const RepairReport& r) {
     if (!r.resolved) return "not asked for";
     if (r.resolved->pairs == 0) return "nothing to do";
-    return amount(r.resolved->places, "place", "places") + " mended, " +
-           amount(r.resolved->left, "pair of faces", "pairs of faces") + " left of " +
+    return counted(r.resolved->places, "place", "places") + " mended, " +
+           counted(r.resolved->left, "pair of faces", "pairs of faces") + " left of " +
            std::to_string(r.resolved->pairs) + (r.resolving_undone ? "; undone" : "");
 }
 
 std::string smoothing(const RepairReport& r) {
     if (!r.marks) return "not asked for";
     if (r.marks->marks == 0) return "no marks found";
-    return amount(r.marks->marks, "mark", "marks") + " lifted, " + in_digits(r.marks->area_mm2) + " mm2, at most " +
+    return counted(r.marks->marks, "mark", "marks") + " lifted, " + in_digits(r.marks->area_mm2) + " mm2, at most " +
            in_digits(r.marks->most_depth) + " mm deep";
 }
 
@@ -71,7 +66,7 @@ std::string smoothing(const RepairReport& r) {
 class Sentences {
  public:
     void add(std::size_t count, const std::string& one, const std::string& many, const std::string& rest) {
-        if (count > 0) all.push_back(amount(count, one, many) + rest);
+        if (count > 0) all.push_back(counted(count, one, many) + rest);
     }
     std::vector<std::string> all;
 };
@@ -83,13 +78,13 @@ void tell_of_surface(const RepairReport& r, Sentences& say) {
     say.add(r.edges_cut, "edge was", "edges were", " cut open, because the faces there cannot be made to agree.");
     say.add(r.faces_turned, "face was", "faces were", " turned to agree with the neighbours.");
     say.add(r.repeated + r.of_double_sheets, "face", "faces", " that lay on another one dropped.");
-    say.add(r.holes_filled, "hole", "holes", " closed with " + amount(r.faces_added, "face", "faces") + ".");
+    say.add(r.holes_filled, "hole", "holes", " closed with " + counted(r.faces_added, "face", "faces") + ".");
     if (r.added_area_share > warn_added_share) {
         say.all.push_back("What closes the holes makes up " + in_digits(std::round(100 * r.added_area_share)) +
                           " % of the surface: compare the picture with the bone.");
     }
     say.add(r.open_components, "small open component was", "small open components were",
-            " taken away (" + amount(r.open_component_faces, "face", "faces") + ").");
+            " taken away (" + counted(r.open_component_faces, "face", "faces") + ").");
 }
 
 void tell_of_shells(const RepairReport& r, Sentences& say) {
@@ -106,8 +101,8 @@ void tell_of_what_was_asked_for(const RepairReport& r, Sentences& say) {
         say.all.emplace_back(
             "The places where the scan runs through itself are left: mending them would have opened it.");
     } else if (r.resolved && r.resolved->left > 0) {
-        say.all.push_back(
-            "The scan still runs through itself: " + amount(r.resolved->left, "pair of faces", "pairs of faces") + ".");
+        say.all.push_back("The scan still runs through itself: " +
+                          counted(r.resolved->left, "pair of faces", "pairs of faces") + ".");
     }
     if (r.marks) {
         say.add(r.marks->marks, "mark was", "marks were",

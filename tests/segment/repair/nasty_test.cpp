@@ -72,7 +72,7 @@ const Row rows[] = {
     {"made_flipped_half.stl",
      69664,
      {"orient: 34725 faces turned to agree with their neighbours", "fill: 5 holes closed, with 213 faces"}},
-    {"made_header_solid_binary.stl", refused, {"is open: 1549 parts of it are sheets"}},
+    {"made_header_solid_binary.stl", refused, {"is open: 1,549 parts of it are sheets"}},
     {"made_inside_out.stl", 69664, {"fill: 5 holes closed, with 213 faces", "outwards: 1 shell turned outwards"}},
     {"made_nan_inf.stl", refused, {"vertex 1 of triangle 17 (byte 958) has a coordinate that is not a finite number"}},
     {"made_nested_cavity_cube.stl", 24, {}},
