@@ -74,23 +74,14 @@ Decoded<T> decoded(const Block& block, std::span<const std::uint16_t> registers)
 }  // namespace
 
 const char* describe(BlockFault fault) {
-    switch (fault) {
-        case BlockFault::none:
-            return "right";
-        case BlockFault::length:
-            return "of the wrong length";
-        case BlockFault::empty:
-            return "all zero";
-        case BlockFault::magic:
-            return "without the mark of a cell of ours";
-        case BlockFault::version:
-            return "of another version of the register map";
-        case BlockFault::crc:
-            return "damaged (checksum)";
-        case BlockFault::torn:
-            return "torn (two snapshots in one)";
-    }
-    return "";
+    constexpr const char* texts[] = {"right",
+                                     "of the wrong length",
+                                     "all zero",
+                                     "without the mark of a cell of ours",
+                                     "of another version of the register map",
+                                     "damaged (checksum)",
+                                     "torn (two snapshots in one)"};  // in the order of BlockFault
+    return texts[static_cast<std::size_t>(fault)];
 }
 
 Registers encode(const Status& status) {

@@ -257,15 +257,9 @@ void check_file(const JobTicket& ticket, const Bytes& file) {
 }  // namespace
 
 const char* describe(StartVerdict verdict) {
-    switch (verdict) {
-        case StartVerdict::started:
-            return "STARTED";
-        case StartVerdict::not_started:
-            return "NOT STARTED";
-        case StartVerdict::unknown:
-            return "UNKNOWN: ask the cell";
-    }
-    return "";
+    constexpr const char* texts[] = {"STARTED", "NOT STARTED",
+                                     "UNKNOWN: ask the cell"};  // in the order of StartVerdict
+    return texts[static_cast<std::size_t>(verdict)];
 }
 
 JobOutcome dispatch_job(RegisterBus& bus, const JobTicket& ticket, const Bytes& file, const DispatchOptions& options,

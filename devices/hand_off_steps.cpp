@@ -354,26 +354,29 @@ HandOffAction refused(StepContext& context, AckResult result) {
 namespace qchopper {
 
 const char* remedy(AckResult refusal) {
-    switch (refusal) {
-        case AckResult::no_consent:
-            return "Ask the operator at the cell, then dispatch again.";
-        case AckResult::file_missing:
-            return "Is the drop folder the one that the cell looks into?";
-        case AckResult::hash_mismatch:
-        case AckResult::file_size:
-            return "Something changed the job file on the way; dispatch it again.";
-        case AckResult::envelope:
-        case AckResult::stock_too_small:
-        case AckResult::tool:
-            return "Prepare the project with the cell file of this cell.";
-        case AckResult::store_full:
-        case AckResult::store_io:
-            return "Make room on the disk of the cell.";
-        case AckResult::stale_epoch:
-            return "Only one dispatcher may drive a cell.";
-        default:
-            return "";
+    struct Remedy {
+        AckResult refusal;
+        const char* text;
+    };
+    constexpr const char* changed = "Something changed the job file on the way; dispatch it again.";
+    constexpr const char* other_cell = "Prepare the project with the cell file of this cell.";
+    constexpr const char* no_room = "Make room on the disk of the cell.";
+    constexpr Remedy remedies[] = {
+        {AckResult::no_consent, "Ask the operator at the cell, then dispatch again."},
+        {AckResult::file_missing, "Is the drop folder the one that the cell looks into?"},
+        {AckResult::hash_mismatch, changed},
+        {AckResult::file_size, changed},
+        {AckResult::envelope, other_cell},
+        {AckResult::stock_too_small, other_cell},
+        {AckResult::tool, other_cell},
+        {AckResult::store_full, no_room},
+        {AckResult::store_io, no_room},
+        {AckResult::stale_epoch, "Only one dispatcher may drive a cell."},
+    };
+    for (const Remedy& row : remedies) {
+        if (row.refusal == refusal) return row.text;
     }
+    return "";
 }
 
 }  // namespace qchopper

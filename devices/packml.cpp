@@ -1,5 +1,8 @@
 #include "devices/packml.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace qchopper {
 namespace {
 
@@ -71,21 +74,9 @@ bool job_command_allowed(PackState from, Command command) {
 }  // namespace
 
 bool has_active_job(PackState state) {
-    switch (state) {
-        case starting:
-        case execute:
-        case completing:
-        case holding:
-        case held:
-        case unholding:
-        case suspending:
-        case suspended:
-        case unsuspending:
-        case stopping:
-            return true;
-        default:
-            return false;
-    }
+    constexpr PackState active[] = {starting,  execute,    completing, holding,      held,
+                                    unholding, suspending, suspended,  unsuspending, stopping};
+    return std::find(std::begin(active), std::end(active), state) != std::end(active);
 }
 
 Transition transition(PackState from, CellCommand command) {
@@ -120,51 +111,14 @@ const char* name(PackState state) {
 }
 
 const char* name(CellCommand command) {
-    switch (command) {
-        case Command::none:
-            return "none";
-        case Command::reset:
-            return "Reset";
-        case Command::start:
-            return "Start";
-        case Command::stop:
-            return "Stop";
-        case Command::hold:
-            return "Hold";
-        case Command::unhold:
-            return "Unhold";
-        case Command::suspend:
-            return "Suspend";
-        case Command::unsuspend:
-            return "Unsuspend";
-        case Command::abort:
-            return "Abort";
-        case Command::clear:
-            return "Clear";
-        case Command::complete:
-            return "Complete";
-        case Command::claim:
-            return "CLAIM";
-        case Command::release:
-            return "RELEASE";
-        case Command::store:
-            return "STORE";
-        case Command::verify:
-            return "VERIFY";
-        case Command::prepare:
-            return "PREPARE";
-        case Command::cancel:
-            return "CANCEL";
-        case Command::query:
-            return "QUERY";
-        case Command::clear_result:
-            return "CLEAR_RESULT";
-        case Command::rehearse:
-            return "REHEARSE";
-        case Command::set_mode:
-            return "SET_MODE";
-    }
-    return "unknown";
+    constexpr const char* machine[] = {"none",    "Reset",     "Start", "Stop",  "Hold",    "Unhold",
+                                       "Suspend", "Unsuspend", "Abort", "Clear", "Complete"};
+    constexpr const char* job[] = {"CLAIM",  "RELEASE", "STORE",        "VERIFY",   "PREPARE",
+                                   "CANCEL", "QUERY",   "CLEAR_RESULT", "REHEARSE", "SET_MODE"};
+    const std::size_t number = static_cast<std::size_t>(command);
+    constexpr auto first_of_job = static_cast<std::size_t>(Command::claim);
+    if (number < std::size(machine)) return machine[number];
+    return number >= first_of_job && number - first_of_job < std::size(job) ? job[number - first_of_job] : "unknown";
 }
 
 }  // namespace qchopper

@@ -7,23 +7,9 @@ namespace qchopper {
 namespace {
 
 const char* type_name(FieldType type) {
-    switch (type) {
-        case FieldType::u16:
-            return "u16";
-        case FieldType::u32:
-            return "u32";
-        case FieldType::u64:
-            return "u64";
-        case FieldType::i32:
-            return "i32";
-        case FieldType::text:
-            return "text";
-        case FieldType::bytes:
-            return "bytes";
-        case FieldType::words:
-            return "words";
-    }
-    return "";
+    constexpr const char* names[] = {"u16",  "u32",   "u64",  "i32",
+                                     "text", "bytes", "words"};  // in the order of FieldType
+    return names[static_cast<std::size_t>(type)];
 }
 
 // One line of a table.

@@ -20,23 +20,15 @@ std::string sentence(const std::string& text) {
 
 // What helps where the fault was seen too deep down to know.
 const char* general_remedy(InputFault fault) {
-    switch (fault) {
-        case InputFault::use:
-            return "see qchopper --help";
-        case InputFault::mesh:
-            return "see what is wrong with it by: qchopper inspect SCAN";
-        case InputFault::missing:
-            return "check the name and the rights";
-        case InputFault::create:
-            return "choose another place";
-        case InputFault::io:
-            return "check the disk, then say it again";
-        case InputFault::busy:
-            return "wait until it is done, then say it again";
-        case InputFault::config:
-            return "mend that file; docs/cell-file.md explains the keys of a cell";
-    }
-    return "";
+    constexpr const char* remedies[] = {
+        "see qchopper --help",
+        "see what is wrong with it by: qchopper inspect SCAN",
+        "check the name and the rights",
+        "choose another place",
+        "check the disk, then run the command again",
+        "wait until it is done, then run the command again",
+        "correct that file; docs/cell-file.md explains the keys of a cell"};  // in the order of InputFault
+    return remedies[static_cast<std::size_t>(fault)];
 }
 
 // One line: what failed and why; what is unchanged; what to do.

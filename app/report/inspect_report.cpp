@@ -15,15 +15,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const char* word_of(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::ready:
-            return "ready";
-        case Verdict::to_repair:
-            return "to repair";
-        case Verdict::unrepairable:
-            break;
-    }
-    return "unrepairable";
+    constexpr const char* words[] = {"ready", "to repair", "unrepairable"};  // in the order of Verdict
+    return words[static_cast<std::size_t>(verdict)];
 }
 
 // "(1.2, 0.5, -3)"
