@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "cam/job/job_file.h"
 #include "tests/cam/job/some_job.h"
 
 namespace qchopper {
