@@ -34,7 +34,7 @@ fs::path output_of(const ExportRequest& a, const fs::path& project) {
     std::error_code error;
     if (!a.out) return project.parent_path() / name;
     if (fs::is_directory(*a.out, error)) return *a.out / name;
-    const fs::path out = without_slash(*a.out);
+    fs::path out = without_slash(*a.out);
     if (is_one_file(a) != (out.extension() == "." + a.format)) {
         throw InputError(InputFault::use,
                          is_one_file(a) ? out.string() + " does not end in ." + a.format

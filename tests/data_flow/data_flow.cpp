@@ -7,6 +7,7 @@
 #include <set>
 
 #include "app/cli/simulated_limits.h"
+#include "cam/job/job_file.h"
 #include "cam/setup/envelope.h"
 #include "cam/setup/setup.h"
 #include "devices/dispatch.h"
