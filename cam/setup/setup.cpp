@@ -130,7 +130,7 @@ void describe(const Candidate& chosen, Setup& setup) {
     setup.base_words = "the cap of cut " + std::to_string(*chosen.base);
     if (setup.base_is_stable) return;
     setup.warnings.push_back("the base is only " + percent(chosen.facing.base / chosen.projected_area_mm2) +
-                             " of the piece's shadow: it may tip or break off");
+                             " of the piece's projected area: it may tip or break off");
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST(Inspect, CountsEveryFault) {
     EXPECT_EQ(inspect(raw(twice)).non_manifold, 3U);
 
     EXPECT_EQ(inspect(raw(shapes::joined({shapes::box({0, 0, 0}, {1, 1, 1}), shapes::box({1, 1, 1}, {2, 2, 2})})))
-                  .non_manifold,
+                  .non_manifold_vertices,
               1U);
 
     TriangleMesh flat;
