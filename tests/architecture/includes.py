@@ -24,7 +24,7 @@ SUB_MODULES = {
 VIEW = {
     "devices": {"base/", "cam/job/ticket.h"},
     "sim": {"base/", "segment/mesh/", "segment/io/", "segment/import/", "cam/cell/"}
-    | {f"devices/{name}.h" for name in ("registers", "codes", "field", "blocks", "codec", "bus", "words", "packml")},
+    | {f"devices/{name}.h" for name in ("registers", "codes", "field", "blocks", "codec", "bus", "register_writer", "packml")},
 }
 
 # Modules in which no included header may belong to a source that includes CGAL.
