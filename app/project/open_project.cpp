@@ -209,7 +209,7 @@ SearchEnd OpenProject::search(const FitsCell& fits_cell, const std::function<voi
         adopt(best, progress.saved());
         on_round(best);
     };
-    const SearchEnd end =
+    SearchEnd end =
         qchopper::search(working, project_.settings, book(), fits_cell, keep, context, time_limit_s, &progress);
     adopt(working, end.is_out_of_time() ? progress.saved() : std::nullopt);
     end_ = end;

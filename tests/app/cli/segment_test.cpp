@@ -245,7 +245,7 @@ TEST_F(Segment, TellsAMissFromFragmentsWithTheExtentOfThePiece) {
         const program::Ended missed = run({"segment", "p.qch", "--plane", far});
         EXPECT_EQ(missed.code, 1) << missed.err;
         EXPECT_NE(missed.out.find("misses piece A, which extends from -"), std::string::npos) << missed.out;
-        EXPECT_EQ(missed.out.find("fragments"), std::string::npos) << missed.out;
+        EXPECT_EQ(missed.out.find("only fragments"), std::string::npos) << missed.out;
     }
     const std::string told = run({"segment", "p.qch", "--plane", "0,0,1,1e9"}).out;
     const std::size_t at = told.find(" to ", told.find("extends from"));
