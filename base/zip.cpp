@@ -110,7 +110,7 @@ void add(zip_t* archive, Reading& reading) {
     must(source != nullptr);
     const zip_int64_t index = zip_file_add(archive, reading.entry.name.c_str(), source.get(), ZIP_FL_ENC_UTF_8);
     must(index >= 0);
-    source.release();  // the archive owns it now
+    static_cast<void>(source.release());  // the archive owns it now
     const auto entry = static_cast<zip_uint64_t>(index);
     constexpr zip_uint32_t level = 5;  // of 9: text shrinks to a fifth, and more effort gains hardly anything
     const bool packed = reading.entry.is_packed;
@@ -165,7 +165,7 @@ Bytes zip(const std::vector<ZipEntry>& entries) {
     const bool is_closed = zip_close(archive.get()) == 0;
     if (failure) std::rethrow_exception(failure);
     must(is_closed);
-    archive.release();
+    static_cast<void>(archive.release());
     return content(target.get());
 }
 

@@ -107,7 +107,7 @@ HandOffAction take_result(StepContext& context) {
     if (const std::string what = contradiction_in(context); !what.empty()) return contradict(context, what);
     const ResultRecord& result = *context.in.result;
     if (h.step == ask_before) {
-        const HandOffAction instead = take_state_before(context);
+        HandOffAction instead = take_state_before(context);
         if (instead.kind != Kind::finish || h.step == finished) return instead;
     }
     if (!has_started(result.job_state) && h.is_started) {

@@ -7,7 +7,7 @@ namespace qchopper {
 namespace {
 
 constexpr std::size_t header_bytes = 7;  // transaction, protocol, length, unit
-constexpr std::size_t largest_frame = 260;
+[[maybe_unused]] constexpr std::size_t largest_frame = 260;
 constexpr std::uint8_t exception_mark = 0x80;
 
 void put(Bytes& bytes, unsigned word) {

@@ -66,7 +66,7 @@ void check_ticket(const ReadJob& job, const std::string& source) {
 }  // namespace
 
 std::string job_file_name(const std::string& piece) {
-    const std::string name = piece + ".qjob";
+    std::string name = piece + ".qjob";
     if (!is_portable_name(name) || piece.empty()) {
         throw InputError(InputFault::use, "piece \"" + piece + "\" cannot name a job file",
                          "use up to 27 of A-Z a-z 0-9 . _ -");

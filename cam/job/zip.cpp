@@ -68,6 +68,7 @@ Bytes read_entry(zip_t* archive, zip_uint64_t index, std::uint64_t size, const s
 
 Bytes zip(const std::map<std::string, Bytes>& files) {
     std::vector<ZipEntry> entries;
+    entries.reserve(files.size());
     for (const auto& [name, bytes] : files) entries.push_back(zip_entry(name, bytes));
     return zip(entries);
 }
@@ -80,7 +81,7 @@ std::map<std::string, Bytes> unzip(const Bytes& bytes, const std::string& source
     Archive archive(zip_open_from_source(whole.get(), ZIP_RDONLY | ZIP_CHECKCONS, &error));
     zip_error_fini(&error);
     if (!archive) refuse(source, "it is no ZIP, or a damaged one");
-    whole.release();
+    static_cast<void>(whole.release());
 
     const zip_int64_t count = zip_get_num_entries(archive.get(), 0);
     if (count > most_entries) refuse(source, "it has more than " + std::to_string(most_entries) + " entries");
