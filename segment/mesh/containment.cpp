@@ -79,7 +79,10 @@ std::optional<Vec3> longest_middle(const TriangleMesh& mesh, int lines) {
         const double size = box.size()[axis];
         return size > 0 ? std::clamp(static_cast<int>((at - box.min[axis]) / size * lines) - 2, 0, lines) : 0;
     };
-    std::vector<std::vector<Crossing>> crossings(static_cast<std::size_t>(lines * lines));
+    const auto line_at = [lines](int i, int j) {
+        return static_cast<std::size_t>(i) * static_cast<std::size_t>(lines) + static_cast<std::size_t>(j);
+    };
+    std::vector<std::vector<Crossing>> crossings(line_at(lines, 0));
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const std::array<Vec3, 3> corner = corners_of(mesh, t);
         const auto [u_low, u_high] = std::minmax({corner[0].x, corner[1].x, corner[2].x});
@@ -87,7 +90,7 @@ std::optional<Vec3> longest_middle(const TriangleMesh& mesh, int lines) {
         for (int i = first_line(0, u_low); i < lines && place(0, i) <= u_high; ++i) {
             for (int j = first_line(1, v_low); j < lines && place(1, j) <= v_high; ++j) {
                 const auto c = AxisLines{2}.crossing(corner, {place(0, i), place(1, j), 0});
-                if (c) crossings[static_cast<std::size_t>(i * lines + j)].push_back(*c);
+                if (c) crossings[line_at(i, j)].push_back(*c);
             }
         }
     }
@@ -95,7 +98,7 @@ std::optional<Vec3> longest_middle(const TriangleMesh& mesh, int lines) {
     double longest = 0;
     for (int i = 0; i < lines; ++i) {
         for (int j = 0; j < lines; ++j) {
-            for (const Stretch& s : stretches(std::move(crossings[static_cast<std::size_t>(i * lines + j)]))) {
+            for (const Stretch& s : stretches(std::move(crossings[line_at(i, j)]))) {
                 if (s.length() <= longest) continue;
                 longest = s.length();
                 best = Vec3{place(0, i), place(1, j), s.middle()};

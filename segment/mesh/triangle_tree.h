@@ -23,8 +23,9 @@ struct FloatBox {
 
 inline bool do_meet(const FloatBox& a, const FloatBox& b) {
     // without branches: three comparisons that fail at random cost more than six
-    return (a.min[0] <= b.max[0]) & (b.min[0] <= a.max[0]) & (a.min[1] <= b.max[1]) & (b.min[1] <= a.max[1]) &
-           (a.min[2] <= b.max[2]) & (b.min[2] <= a.max[2]);
+    const int meets = int{a.min[0] <= b.max[0]} & int{b.min[0] <= a.max[0]} & int{a.min[1] <= b.max[1]} &
+                      int{b.min[1] <= a.max[1]} & int{a.min[2] <= b.max[2]} & int{b.min[2] <= a.max[2]};
+    return meets != 0;
 }
 
 // The closest point of a triangle to a point (C. Ericson, "Real-Time Collision Detection", 2005, 5.1.5).
