@@ -58,6 +58,7 @@ std::vector<Vec3> exploded_shifts(std::span<const Piece> pieces, const ExplodeOp
     }
     factor = std::min(factor, options.most_factor);
     std::vector<Vec3> shifts;
+    shifts.reserve(from_centre.size());
     for (const Vec3& out : from_centre) shifts.push_back(factor * out);
     return shifts;
 }

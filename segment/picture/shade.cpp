@@ -73,7 +73,7 @@ Rgb to_rgb(Vec3 linear) {
     const auto channel = [](double value) {
         const double l = std::clamp(value, 0.0, 1.0);
         const double s = l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055;
-        return static_cast<std::uint8_t>(255 * s + 0.5);
+        return static_cast<std::uint8_t>(std::lround(255 * s));
     };
     return {channel(linear.x), channel(linear.y), channel(linear.z)};
 }
