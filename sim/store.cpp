@@ -50,9 +50,9 @@ void remove_leftovers(const fs::path& folder) {
 
 }  // namespace
 
-Store::Store(fs::path folder, std::uint64_t most_bytes)
+Store::Store(const fs::path& folder, std::uint64_t most_bytes)
     : own_(folder.empty() ? std::make_unique<TemporaryFolder>("qchopper-cell-sim-") : nullptr),
-      folder_(own_ ? own_->path() : std::move(folder)),
+      folder_(own_ ? own_->path() : folder),
       most_bytes_(most_bytes) {
     std::error_code error;
     fs::create_directories(folder_ / "jobs", error);

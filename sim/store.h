@@ -17,7 +17,7 @@ namespace qchopper {
 class Store {
  public:
     // An empty folder: one of its own, gone with the cell. `most_bytes`: of all copies together. Throws InputError.
-    Store(std::filesystem::path folder, std::uint64_t most_bytes);
+    Store(const std::filesystem::path& folder, std::uint64_t most_bytes);
     ~Store();
     Store(const Store&) = delete;
     Store& operator=(const Store&) = delete;

@@ -15,6 +15,8 @@ std::vector<Triangle> fill_loop(const std::vector<Vec3>& loop, const std::vector
     constexpr std::size_t most_edges_for_full_search = 200;
     std::vector<Kernel::Point_3> points;
     std::vector<Kernel::Point_3> thirds;
+    points.reserve(loop.size());
+    thirds.reserve(beyond.size());
     for (const Vec3& p : loop) points.emplace_back(p.x, p.y, p.z);
     for (const Vec3& p : beyond) thirds.emplace_back(p.x, p.y, p.z);
     std::vector<CGAL::Triple<int, int, int>> found;

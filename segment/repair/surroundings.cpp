@@ -30,7 +30,7 @@ std::uint64_t side_of(Vec3 n) {
     for (int k = 1; k < 3; ++k) {
         if (std::abs(n[k]) > std::abs(n[axis])) axis = k;
     }
-    return static_cast<std::uint64_t>(2 * axis + (n[axis] < 0 ? 1 : 0));
+    return 2 * static_cast<std::uint64_t>(axis) + (n[axis] < 0 ? 1 : 0);
 }
 
 // A sample in the frame of the fit, in units of the reach.
