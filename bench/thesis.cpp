@@ -15,6 +15,7 @@
 #include "bench/specimens.h"
 #include "segment/mesh/measure.h"
 #include "segment/picture/exploded.h"
+#include "segment/search/search.h"
 
 namespace {
 
