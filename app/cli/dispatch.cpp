@@ -19,7 +19,7 @@ bool is_confirmed(const std::string& question) {
     if (::isatty(STDIN_FILENO) == 0) {
         throw InputError(InputFault::use,
                          "a real cell is only set in motion after a question, and nobody can answer here",
-                         "say --yes if that is meant");
+                         "pass --yes if that is meant");
     }
     std::cerr << question << " [y/N] " << std::flush;
     std::string line;
@@ -47,8 +47,8 @@ int run(const DispatchArguments& arguments, Terminal& terminal) {
     const auto [cell, jobs] = jobs_of(arguments.project, arguments.piece);
     const std::optional<std::string> to = arguments.to ? arguments.to : cell.link.to;
     const std::optional<std::filesystem::path> drop = arguments.drop ? arguments.drop : cell.link.drop;
-    if (!to) throw InputError(InputFault::use, "no cell address is known", "say --to HOST:PORT");
-    if (!drop) throw InputError(InputFault::use, "no drop folder is known", "say --drop DIR");
+    if (!to) throw InputError(InputFault::use, "no cell address is known", "pass --to HOST:PORT");
+    if (!drop) throw InputError(InputFault::use, "no drop folder is known", "pass --drop DIR");
     ModbusTcpBus bus(parse_tcp_address(*to));
     bus.connect();
     // Who answers there? Asked before anything is sent, so that a real cell is never taken for a simulated one.

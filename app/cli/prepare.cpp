@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 void check_options(const PrepareArguments& a, bool is_project) {
     if (!is_project) {
         check_unit(a.input, a);
-        if (!a.cell) refuse("no cell is named", "say --cell FILE, for example cells/foam-1.toml");
-        if (!a.out) refuse("no project folder is named", "say -o NAME.qch");
+        if (!a.cell) refuse("no cell is named", "pass --cell FILE, for example cells/foam-1.toml");
+        if (!a.out) refuse("no project folder is named", "pass -o NAME.qch");
         return;
     }
     const bool has_any = a.units || a.scale || a.preset || given_rules(a) || a.stop || a.fragility || a.weights ||

@@ -54,7 +54,7 @@ RepairChoices repair_choices(const RepairChoiceArguments& a) {
 
 void check_unit(const std::filesystem::path& scan, const ProjectArguments& a) {
     if (a.units || scan == "-" || read_mesh(scan).mm_per_unit) return;
-    throw InputError(InputFault::use, "the scan has no unit", "say --units mm, cm, m or in");
+    throw InputError(InputFault::use, "the scan has no unit", "pass --units mm, cm, m or in");
 }
 
 ProjectChoices choices_of(const std::filesystem::path& scan, const ProjectArguments& a) {

@@ -15,7 +15,7 @@ namespace {
 ImportOptions options_of(const RepairArguments& a) {
     if ((a.mark_width || a.mark_depth) && !a.smooth_marks) {
         throw InputError(InputFault::use, "--mark-width and --mark-depth tell what --smooth-marks looks for",
-                         "say --smooth-marks too");
+                         "pass --smooth-marks too");
     }
     const auto is_skipped = [&](const std::string& step) {
         return std::find(a.skipped.begin(), a.skipped.end(), step) != a.skipped.end();

@@ -86,8 +86,8 @@ void check_scan(const SegmentArguments& a, const std::string& action) {
                "make one first: qchopper segment " + shell_word(a.input) + " --units UNIT -o NAME.qch");
     }
     check_unit(a.input, a);
-    if (!a.out) refuse("no project folder is named", "say -o NAME.qch");
-    if (a.fits_cell && !a.cell) refuse("--fits-cell needs a cell", "say --cell FILE, for example cells/foam-1.toml");
+    if (!a.out) refuse("no project folder is named", "pass -o NAME.qch");
+    if (a.fits_cell && !a.cell) refuse("--fits-cell needs a cell", "pass --cell FILE, for example cells/foam-1.toml");
 }
 
 int tell(SegmentAnswer answer, const OpenProject& project, Terminal& terminal) {

@@ -187,7 +187,7 @@ class Deciding {
         if (!rules.is_any_set() && fits_cell_) rules.fits_cell = true;
         if (!rules.is_any_set()) {
             throw InputError(InputFault::use, "no stop rule is set, so the search would never end",
-                             "say --min-cuts N, --max-faces N or --max-obb X,Y,Z");
+                             "pass --min-cuts N, --max-faces N or --max-obb X,Y,Z");
         }
         if (rules.fits_cell && !fits_cell_) {
             throw InputError(InputFault::use, "the project knows no cell, so fits-cell cannot be a stop rule",

@@ -19,7 +19,8 @@ constexpr double gap_in_row = 20;  // mm
 
 void check_options(const ExportRequest& a) {
     if (a.simplify_mm && a.max_faces) {
-        throw InputError(InputFault::use, "--simplify and --max-faces are two ways to say the same", "say one of them");
+        throw InputError(InputFault::use, "--simplify and --max-faces are two ways to say the same",
+                         "pass one of them");
     }
 }
 

@@ -68,7 +68,7 @@ Setups* OpenProject::setups() {
 void OpenProject::check_cell() {
     if (setups() != nullptr) return;
     throw InputError(InputFault::use, folder_.string() + " knows no cell yet",
-                     "say --cell FILE, for example cells/foam-1.toml");
+                     "pass --cell FILE, for example cells/foam-1.toml");
 }
 
 FitsCell OpenProject::fits_cell() {

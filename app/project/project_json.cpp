@@ -176,8 +176,7 @@ BeamState beam_from(const Json& json, const History& history) {
 
 Project from_json(const Json& json) {
     if (json.at("schema") != schema) {
-        throw InputError(InputFault::config, "its schema is not " + std::string(schema) +
-                                                 ": it was written by another version of qchopper");
+        throw InputError(InputFault::config, "its schema is not " + std::string(schema));
     }
     Project project;
     project.scan = scan_from(json.at("scan"));

@@ -32,7 +32,7 @@ std::string size_line(const InspectedFile& file) {
     const Vec3 size = file.inspection.box.size();
     if (file.units) return size_in_words(mm_per(unit_named(*file.units)) * size);
     return fixed(size.x, 4) + " x " + fixed(size.y, 4) + " x " + fixed(size.z, 4) +
-           " (the file has no unit: say --units)";
+           " (the file has no unit: pass --units)";
 }
 
 std::string volume_line(const InspectedFile& file) {

@@ -55,7 +55,7 @@ ExportFormat export_format_named(std::string_view name) {
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (names[i] == name) return static_cast<ExportFormat>(i);
     }
-    throw InputError(InputFault::use, std::string(name) + " is no format to export to", "say 3mf, stl, ply or glb");
+    throw InputError(InputFault::use, std::string(name) + " is no format to export to", "name 3mf, stl, ply or glb");
 }
 
 bool holds_many(ExportFormat format) {

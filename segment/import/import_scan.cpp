@@ -25,7 +25,7 @@ std::optional<double> mm_per_unit_of(const RawMesh& scan, const std::string& nam
     const std::optional<double> agreed = agreed_mm_per_unit(scan.mm_per_unit, options.mm_per_unit, name);
     if (agreed || options.may_lack_unit) return agreed;
     throw InputError(InputFault::use, name + " is " + name_of(scan.format) + ", which has no unit",
-                     "say --units mm, cm, m or in");
+                     "pass --units mm, cm, m or in");
 }
 
 void check(const ImportOptions& options) {

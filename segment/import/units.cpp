@@ -44,7 +44,7 @@ Unit unit_of(double mm) {
         if (units[i].mm == mm) return static_cast<Unit>(i);
     }
     throw InputError(InputFault::use, "a unit of " + significant(mm, 6) + " mm has no name",
-                     "say --units mm, cm, m or in");
+                     "pass --units mm, cm, m or in");
 }
 
 std::optional<double> agreed_mm_per_unit(std::optional<double> in_file, std::optional<double> given,

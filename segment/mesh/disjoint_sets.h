@@ -31,7 +31,7 @@ struct DisjointSets {
 
     void unite(std::uint32_t a, std::uint32_t b) {
         assert(a < parent.size() && b < parent.size());
-        if (parent[a] == parent[b]) return;  // most often, and without a walk
+        if (parent[a] == parent[b]) return;  // most often, and without following parents
         a = root(a);
         b = root(b);
         if (a != b) parent[std::max(a, b)] = std::min(a, b);

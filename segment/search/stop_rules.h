@@ -28,7 +28,7 @@ struct StopRules {
     bool is_any_set() const { return max_faces || min_cuts || max_obb || fits_cell; }
 };
 
-// Does a piece, as it would be carved, pass the cell's check? Answered by a room that knows cells.
+// Does a piece, as it would be carved, pass the cell's check? Answered by a module that knows cells.
 using FitsCell = std::function<bool(const Piece&)>;
 
 // Is the segmentation finished, and if not, which piece is cut next: among those that do not satisfy the rules the one

@@ -16,7 +16,7 @@ using namespace test_pieces;
 
 // qchopper::Setup in full below: a test is a class that has a Setup of its own.
 
-// Undercut as the specification prints it, triangle by triangle, with nothing shared with the room.
+// Undercut as the specification prints it, triangle by triangle, with nothing shared with the module under test.
 double undercut_by_hand(const Piece& piece, const Bound& base) {
     const TriangleMesh& mesh = *piece.mesh;
     double below = 0;

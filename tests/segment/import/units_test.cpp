@@ -55,7 +55,7 @@ class Units : public testing::Test {
 TEST_F(Units, AScanWithoutOneNeedsToBeTold) {
     EXPECT_EQ(size(ply, 10), (Vec3{10, 20, 30}));
     const std::string what = refused(ply, {});
-    EXPECT_NE(what.find("PLY, binary little-endian, which has no unit. To do: say --units mm, cm, m or in"),
+    EXPECT_NE(what.find("PLY, binary little-endian, which has no unit. To do: pass --units mm, cm, m or in"),
               std::string::npos)
         << what;
     EXPECT_NE(refused(bytes_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), {}).find("OBJ, which has no unit"),
