@@ -1,4 +1,6 @@
-// What long work needs from its caller: where to report progress, and whether to stop.
+// What a long computation needs from its caller: where to report progress, and whether to stop.
+//
+// Passed by reference and copied freely; the flag that `cancelled` points to must outlive all copies.
 
 #pragma once
 
@@ -10,14 +12,14 @@
 
 namespace qchopper {
 
-// Counts, never guesses: "37 of 120 planes evaluated".
+// A count of work items, never an estimate of time: "37 of 120 planes evaluated".
 struct Progress {
     std::string what;  // "planes evaluated"
     std::size_t done = 0;
-    std::size_t total = 0;  // 0: not known
+    std::size_t total = 0;  // 0: unknown
 };
 
-// Thrown by check_cancelled(); what was finished before is kept by the caller.
+// Thrown by check_cancelled(); the caller keeps what was finished before.
 struct Cancelled : std::runtime_error {
     Cancelled() : std::runtime_error("stopped") {}
 };
@@ -25,7 +27,7 @@ struct Cancelled : std::runtime_error {
 struct Context {
     std::function<void(const Progress&)> on_progress;    // may be empty; called from one thread at a time
     std::function<void(const std::string&)> on_message;  // one line for the operator; may be empty
-    const std::atomic<bool>* cancelled = nullptr;
+    const std::atomic<bool>* cancelled = nullptr;        // nullptr: cannot be cancelled
 
     void progress(const std::string& what, std::size_t done, std::size_t total) const {
         if (on_progress) on_progress({what, done, total});
@@ -33,6 +35,7 @@ struct Context {
     void message(const std::string& line) const {
         if (on_message) on_message(line);
     }
+    // Throws Cancelled once the flag is set.
     void check_cancelled() const {
         if (cancelled != nullptr && cancelled->load()) throw Cancelled();
     }

@@ -1,3 +1,6 @@
+// The distance of V. I. Levenshtein ("Binary codes capable of correcting deletions, insertions, and reversals", 1966)
+// by dynamic programming, one row kept. O(a.size() * b.size()) time, O(b.size()) memory.
+
 #include "base/edit_distance.h"
 
 #include <algorithm>

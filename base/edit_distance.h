@@ -1,4 +1,4 @@
-// How many letters apart two words are.
+// The edit distance of two words, to find the known name nearest to a misspelt one (tests/base/text_test.cpp).
 
 #pragma once
 
@@ -7,8 +7,7 @@
 
 namespace qchopper {
 
-// The least number of letters inserted, deleted or replaced that makes `b` of `a` (V. I. Levenshtein, "Binary codes
-// capable of correcting deletions, insertions, and reversals", 1966). O(a.size() * b.size()).
+// The least number of bytes inserted, deleted or replaced that turns `a` into `b`.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 }  // namespace qchopper

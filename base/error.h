@@ -1,7 +1,7 @@
-// What a person can mend: an error that says what failed, why, what is unchanged and what to do.
+// The error for a fault that the operator can remove: what failed, why, and what to do.
 //
-// Thrown where the fault is seen and caught once, in main, which turns the kind into an exit code
-// (app/cli/exit_code.h). Our own mistakes are asserts; an answer such as "the plane misses" is a return value.
+// Thrown where the fault is found and caught once, in main, which turns its kind into an exit code
+// (app/cli/exit_code.h). Internal errors are asserts; an answer such as "the plane misses the mesh" is a return value.
 
 #pragma once
 
@@ -11,18 +11,18 @@
 namespace qchopper {
 
 enum class InputFault {
-    use,      // an option or value that makes no sense
-    mesh,     // the scan itself is wrong: open, no faces, NaN
-    missing,  // an input file is not there or cannot be read
+    use,      // an option or a value is not valid
+    mesh,     // the content of an input is wrong: an open scan, no faces, NaN, a damaged job file
+    missing,  // an input file does not exist or cannot be read
     create,   // an output cannot be created
-    io,       // reading or writing broke off (disk full)
-    busy,     // somebody else holds the lock: try again later
+    io,       // reading or writing failed (disk full)
+    busy,     // another process holds the lock: try again later
     config    // the cell file or another settings file is wrong
 };
 
 class InputError : public std::runtime_error {
  public:
-    // `what_failed` names the file or the piece and says why; `to_do` is one sentence on what helps.
+    // `what_failed` names the file or the piece and the reason; `to_do_next` is one sentence on the remedy, or empty.
     InputError(InputFault fault_kind, const std::string& what_failed, std::string to_do_next = {})
         : std::runtime_error(what_failed), fault(fault_kind), to_do(std::move(to_do_next)) {}
 

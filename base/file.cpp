@@ -1,3 +1,5 @@
+// Plain POSIX calls, repeated where a signal interrupts them. A file of n bytes is read into n + 1 bytes of memory.
+
 #include "base/file.h"
 
 #include <fcntl.h>
@@ -5,7 +7,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <system_error>
 
 #include "base/error.h"
@@ -14,7 +15,7 @@
 namespace qchopper {
 namespace {
 
-// Closes a descriptor on every way out.
+// Closes its descriptor at the end of the scope, also after an exception.
 struct Descriptor {
     int fd;
     explicit Descriptor(int descriptor) : fd(descriptor) {}
@@ -65,22 +66,22 @@ const char* kind_of(mode_t mode) {
     return "a device";
 }
 
-std::string in_words(std::uint64_t bytes) {
+std::string describe(std::uint64_t bytes) {
     const bool is_large = bytes + 1 >= std::uint64_t{1} << 30;
     return std::to_string((bytes + 1) >> (is_large ? 30U : 20U)) + (is_large ? " GB" : " MB");
 }
 
 [[noreturn]] void refuse_size(const std::string& name, SizeLimit limit) {
-    throw InputError(limit.fault, name + " is larger than " + in_words(limit.bytes) + ", the most that such a file has",
+    throw InputError(limit.fault, name + " is larger than " + describe(limit.bytes) + ", the most that such a file has",
                      "check that it is the right file");
 }
 
-// `size`: what is expected; there may be more or less.
+// `size` is what is expected; the file may have more or fewer bytes by now.
 Bytes read_to_end(int fd, std::uint64_t size, const std::string& name, SizeLimit limit) {
     Bytes bytes;
-    const std::size_t room = static_cast<std::size_t>(size) + 1;  // to see the end
-    reserve_huge(bytes, room);
-    bytes.resize(room);
+    const std::size_t capacity = static_cast<std::size_t>(size) + 1;  // one more, so that the end is read as well
+    reserve_huge(bytes, capacity);
+    bytes.resize(capacity);
     std::size_t filled = 0;
     while (true) {
         if (filled > limit.bytes) refuse_size(name, limit);
@@ -98,7 +99,7 @@ Bytes read_to_end(int fd, std::uint64_t size, const std::string& name, SizeLimit
 }  // namespace
 
 Bytes read_file(const std::filesystem::path& path, SizeLimit limit) {
-    // Without O_NONBLOCK the opening of a named pipe waits for a writer; regular files do not know the difference.
+    // Without O_NONBLOCK the opening of a named pipe waits for a writer; for regular files it makes no difference.
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
     if (file.fd < 0) {
         throw InputError(InputFault::missing, path.string() + " cannot be opened: " + reason(),

@@ -1,3 +1,5 @@
+// Hexadecimal digits by a table of 16 characters. O(bytes).
+
 #include "base/hex.h"
 
 namespace qchopper {

@@ -1,4 +1,4 @@
-// Bytes as lower-case hexadecimal digits, two a byte, and back.
+// Bytes as lower-case hexadecimal digits, two per byte, and back (tests/base/text_test.cpp).
 
 #pragma once
 
@@ -14,9 +14,11 @@ namespace qchopper {
 
 std::string to_hex(std::span<const std::uint8_t> bytes);
 
-// Fills `bytes` from exactly two digits a byte; false, and nothing of use in `bytes`, for any other text.
+// Fills `bytes` from exactly two digits per byte. Returns false for any other text, upper-case digits included; the
+// content of `bytes` is then unspecified.
 bool read_hex(std::string_view digits, std::span<std::uint8_t> bytes);
 
+// The same by value; nothing for any text but 2 * size digits.
 template <std::size_t size>
 std::optional<std::array<std::uint8_t, size>> from_hex(std::string_view digits) {
     std::array<std::uint8_t, size> bytes{};

@@ -1,3 +1,5 @@
+// Reads by nlohmann::json. O(text) time and memory for parsed() and written().
+
 #include "base/json.h"
 
 #include <cassert>
@@ -12,7 +14,7 @@ double number(const Json& value, const std::string& key) {
     return value.get<double>();
 }
 
-constexpr int most_depth = 16;  // writing a value again takes stack for each level
+constexpr int most_depth = 16;  // written() recurses once per level
 
 }  // namespace
 
@@ -25,7 +27,7 @@ Json parsed(std::string_view text) {
         });
     } catch (const Json::parse_error& error) {
         throw std::runtime_error("is not JSON from byte " + std::to_string(error.byte) + " on");
-    } catch (const Json::exception&) {  // its own words speak of the library
+    } catch (const Json::exception&) {  // its text is about the library, not about the file
         throw std::runtime_error("holds a number that is out of range");
     }
     return json;
@@ -91,7 +93,7 @@ Box box(const Json& object, const std::string& key) {
 }
 
 Json from_vector(Vec3 v) {
-    assert(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z));  // JSON has no other numbers
+    assert(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z));
     return Json::array({v.x, v.y, v.z});
 }
 

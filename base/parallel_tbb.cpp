@@ -1,4 +1,4 @@
-// On TBB, which shares its threads among nested loops. A range costs one indirect call, an index none.
+// On TBB, which shares its threads among nested loops. One indirect call per range, none per index.
 
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>

@@ -1,5 +1,5 @@
-// On std::thread, for the build under the thread sanitizer: every synchronisation is one that it sees. New threads for
-// each loop, and none for a loop inside another one's range: slower than TBB, which is of no matter there.
+// On std::thread, for the build under the thread sanitizer: it sees every synchronisation. Each loop starts new
+// threads, and a loop inside a range of another one starts none: slower than TBB, which does not matter in that build.
 
 #include <algorithm>
 #include <atomic>
@@ -14,7 +14,7 @@
 namespace qchopper {
 namespace {
 
-// More threads than cores are wanted: the more they are interleaved, the more the sanitizer sees.
+// Not the number of cores: the more the threads interleave, the more the sanitizer finds.
 constexpr std::size_t usual_threads = 4;
 constexpr std::size_t ranges_per_thread = 4;
 
@@ -26,25 +26,6 @@ std::size_t thread_count() {
     const std::lock_guard lock(limits_mutex);
     return limits.empty() ? usual_threads : std::min(usual_threads, *limits.begin());
 }
-
-// The first exception of any thread.
-class FirstException {
- public:
-    void keep() {
-        const std::lock_guard lock(mutex_);
-        if (!exception_) exception_ = std::current_exception();
-        is_kept_ = true;
-    }
-    bool is_kept() const { return is_kept_; }
-    void rethrow() const {
-        if (exception_) std::rethrow_exception(exception_);
-    }
-
- private:
-    std::mutex mutex_;
-    std::exception_ptr exception_;
-    std::atomic<bool> is_kept_ = false;
-};
 
 }  // namespace
 
@@ -59,16 +40,19 @@ void parallel_ranges(std::size_t begin, std::size_t end, std::size_t grain,
     }
     const std::size_t step = std::max(grain, count / (ranges_per_thread * threads));
     std::atomic<std::size_t> next = begin;
-    FirstException exception;
+    std::atomic<bool> has_failed = false;
+    std::mutex exception_mutex;
+    std::exception_ptr exception;  // the first of any thread
     const auto run = [&] {
         is_inside_a_loop = true;
         try {
-            for (std::size_t first = next.fetch_add(step); first < end && !exception.is_kept();
-                 first = next.fetch_add(step)) {
+            for (std::size_t first = next.fetch_add(step); first < end && !has_failed; first = next.fetch_add(step)) {
                 work(first, std::min(end, first + step));
             }
         } catch (...) {
-            exception.keep();
+            const std::lock_guard lock(exception_mutex);
+            if (!exception) exception = std::current_exception();
+            has_failed = true;
         }
         is_inside_a_loop = false;
     };
@@ -76,7 +60,7 @@ void parallel_ranges(std::size_t begin, std::size_t end, std::size_t grain,
     for (std::size_t i = 1; i < threads; ++i) others.emplace_back(run);
     run();
     for (std::thread& other : others) other.join();
-    exception.rethrow();
+    if (exception) std::rethrow_exception(exception);
 }
 
 struct ThreadLimit::State {

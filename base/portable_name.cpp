@@ -1,3 +1,5 @@
+// Compares characters by their codes, independent of the locale.
+
 #include "base/portable_name.h"
 
 #include <algorithm>

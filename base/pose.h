@@ -1,4 +1,4 @@
-// A rigid motion: rotation by rows, then a shift.
+// A rigid motion: a rotation given by its rows, then a shift.
 //
 // Lengths in mm. A pose is named a_in_b: it takes coordinates in frame a to coordinates in frame b, so frames are
 // chained as piece_in_cell = stock_in_cell * piece_in_stock. Precondition of all functions: the rows are orthonormal
@@ -18,19 +18,22 @@ struct Pose {
     bool operator==(const Pose&) const = default;
 };
 
-// The direction v of frame a in frame b.
+// The direction v of frame a, in frame b.
 inline Vec3 rotate(const Pose& a_in_b, Vec3 v) {
     return {dot(a_in_b.row[0], v), dot(a_in_b.row[1], v), dot(a_in_b.row[2], v)};
 }
 
+// The point p of frame a, in frame b.
 inline Vec3 apply(const Pose& a_in_b, Vec3 p) {
     return rotate(a_in_b, p) + a_in_b.shift;
 }
 
+// The direction v of frame b, in frame a.
 inline Vec3 rotate_inverse(const Pose& a_in_b, Vec3 v) {
     return v.x * a_in_b.row[0] + v.y * a_in_b.row[1] + v.z * a_in_b.row[2];
 }
 
+// The point p of frame b, in frame a.
 inline Vec3 apply_inverse(const Pose& a_in_b, Vec3 p) {
     return rotate_inverse(a_in_b, p - a_in_b.shift);
 }

@@ -1,3 +1,6 @@
+// Temporary name with process id and checksum, flock() while it is filled, rename() at the end. The constructor lists
+// the parent folder once.
+
 #include "base/staged_folder.h"
 
 #include <fcntl.h>
@@ -27,7 +30,7 @@ std::string staged_name(const std::string& name, long process) {
     return base + "-" + to_hex(digest).substr(0, 8);
 }
 
-// The process in a name that staged_name() gave; 0: it is no such name.
+// The process id in a name that staged_name() made; 0 for any other name.
 long process_in(const std::string& name) {
     const std::size_t at = name.rfind(infix);
     if (at == std::string::npos) return 0;
@@ -37,7 +40,8 @@ long process_in(const std::string& name) {
     return process > 0 && staged_name(name.substr(0, at), process) == name ? process : 0;
 }
 
-int locked(const fs::path& folder) {
+// The descriptor of the folder with its lock; -1: it cannot be opened, or another run holds the lock.
+int open_locked(const fs::path& folder) {
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (descriptor < 0 || ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
     ::close(descriptor);
@@ -48,7 +52,7 @@ bool has_ended(long process) {
     return ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
 }
 
-// What killed runs left in a folder. What cannot be removed stays: it hinders nobody.
+// Removes what killed runs left in a folder. What cannot be removed is left: no run depends on it.
 void remove_leftovers(const fs::path& folder) {
     std::error_code error;
     std::vector<fs::path> left;
@@ -57,7 +61,7 @@ void remove_leftovers(const fs::path& folder) {
         if (process != 0 && has_ended(process)) left.push_back(it->path());
     }
     for (const fs::path& path : left) {
-        const int lock = locked(path);
+        const int lock = open_locked(path);
         if (lock < 0) continue;  // a run on another machine or in another container holds it
         fs::remove_all(path, error);
         ::close(lock);
@@ -72,18 +76,18 @@ StagedFolder::StagedFolder(const fs::path& place)
     remove_leftovers(place.has_parent_path() ? place.parent_path() : fs::path("."));
     fs::remove_all(path_);  // of an earlier process with this number
     fs::create_directory(path_);
-    descriptor_ = locked(path_);
+    descriptor_ = open_locked(path_);
 }
 
 StagedFolder::~StagedFolder() {
     std::error_code error;
-    if (!is_there_) fs::remove_all(path_, error);
+    if (!is_moved_) fs::remove_all(path_, error);
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 void StagedFolder::move_to_its_place() {
     fs::rename(path_, place_);
-    is_there_ = true;
+    is_moved_ = true;
 }
 
 }  // namespace qchopper

@@ -1,8 +1,8 @@
-// A folder that is made aside and appears whole at its place, or not at all.
+// A folder that is filled under a temporary name and then renamed, so that it appears complete or not at all.
 //
-// A run that is killed leaves it behind; the next that makes one in the same place removes it. Removed is only what
-// this program made and no run holds any more: the name carries the process and a checksum of itself, the process has
-// ended, and the lock on the folder is free (tests/base/staged_folder_test.cpp).
+// A run that is killed leaves its temporary folder; the next run that makes one beside it removes it. Only folders that
+// this program made and no run uses any more are removed: the name holds the process id and a checksum of itself, the
+// process has ended, and the lock on the folder is free (tests/base/staged_folder_test.cpp).
 
 #pragma once
 
@@ -12,22 +12,23 @@ namespace qchopper {
 
 class StagedFolder {
  public:
-    // Beside `place`. Throws std::filesystem::filesystem_error.
+    // Makes an empty folder beside `place`, whose parent must exist. Throws std::filesystem::filesystem_error.
     explicit StagedFolder(const std::filesystem::path& place);
-    // Removes it unless it has become what it was made for.
+    // Removes the folder unless it has been moved.
     ~StagedFolder();
     StagedFolder(const StagedFolder&) = delete;
     StagedFolder& operator=(const StagedFolder&) = delete;
 
+    // Where to put the files; gone after move_to_its_place().
     const std::filesystem::path& path() const { return path_; }
-    // Throws std::filesystem::filesystem_error.
+    // Renames it to `place`, where there may be an empty folder at most. Throws std::filesystem::filesystem_error.
     void move_to_its_place();
 
  private:
     std::filesystem::path place_;
     std::filesystem::path path_;
     int descriptor_ = -1;
-    bool is_there_ = false;  // at its place
+    bool is_moved_ = false;
 };
 
 }  // namespace qchopper

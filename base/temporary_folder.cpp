@@ -1,3 +1,5 @@
+// mkdtemp() and flock(). The constructor lists the folder for temporary files once.
+
 #include "base/temporary_folder.h"
 
 #include <fcntl.h>
@@ -17,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The folder itself, never what a link leads to, and only if it is ours: others may write where temporary files lie.
+// The descriptor of the folder itself, never of a link's target, and only if this user owns it: others may write where
+// temporary files lie. -1 otherwise.
 int open_folder(const fs::path& folder) {
     const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     struct stat info {};
@@ -28,10 +31,11 @@ int open_folder(const fs::path& folder) {
     return fd;
 }
 
-void remove_leftovers(const fs::path& room, const std::string& prefix) {
+// Removes what killed runs left in the folder for temporary files.
+void remove_leftovers(const fs::path& parent, const std::string& prefix) {
     std::error_code error;
     std::vector<fs::path> old;
-    for (fs::directory_iterator entry(room, error), end; !error && entry != end; entry.increment(error)) {
+    for (fs::directory_iterator entry(parent, error), end; !error && entry != end; entry.increment(error)) {
         const std::string name = entry->path().filename().string();
         if (name.starts_with(prefix) && name.size() == prefix.size() + 6) old.push_back(entry->path());
     }
@@ -55,11 +59,11 @@ bool is_there(const fs::path& folder, int fd) {
 
 TemporaryFolder::TemporaryFolder(const std::string& prefix) {
     std::error_code error;
-    const fs::path room = fs::temp_directory_path(error);
-    remove_leftovers(room, prefix);
-    // Another run may take the new folder for a leftover before the lock is on it: then there is another try.
+    const fs::path parent = fs::temp_directory_path(error);
+    remove_leftovers(parent, prefix);
+    // Another run may remove the new folder as a leftover before the lock is on it: then try again.
     for (int attempt = 0; attempt < 100; ++attempt) {
-        std::string name = (room / (prefix + "XXXXXX")).string();
+        std::string name = (parent / (prefix + "XXXXXX")).string();
         if (::mkdtemp(name.data()) == nullptr) break;
         lock_ = open_folder(name);
         if (lock_ >= 0 && ::flock(lock_, LOCK_EX) == 0 && is_there(name, lock_)) {
@@ -70,7 +74,7 @@ TemporaryFolder::TemporaryFolder(const std::string& prefix) {
     }
     throw InputError(
         InputFault::create,
-        "no temporary folder can be made in " + room.string() + ": " + std::generic_category().message(errno),
+        "no temporary folder can be made in " + parent.string() + ": " + std::generic_category().message(errno),
         "free some space there, or name another place by TMPDIR");
 }
 

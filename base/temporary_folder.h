@@ -1,7 +1,7 @@
-// A folder for one run of the program, gone when the run is over, however it ended.
+// A folder for one run of the program, removed when the run ends.
 //
-// A run that is killed cannot remove its folder; the next one with the same prefix does. Whoever uses a folder holds a
-// lock on it, which dies with the program (tests/base/temporary_folder_test.cpp).
+// A run that is killed cannot remove its folder; the next one with the same prefix does. A run holds a lock on its
+// folder, which the system releases when the run ends (tests/base/temporary_folder_test.cpp).
 
 #pragma once
 
@@ -12,8 +12,10 @@ namespace qchopper {
 
 class TemporaryFolder {
  public:
-    // <temporary folder>/<prefix>XXXXXX. Throws InputError (create).
+    // Makes an empty folder, named by `prefix` and six random characters, in the folder for temporary files (TMPDIR).
+    // Throws InputError (create).
     explicit TemporaryFolder(const std::string& prefix);
+    // Removes the folder and all in it.
     ~TemporaryFolder();
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;

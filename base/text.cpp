@@ -1,3 +1,5 @@
+// Digits by std::to_chars, which no locale changes.
+
 #include "base/text.h"
 
 #include <algorithm>
@@ -32,7 +34,7 @@ std::string counted(std::size_t count, const std::string& one, const std::string
     return with_commas(count) + " " + (count == 1 ? one : many.empty() ? one + "s" : many);
 }
 
-std::string volume_in_words(double mm3) {
+std::string describe_volume(double mm3) {
     constexpr double a_litre = 1e6;
     const double size = std::abs(mm3);
     if (size >= 0.9995 * a_litre) return fixed(mm3 / a_litre, 3) + " l";

@@ -1,4 +1,4 @@
-// Numbers for people: the same letters under every locale (tests/base/text_test.cpp).
+// Numbers as text for people, the same under every locale (tests/base/text_test.cpp).
 
 #pragma once
 
@@ -8,22 +8,22 @@
 
 namespace qchopper {
 
-// A number with so many decimals; never "-0".
+// With so many decimals, at most 80; never "-0".
 std::string fixed(double value, int decimals);
 
-// So many significant digits, without trailing zeros: "0.00125", "1.2e+09".
+// With at most so many significant digits, 1 to 40, without trailing zeros: "0.00125", "1.2e+09".
 std::string significant(double value, int digits);
 
-// "1 hole", "5,000 holes"; `many` where an s is not enough.
+// "1 hole", "5,000 holes"; `many` is the plural where it is not `one` with an s.
 std::string counted(std::size_t count, const std::string& one, const std::string& many = {});
 
 // 1234567 -> "1,234,567"
 std::string with_commas(std::size_t number);
 
-// "1.234 l"; below a litre in ml, with three digits: "320 ml", "0.0123 ml".
-std::string volume_in_words(double mm3);
+// "1.234 l"; below a litre in ml with three significant digits: "320 ml", "0.0123 ml".
+std::string describe_volume(double mm3);
 
-// "45 s", "12 min", "3 h 05 min".
+// "45 s"; from a minute on rounded to minutes: "12 min", "3 h 05 min".
 std::string duration(std::uint32_t seconds);
 
 }  // namespace qchopper

@@ -1,3 +1,5 @@
+// Wraps toml++. Each value is checked when it is read; keys are compared with all known ones, which are few.
+
 #include "base/toml_reader.h"
 
 #include <toml++/toml.h>
@@ -32,8 +34,8 @@ std::string kind(const toml::node& node) {
     return node.is_number() ? "a number" : "a date or time";
 }
 
-// A number as people write it: no trailing zeros, no locale.
-std::string words(double value) {
+// The shortest digits that give the number again, under any locale.
+std::string shortest(double value) {
     char text[32];
     const auto end = std::to_chars(text, text + sizeof text, value).ptr;
     return {text, end};
@@ -45,10 +47,8 @@ std::string_view nearest(std::string_view key, Keys known) {
     });
 }
 
-constexpr std::size_t longest = 60;
-
-// Names out of a file end up in messages and sheets: control characters there would be somebody else's page.
-std::string printable(std::string_view text) {
+// Names from a file appear in messages and sheets, where control characters could overwrite other text.
+std::string printable(std::string_view text, std::size_t longest = 60) {
     std::string clean(text.substr(0, longest));
     std::replace_if(
         clean.begin(), clean.end(), [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }, '?');
@@ -60,7 +60,7 @@ double checked(const TomlReader& reader, std::string_view key, const toml::node&
     const double value = *node.value<double>();
     if (!std::isfinite(value)) reader.refuse(key, "must be a finite number");
     if (value < least || value > most) {
-        reader.refuse(key, words(value) + " is out of bounds, " + words(least) + " to " + words(most));
+        reader.refuse(key, shortest(value) + " is out of bounds, " + shortest(least) + " to " + shortest(most));
     }
     return value;
 }
@@ -110,12 +110,14 @@ void TomlReader::refuse(std::string_view key, const std::string& why, const std:
                      to_do);
 }
 
-std::string TomlReader::text(std::string_view key) const {
+std::string TomlReader::text(std::string_view key, std::size_t longest) const {
     const toml::node& node = need(*this, *table_->keys, key);
     const auto* value = node.as_string();
     if (value == nullptr) refuse(key, "must be a text in quotes, not " + kind(node));
     if (value->get().empty()) refuse(key, "must not be empty");
-    if (printable(value->get()) != value->get()) refuse(key, "must be one line of at most 60 characters");
+    if (printable(value->get(), longest) != value->get()) {
+        refuse(key, "must be one line of at most " + std::to_string(longest) + " characters");
+    }
     return value->get();
 }
 
@@ -137,8 +139,25 @@ std::vector<double> TomlReader::numbers(std::string_view key, std::size_t count,
         refuse(key, "must be a list of " + std::to_string(count) + " numbers" +
                         (list == nullptr ? ", not " + kind(node) : ", not of " + std::to_string(list->size())));
     }
+    return numbers(key, least, most);
+}
+
+std::vector<double> TomlReader::numbers(std::string_view key, double least, double most) const {
+    const toml::node& node = need(*this, *table_->keys, key);
+    if (!node.is_array()) refuse(key, "must be a list of numbers, not " + kind(node));
     std::vector<double> values;
-    for (const toml::node& element : *list) values.push_back(checked(*this, key, element, least, most));
+    for (const toml::node& element : *node.as_array()) values.push_back(checked(*this, key, element, least, most));
+    return values;
+}
+
+std::vector<std::string> TomlReader::texts(std::string_view key) const {
+    const toml::node& node = need(*this, *table_->keys, key);
+    if (!node.is_array()) refuse(key, "must be a list of texts in quotes, not " + kind(node));
+    std::vector<std::string> values;
+    for (const toml::node& element : *node.as_array()) {
+        if (!element.is_string()) refuse(key, "must be a list of texts in quotes, not of " + kind(element));
+        values.push_back(element.as_string()->get());
+    }
     return values;
 }
 

@@ -1,6 +1,7 @@
-// One table of a settings file, read key by key: every fault names file, line and key.
+// Reads one table of a settings file in TOML key by key; every error names file, line and key.
 //
-// Unknown keys are refused as soon as their table is opened (tests/cam/cell/cell_test.cpp).
+// Unknown keys are refused when their table is opened (tests/cam/cell/cell_test.cpp). A reader may be copied and
+// outlive the reader that it came from.
 
 #pragma once
 
@@ -16,18 +17,25 @@
 
 namespace qchopper {
 
+// All keys that a table may have; at least one.
 using Keys = std::span<const std::string_view>;
+
 class TomlReader {
  public:
-    // The outermost table. Throws InputError (config) if the text is not TOML; `file` is for messages.
+    // The outermost table. Throws InputError (config) if the text is not TOML or has an unknown key; `file` is for
+    // messages.
     static TomlReader parse(std::string_view text, const std::string& file, Keys known);
 
     bool has(std::string_view key) const;
     // Each throws InputError (config) if the key is missing, of another type, or out of bounds.
-    std::string text(std::string_view key) const;  // one line, not empty
+    // One line, not empty, of at most `longest` bytes.
+    std::string text(std::string_view key, std::size_t longest = 60) const;
     double number(std::string_view key, double least, double most) const;
     std::uint32_t whole(std::string_view key, std::uint32_t least, std::uint32_t most) const;
     std::vector<double> numbers(std::string_view key, std::size_t count, double least, double most) const;
+    // Lists of any length, also empty.
+    std::vector<double> numbers(std::string_view key, double least, double most) const;
+    std::vector<std::string> texts(std::string_view key) const;
     Vec3 vector(std::string_view key, double least, double most) const;
     TomlReader table(std::string_view key, Keys known) const;
     std::vector<TomlReader> tables(std::string_view key, Keys known) const;
@@ -36,7 +44,7 @@ class TomlReader {
     [[noreturn]] void refuse(std::string_view key, const std::string& why, const std::string& to_do = {}) const;
 
  private:
-    struct Table;  // hides the TOML library; keeps the whole file alive
+    struct Table;  // hides the TOML library; owns the whole file
     TomlReader(std::shared_ptr<const Table> table, std::string file, std::string prefix, Keys known);
     std::string full(std::string_view key) const { return prefix_ + std::string(key); }
 

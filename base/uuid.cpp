@@ -1,3 +1,5 @@
+// Writes an identifier as text.
+
 #include "base/uuid.h"
 
 #include "base/hex.h"

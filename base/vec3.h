@@ -1,4 +1,4 @@
-// A point or a vector in space: three doubles, millimetres unless a header says otherwise.
+// A point or a vector in space: three doubles, millimetres unless a header states another unit.
 
 #pragma once
 
@@ -12,6 +12,7 @@ struct Vec3 {
     double y = 0;
     double z = 0;
     bool operator==(const Vec3&) const = default;
+    // Precondition: axis is 0, 1 or 2.
     double operator[](int axis) const {
         assert(axis >= 0 && axis < 3);
         return axis == 0 ? x : axis == 1 ? y : z;

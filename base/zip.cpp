@@ -1,16 +1,24 @@
+// Wraps libzip. zip() reads each entry twice, for its size and for its content, and takes memory for one stretch and
+// twice the archive. unzip() packs the entries again, to compare them with the input, and takes three times the
+// archive. O(bytes).
+
 #include "base/zip.h"
 
 #include <zip.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <memory>
 #include <new>
 
+#include "base/error.h"
+#include "base/portable_name.h"
+
 namespace qchopper {
 namespace {
+
+constexpr zip_int64_t most_entries = 1000;
 
 struct DiscardArchive {
     void operator()(zip_t* archive) const { zip_discard(archive); }
@@ -18,19 +26,42 @@ struct DiscardArchive {
 struct FreeSource {
     void operator()(zip_source_t* source) const { zip_source_free(source); }
 };
+struct CloseFile {
+    void operator()(zip_file_t* file) const { zip_fclose(file); }
+};
 using Archive = std::unique_ptr<zip_t, DiscardArchive>;
 using Source = std::unique_ptr<zip_source_t, FreeSource>;
+using OpenFile = std::unique_ptr<zip_file_t, CloseFile>;
 
-// Writing to memory fails only for want of it.
+// Working in memory fails only for want of it.
 void must(bool done) {
     if (!done) throw std::bad_alloc();
 }
 
-// What libzip reads an entry from. Exceptions must not cross the library: they are kept and thrown when it is through.
+// Bytes that stay the caller's; nullptr: a buffer that grows.
+Source source_of(const std::uint8_t* bytes, std::size_t size) {
+    zip_error_t error;
+    zip_error_init(&error);
+    Source source(zip_source_buffer_create(bytes, size, 0, &error));
+    zip_error_fini(&error);
+    must(source != nullptr);
+    return source;
+}
+
+// Nothing if the source is no archive. The archive that is returned owns one reference to the source.
+Archive open_archive(zip_source_t* source, int flags) {
+    zip_error_t error;
+    zip_error_init(&error);
+    Archive archive(zip_open_from_source(source, flags, &error));
+    zip_error_fini(&error);
+    return archive;
+}
+
+// What libzip reads an entry from. Exceptions must not cross the library: they are kept and rethrown by zip().
 struct Reading {
     const ZipEntry& entry;
     std::exception_ptr& failure;
-    std::uint64_t size = 0;  // of the whole entry; told beforehand, so that no ZIP64 is needed for a small one
+    std::uint64_t size = 0;  // of the whole entry; stated beforehand, so that no ZIP64 is needed for a small one
     NextStretch next = {};
     std::string stretch = {};
     std::size_t used = 0;  // of the stretch
@@ -40,16 +71,16 @@ struct Reading {
         for (std::string some; count(some), !some.empty(); some.clear()) size += some.size();
     }
 
-    zip_int64_t read(char* to, zip_uint64_t room) {
+    zip_int64_t read(char* to, zip_uint64_t capacity) {
         zip_uint64_t filled = 0;
-        while (filled < room) {
+        while (filled < capacity) {
             if (used == stretch.size()) {
                 stretch.clear();
                 used = 0;
                 next(stretch);
                 if (stretch.empty()) break;
             }
-            const std::size_t some = std::min<std::size_t>(room - filled, stretch.size() - used);
+            const std::size_t some = std::min<std::size_t>(capacity - filled, stretch.size() - used);
             std::memcpy(to + filled, stretch.data() + used, some);
             used += some;
             filled += some;
@@ -64,18 +95,19 @@ struct Reading {
     }
 };
 
-void tell_size(zip_stat_t* stat, std::uint64_t size) {
+void set_size(zip_stat_t* stat, std::uint64_t size) {
     zip_stat_init(stat);
     stat->size = size;
     stat->valid |= ZIP_STAT_SIZE;
 }
 
-zip_int64_t tell_no_memory(int* codes) {
+zip_int64_t set_no_memory(int* codes) {
     codes[0] = ZIP_ER_MEMORY;
     codes[1] = 0;
     return 2 * sizeof(int);
 }
 
+// The callback of a source, as zip_source_function(3) defines it.
 zip_int64_t serve(void* state, void* data, zip_uint64_t size, zip_source_cmd_t command) {
     auto& reading = *static_cast<Reading*>(state);
     try {
@@ -89,10 +121,10 @@ zip_int64_t serve(void* state, void* data, zip_uint64_t size, zip_source_cmd_t c
             case ZIP_SOURCE_FREE:
                 return 0;
             case ZIP_SOURCE_STAT:
-                tell_size(static_cast<zip_stat_t*>(data), reading.size);
+                set_size(static_cast<zip_stat_t*>(data), reading.size);
                 return sizeof(zip_stat_t);
             case ZIP_SOURCE_ERROR:
-                return tell_no_memory(static_cast<int*>(data));
+                return set_no_memory(static_cast<int*>(data));
             case ZIP_SOURCE_SUPPORTS:
                 return zip_source_make_command_bitmap(ZIP_SOURCE_OPEN, ZIP_SOURCE_READ, ZIP_SOURCE_CLOSE,
                                                       ZIP_SOURCE_STAT, ZIP_SOURCE_ERROR, ZIP_SOURCE_FREE, -1);
@@ -132,6 +164,30 @@ Bytes content(zip_source_t* source) {
     return bytes;
 }
 
+[[noreturn]] void refuse(const std::string& source, const std::string& why) {
+    throw InputError(InputFault::mesh, source + " is not a whole job file: " + why,
+                     "write it again with qchopper prepare, or copy it again");
+}
+
+Bytes read_entry(zip_t* archive, zip_uint64_t index, std::uint64_t size, const std::string& name,
+                 const std::string& source) {
+    const OpenFile file(zip_fopen_index(archive, index, 0));
+    if (!file) refuse(source, name + " cannot be opened");
+    Bytes bytes(size);
+    std::uint64_t filled = 0;
+    while (true) {
+        std::uint8_t spare = 0;  // reading past the end is what makes libzip compare the checksum
+        const bool full = filled == size;
+        const zip_int64_t got = zip_fread(file.get(), full ? &spare : bytes.data() + filled, full ? 1 : size - filled);
+        if (got < 0) refuse(source, name + " is damaged");
+        if (got == 0) break;
+        if (full) refuse(source, name + " is longer than it says");
+        filled += static_cast<std::uint64_t>(got);
+    }
+    if (filled != size) refuse(source, name + " is cut short");
+    return bytes;
+}
+
 }  // namespace
 
 ZipEntry zip_entry(std::string name, const Bytes& bytes) {
@@ -147,15 +203,11 @@ ZipEntry zip_entry(std::string name, const Bytes& bytes) {
 }
 
 Bytes zip(const std::vector<ZipEntry>& entries) {
-    zip_error_t error;
-    zip_error_init(&error);
-    const Source target(zip_source_buffer_create(nullptr, 0, 0, &error));
-    must(target != nullptr);
+    const Source target = source_of(nullptr, 0);
     zip_source_keep(target.get());  // closing the archive drops one reference; the bytes are read after that
     std::exception_ptr failure;
     std::vector<std::unique_ptr<Reading>> readings;  // outlive the archive
-    Archive archive(zip_open_from_source(target.get(), ZIP_CREATE | ZIP_TRUNCATE, &error));
-    zip_error_fini(&error);
+    Archive archive = open_archive(target.get(), ZIP_CREATE | ZIP_TRUNCATE);
     must(archive != nullptr);
     for (const ZipEntry& entry : entries) {
         readings.push_back(std::make_unique<Reading>(Reading{entry, failure}));
@@ -167,6 +219,46 @@ Bytes zip(const std::vector<ZipEntry>& entries) {
     must(is_closed);
     static_cast<void>(archive.release());
     return content(target.get());
+}
+
+Bytes zip(const std::map<std::string, Bytes>& files) {
+    std::vector<ZipEntry> entries;
+    entries.reserve(files.size());
+    for (const auto& [name, bytes] : files) entries.push_back(zip_entry(name, bytes));
+    return zip(entries);
+}
+
+std::map<std::string, Bytes> unzip(const Bytes& bytes, const std::string& source) {
+    if (bytes.empty()) refuse(source, "it is empty");  // to libzip that is an archive of nothing
+    Source whole = source_of(bytes.data(), bytes.size());
+    Archive archive = open_archive(whole.get(), ZIP_RDONLY | ZIP_CHECKCONS);
+    if (!archive) refuse(source, "it is no ZIP, or a damaged one");
+    static_cast<void>(whole.release());
+
+    const zip_int64_t count = zip_get_num_entries(archive.get(), 0);
+    if (count > most_entries) refuse(source, "it has more than " + std::to_string(most_entries) + " entries");
+    std::map<std::string, Bytes> entries;
+    std::uint64_t total = 0;
+    for (zip_int64_t i = 0; i < count; ++i) {
+        const auto index = static_cast<zip_uint64_t>(i);
+        zip_stat_t stat;
+        zip_stat_init(&stat);
+        if (zip_stat_index(archive.get(), index, 0, &stat) != 0) refuse(source, "an entry cannot be read");
+        const std::string name = stat.name != nullptr ? stat.name : "";
+        if (!is_portable_name(name)) refuse(source, "an entry has a name that no job file has");
+        if (entries.contains(name)) refuse(source, name + " is there twice");
+        if (stat.comp_method != ZIP_CM_STORE || stat.encryption_method != ZIP_EM_NONE || stat.size != stat.comp_size) {
+            refuse(source, name + " is compressed or encrypted, and job files never are");
+        }
+        total += stat.size;
+        if (stat.size > bytes.size() || total > bytes.size()) refuse(source, "its entries are larger than the file");
+        entries[name] = read_entry(archive.get(), index, stat.size, name, source);
+    }
+    archive.reset();
+    if (zip(entries) != bytes) {
+        refuse(source, "it holds more than its entries, or is packed in another way than qchopper packs");
+    }
+    return entries;
 }
 
 }  // namespace qchopper

@@ -1,11 +1,13 @@
-// A ZIP of named bytes in memory that is the same for the same content.
+// Writes named bytes as a ZIP in memory, the same for the same content, and reads job files back.
 //
-// Entries stand in the order given, dated 1980-01-01. Stored ones come out the same everywhere; packed ones may differ
-// in their bytes, never in their content, where another version of zlib packs them (tests/base/zip_test.cpp).
+// Entries are dated 1980-01-01. Stored ones have the same bytes everywhere; those of packed ones may differ, never
+// their content, where another version of zlib packs them (tests/base/zip_test.cpp). What unzip returns never exceeds
+// its input in size (tests/base/unzip_test.cpp).
 
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,13 +20,22 @@ using NextStretch = std::function<void(std::string& stretch)>;
 
 struct ZipEntry {
     std::string name;
-    std::function<NextStretch()> open;  // called anew for every reading; what is large never lies in memory whole
-    bool is_packed = false;             // by deflate; otherwise stored as it is
+    std::function<NextStretch()> open;  // called once per reading, of which there are two: an entry may exceed memory
+    bool is_packed = false;             // by deflate; otherwise stored
 };
 
-// An entry whose bytes are there already. They stay the caller's.
+// An entry of bytes in memory, stored. `bytes` must outlive it.
 ZipEntry zip_entry(std::string name, const Bytes& bytes);
 
+// The entries in the order given. Names are different, and no `open` is empty. Throws what an entry throws.
 Bytes zip(const std::vector<ZipEntry>& entries);
+
+// The files by name, sorted and stored, so that neither the version of a compressor nor a cell without one matters.
+Bytes zip(const std::map<std::string, Bytes>& files);
+
+// The files of a ZIP that is, byte for byte, what zip(files) writes. Throws InputError (mesh) naming `source`, the job
+// file, if it is cut short, damaged, compressed, in another order, has anything before, between or behind its entries,
+// or a name that is not portable (is_portable_name).
+std::map<std::string, Bytes> unzip(const Bytes& bytes, const std::string& source);
 
 }  // namespace qchopper

@@ -1,3 +1,5 @@
+// assimp's importer without any post-processing.
+
 #include "bench/other_readers.h"
 
 #ifdef QCHOPPER_HAS_ASSIMP

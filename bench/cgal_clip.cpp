@@ -1,3 +1,5 @@
+// CGAL's Polygon_mesh_processing::clip, once per side; only the clips are timed.
+
 #include "bench/cgal_clip.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,4 +1,4 @@
-// What a general tool takes for one cut: CGAL's clip of both sides of a plane, to compare with.
+// Times one cut by a general library, CGAL's clip of both sides of a plane, for comparison.
 
 #pragma once
 
@@ -16,7 +16,7 @@ struct ClipResult {
     bool is_closed = false;
 };
 
-// Both halves capped (clip_volume).
+// Both halves are capped (clip_volume). Precondition: the mesh is closed.
 ClipResult cgal_clip(const TriangleMesh& mesh, const Plane& plane);
 
 }  // namespace qchopper::bench

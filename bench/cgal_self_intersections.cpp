@@ -1,3 +1,5 @@
+// CGAL's Polygon_mesh_processing::self_intersections; the mesh is built once, outside the times.
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>

@@ -1,3 +1,5 @@
+// posix_spawn and wait4, which reports the resources that the child has used.
+
 #include "bench/child.h"
 
 #include <fcntl.h>
@@ -12,12 +14,12 @@ extern char** environ;
 
 namespace qchopper::bench {
 
-Ended run(const std::vector<std::string>& command) {
+ChildResult run(const std::vector<std::string>& command) {
     std::vector<char*> arguments;
     arguments.reserve(command.size() + 1);
     for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
-    Ended ended;
+    ChildResult ended;
     const double started = wall_s();
     pid_t child = 0;
     posix_spawn_file_actions_t streams;

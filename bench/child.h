@@ -1,4 +1,4 @@
-// A program of its own: how long it took and how much memory it had at most.
+// Runs a program and measures its time and the most memory that it had.
 
 #pragma once
 
@@ -7,14 +7,14 @@
 
 namespace qchopper::bench {
 
-struct Ended {
-    int status = -1;
-    double peak_bytes = 0;
-    double wall = 0;
-    double cpu = 0;  // of all its threads, in the program and for it
+struct ChildResult {
+    int status = -1;        // as wait4 reports it; -1: it was not started
+    double peak_bytes = 0;  // resident
+    double wall = 0;        // seconds
+    double cpu = 0;         // seconds of all its threads, in user and kernel mode
 };
 
-// Its stdout is thrown away.
-Ended run(const std::vector<std::string>& command);
+// Waits for its end; its stdout is discarded. The first word is the program.
+ChildResult run(const std::vector<std::string>& command);
 
 }  // namespace qchopper::bench

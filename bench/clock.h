@@ -1,4 +1,4 @@
-// Time: of this thread's processor, and of the wall.
+// Clocks: CPU time of this thread, and wall time.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace qchopper::bench {
 
-// Seconds that this thread has computed. With one thread in all it does not count what other programs take.
+// CPU seconds of this thread: time that other programs and threads take is not counted.
 inline double cpu_s() {
     timespec t{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
@@ -20,7 +20,7 @@ inline double wall_s() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Least time of several runs. What a run returns is destroyed after the clock has stopped.
+// Least time of several runs; infinity for none. The result of a run is destroyed after its time is taken.
 template <class Clock, class Work>
 double best_of(int runs, Clock clock, const Work& work) {
     double best = std::numeric_limits<double>::infinity();

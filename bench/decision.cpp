@@ -1,3 +1,5 @@
+// Times the first decision as a whole and step by step, on one thread.
+
 #include <algorithm>
 
 #include "base/parallel.h"
@@ -30,8 +32,8 @@ std::vector<Ranked> decide(const Measured& m) {
         return a.mesh->triangles.size() < b.mesh->triangles.size();
     });
     const auto piece = static_cast<std::size_t>(most - s.pieces.begin());
-    EvaluationCache book(settings.objectives, settings.candidates);
-    std::vector<Ranked> ranked = rank(s, piece, settings, book, Context{});
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    std::vector<Ranked> ranked = rank(s, piece, settings, cache, Context{});
     if (!ranked.empty()) apply(s, cut_by(s, piece, ranked, 0, settings.runners_up), m.fragment_volume_mm3);
     return ranked;
 }
@@ -90,30 +92,30 @@ std::vector<Step> profile(const Measured& m, int runs) {
 
 }  // namespace
 
-void measure_decision(const Measured& m, const Base& base, const Effort& effort, Figures& figures) {
+void measure_decision(const Measured& m, const Baseline& base, const Effort& effort, Figures& figures) {
     const ThreadLimit one_thread(1);
     const int runs = std::min(effort.runs, 3);
     const double whole = best_of(runs, cpu_s, [&] { return decide(m); });
-    figures.tell(m.name, "first decision", time_text(whole));
+    figures.record(m.name, "first decision", time_text(whole));
     double known = 0;
     double box = 0;
     for (const Step& s : profile(m, runs)) {
-        figures.tell(m.name, "- of it: " + s.what,
-                     time_text(s.seconds) + ", " + number_text(s.seconds / base.cut_s) + " cuts");
+        figures.record(m.name, "- of it: " + s.what,
+                       time_text(s.seconds) + ", " + number_text(s.seconds / base.cut_s) + " cuts");
         known += s.seconds;
         if (s.what == "box") box = s.seconds;
     }
-    figures.tell(m.name, "- the rest", time_text(std::max(whole - known, 0.0)));
+    figures.record(m.name, "- the rest", time_text(std::max(whole - known, 0.0)));
     figures.at_most(m.name, "first decision / one cut", whole / base.cut_s, 25);
     figures.at_most(m.name, "box / evaluation", box / base.evaluation_s, 1);
 
     const SearchSettings settings = settings_of(m);
-    EvaluationCache book(settings.objectives, settings.candidates);
+    EvaluationCache cache(settings.objectives, settings.candidates);
     const Piece* piece = &m.piece;
-    book.evaluate(std::span(&piece, 1), Context{});
+    cache.evaluate(std::span(&piece, 1), Context{});
     Objectives others = settings.objectives;
     others.weights = {5, 1, 200, 1};
-    const double again = best_of(20, cpu_s, [&] { return rank(book.evaluations(m.piece), {}, others); });
+    const double again = best_of(20, cpu_s, [&] { return rank(cache.evaluations(m.piece), {}, others); });
     figures.at_most(m.name, "new ranking after a change of weights (" + time_text(again) + ") / evaluation",
                     again / base.evaluation_s, 0.01);
 }

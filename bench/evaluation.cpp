@@ -1,3 +1,6 @@
+// Times the evaluation of all candidate planes against one cut, against the copying of as many bytes, against all cuts
+// performed and against CGAL's clip.
+
 #include <algorithm>
 #include <array>
 #include <numbers>
@@ -47,8 +50,8 @@ double bytes(const std::vector<T>& v) {
     return static_cast<double>(v.size() * sizeof(T));
 }
 
-// What the sweep of one normal must read and write, whatever its method: points, their normals and one neighbour each,
-// corners and area vectors of the triangles; heights, and slab and part of every point.
+// What the sweep of one normal must read and write with any method: points, their normals and one neighbour each,
+// corners and area vectors of the triangles; height and slab component of every point.
 double bytes_to_touch(const PreparedPiece& prepared) {
     const TriangleMesh& mesh = *prepared.piece->mesh;
     const auto points = static_cast<double>(mesh.points.size());
@@ -114,7 +117,7 @@ const Piece& most_faces(const Segmentation& s) {
     });
 }
 
-// Takes a thin slice off both ends along every normal; what stays has nearly all faces.
+// Cuts a thin slice off both ends along every normal; the rest has nearly all faces.
 Piece with_six_caps(const Measured& measured, const std::vector<Planes>& planes) {
     constexpr int slices = 199;  // half a percent of the extent each
     Segmentation s;
@@ -141,15 +144,15 @@ double evaluation_s(const Measured& measured, int runs) {
     return sweep_s(prepare(measured.piece, thesis_form()), planes, runs);
 }
 
-Base measure_evaluation(const Measured& m, const Effort& effort, Figures& figures) {
+Baseline measure_evaluation(const Measured& m, const Effort& effort, Figures& figures) {
     const ThreadLimit one_thread(1);
     const std::vector<Candidate> candidates = candidate_planes(m.piece, {});
     const std::vector<Planes> planes = by_normal(candidates);
     const PreparedPiece prepared = prepare(m.piece, thesis_form());
-    const Base base{sweep_s(prepared, planes, effort.runs), cut_s(*m.piece.mesh, planes, effort.runs)};
-    figures.tell(m.name, "evaluation " + std::to_string(candidates.size()) + " candidates",
-                 time_text(base.evaluation_s));
-    figures.tell(m.name, "one cut, both halves", time_text(base.cut_s));
+    const Baseline base{sweep_s(prepared, planes, effort.runs), cut_s(*m.piece.mesh, planes, effort.runs)};
+    figures.record(m.name, "evaluation " + std::to_string(candidates.size()) + " candidates",
+                   time_text(base.evaluation_s));
+    figures.record(m.name, "one cut, both halves", time_text(base.cut_s));
     figures.at_most(m.name, "evaluation / one cut", base.evaluation_s / base.cut_s, 2.5);
     const double touched = bytes_to_touch(prepared);
     const Streams streamed = streams(touched, effort.runs);
@@ -157,26 +160,27 @@ Base measure_evaluation(const Measured& m, const Effort& effort, Figures& figure
         return time_text(seconds) + ", " + number_text(touched / 1e9 / seconds) + " GB/s";
     };
     const std::string amount = number_text(touched / 1e6) + " MB of one normal";
-    figures.tell(m.name, amount + ", copy loop", rate(streamed.copy_s));
-    figures.tell(m.name, amount + ", reading loop", rate(streamed.read_s));
+    figures.record(m.name, amount + ", copy loop", rate(streamed.copy_s));
+    figures.record(m.name, amount + ", reading loop", rate(streamed.read_s));
     figures.at_most(m.name, "evaluation / copy loop over the bytes of its normals",
                     base.evaluation_s / (static_cast<double>(planes.size()) * streamed.copy_s), 5);
     if (effort.cuts) {
         const double performed = performed_s(m.piece, candidates);
-        figures.tell(m.name, "all cuts performed and scored", time_text(performed));
+        figures.record(m.name, "all cuts performed and scored", time_text(performed));
         figures.at_least(m.name, "cuts performed and scored / evaluation", performed / base.evaluation_s, 80);
     }
     if (effort.clip) {
         const Planes& first = planes.front();
         const ClipResult clip = cgal_clip(*m.piece.mesh, {first.normal, first.offsets[first.offsets.size() / 2]});
-        figures.tell(m.name, "CGAL clip of both sides", time_text(clip.cpu_s) + (clip.is_closed ? "" : ", left open"));
+        figures.record(m.name, "CGAL clip of both sides",
+                       time_text(clip.cpu_s) + (clip.is_closed ? "" : ", left open"));
         figures.at_least(m.name, "CGAL clip / evaluation", clip.cpu_s / base.evaluation_s, 20);
         figures.at_least(m.name, "CGAL clip / one cut", clip.cpu_s / base.cut_s, 50);
     }
     return base;
 }
 
-void measure_caps(const Measured& m, const Base& base, const Effort& effort, Figures& figures) {
+void measure_caps(const Measured& m, const Baseline& base, const Effort& effort, Figures& figures) {
     const ThreadLimit one_thread(1);
     const Piece capped = with_six_caps(m, by_normal(candidate_planes(m.piece, {})));
     const std::size_t caps = measure(capped).bases.size();
@@ -184,14 +188,14 @@ void measure_caps(const Measured& m, const Base& base, const Effort& effort, Fig
     const double seconds = evaluation_s(with, effort.runs);
     const double per_face =
         (seconds / static_cast<double>(with.faces())) / (base.evaluation_s / static_cast<double>(m.faces()));
-    figures.tell(m.name,
-                 "evaluate a piece of it with " + std::to_string(caps) + " caps, " +
-                     number_text(static_cast<double>(with.faces())) + " faces",
-                 time_text(seconds));
+    figures.record(m.name,
+                   "evaluate a piece of it with " + std::to_string(caps) + " caps, " +
+                       number_text(static_cast<double>(with.faces())) + " faces",
+                   time_text(seconds));
     figures.at_most(m.name, "that, per face / evaluate the uncut mesh, per face", per_face, 1.6);
 }
 
-void measure_many(const Measured& m, const Base& base, Figures& figures) {
+void measure_many(const Measured& m, const Baseline& base, Figures& figures) {
     constexpr int normals = 132;
     constexpr int offsets = 200;
     std::vector<Candidate> candidates;
@@ -215,7 +219,7 @@ void measure_many(const Measured& m, const Base& base, Figures& figures) {
         two = best_of(1, wall_s, evaluation);
     }
     const std::string what = std::to_string(candidates.size()) + " candidates of 132 normals, with preparation";
-    figures.tell(m.name, what, time_text(cpu) + "; wall " + time_text(one) + ", two threads " + time_text(two));
+    figures.record(m.name, what, time_text(cpu) + "; wall " + time_text(one) + ", two threads " + time_text(two));
     figures.at_most(m.name, "that / evaluation 3 x 40", cpu / base.evaluation_s, 160);
     figures.at_least(m.name, "that, wall: one thread / two threads", one / two, 1.9);
 }

@@ -1,3 +1,5 @@
+// Formats numbers with three digits and prints the table.
+
 #include "bench/figures.h"
 
 #include <cstdio>
@@ -38,7 +40,7 @@ void Figures::at_least(const std::string& mesh, const std::string& what, double 
     add({mesh, what, number_text(ratio), "at least " + number_text(least), ratio >= least});
 }
 
-void Figures::tell(const std::string& mesh, const std::string& what, const std::string& value) {
+void Figures::record(const std::string& mesh, const std::string& what, const std::string& value) {
     add({mesh, what, value, "", std::nullopt});
 }
 

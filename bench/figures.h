@@ -1,4 +1,4 @@
-// What a bench prints: one row per figure, with its target beside it, as a Markdown table.
+// Collects the figures of a bench and prints them as a Markdown table, each with its target.
 
 #pragma once
 
@@ -13,17 +13,19 @@ struct Figure {
     std::string mesh;
     std::string what;
     std::string value;
-    std::string target;          // empty: told for the record
+    std::string target;          // empty: none
     std::optional<bool> is_met;  // nothing: no target, or not measured
 };
 
 class Figures {
  public:
+    // Every figure is also written to stderr at once.
     void add(Figure figure);
-    // A ratio that may be at most, or must be at least, so much.
+    // A ratio that is met if it is at most, or at least, so much.
     void at_most(const std::string& mesh, const std::string& what, double ratio, double most);
     void at_least(const std::string& mesh, const std::string& what, double ratio, double least);
-    void tell(const std::string& mesh, const std::string& what, const std::string& value);
+    // A value without a target.
+    void record(const std::string& mesh, const std::string& what, const std::string& value);
 
     void print(std::ostream& out) const;
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <set>
 #include <string>
 
 #include "base/error.h"
@@ -11,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/temporary_folder.h"
 #include "bench/child.h"
+#include "bench/choice.h"
 #include "bench/clock.h"
 #include "bench/figures.h"
 #include "bench/other_readers.h"
@@ -33,48 +33,22 @@ namespace fs = std::filesystem;
 constexpr const char* usage = R"(bench_import [--data DIR] [--program QCHOPPER] [--small] [--only GROUP]...
   --data     where bunny_bun_zipper.ply and ct_head_1912k.ply lie
   --program  the program whose memory is measured; without it that figure is left out
-  --small    100,000 faces instead: to see that it runs; targets mean nothing there
+  --small    100,000 faces instead, to check that it runs; the targets do not apply
   --only     inspect, stl, deep, memory or holes; all if none is named
 )";
 
-struct Choice {
-    fs::path data = default_data();
-    fs::path program;
-    bool is_small = false;
-    std::set<std::string> only;
-    bool wants(const std::string& group) const { return only.empty() || only.contains(group); }
-};
-
-bool parse(int argc, char** argv, Choice& choice) {
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        const bool has_value = i + 1 < argc;
-        if (word == "--small")
-            choice.is_small = true;
-        else if (word == "--data" && has_value)
-            choice.data = argv[++i];
-        else if (word == "--program" && has_value)
-            choice.program = argv[++i];
-        else if (word == "--only" && has_value)
-            choice.only.insert(argv[++i]);
-        else
-            return false;
-    }
-    return true;
-}
-
 constexpr int runs = 7;
 
-// Two ways to do a thing, run by turns so that both have the same weather; best of several each.
-struct Compared {
+// Two ways to do the same, run alternately so that both meet the same load of the machine; the best time of each.
+struct Comparison {
     double ours = std::numeric_limits<double>::infinity();
     double theirs = std::numeric_limits<double>::infinity();
     double ratio() const { return ours / theirs; }
 };
 
 template <class Ours, class Theirs>
-Compared compare(int times, const Ours& ours, const Theirs& theirs) {
-    Compared best;
+Comparison compare(int times, const Ours& ours, const Theirs& theirs) {
+    Comparison best;
     for (int i = 0; i < times; ++i) {
         best.theirs = std::min(best.theirs, best_of(1, cpu_s, theirs));
         best.ours = std::min(best.ours, best_of(1, cpu_s, ours));
@@ -82,7 +56,7 @@ Compared compare(int times, const Ours& ours, const Theirs& theirs) {
     return best;
 }
 
-std::string both(const Compared& c) {
+std::string both(const Comparison& c) {
     return time_text(c.ours) + " and " + time_text(c.theirs);
 }
 
@@ -93,14 +67,14 @@ struct Scan {
 
 void measure_inspect(const Scan& scan, Figures& figures) {
     for (const bool doubles : {false, true}) {
-        const Compared c = compare(
+        const Comparison c = compare(
             runs, [&] { return inspect(read_mesh(scan.file, {.weld = true})).triangles; },
             [&] { return openmesh_read(scan.file, doubles); });
         const std::string theirs = std::string("OpenMesh, ") + (doubles ? "double" : "single") + " precision";
-        figures.tell(scan.name, "inspect, and reading by " + theirs, both(c));
+        figures.record(scan.name, "inspect, and reading by " + theirs, both(c));
         figures.at_most(scan.name, "inspect / reading by " + theirs, c.ratio(), 0.5);
     }
-    figures.tell(scan.name, "of it reading", time_text(best_of(runs, cpu_s, [&] { return read_mesh(scan.file); })));
+    figures.record(scan.name, "of it reading", time_text(best_of(runs, cpu_s, [&] { return read_mesh(scan.file); })));
 }
 
 void measure_stl(const Scan& scan, Figures& figures) {
@@ -113,13 +87,13 @@ void measure_stl(const Scan& scan, Figures& figures) {
         return raw;
     };
     if (!has_assimp()) {
-        figures.tell(scan.name, "STL read and welded", time_text(best_of(runs, cpu_s, ours)));
+        figures.record(scan.name, "STL read and welded", time_text(best_of(runs, cpu_s, ours)));
         figures.add({scan.name, "STL read and welded / read by assimp", "assimp was not there when this was built",
                      "at most 1", std::nullopt});
         return;
     }
-    const Compared c = compare(runs, ours, [&] { return assimp_read(file); });
-    figures.tell(scan.name, "STL read and welded, and read by assimp", both(c));
+    const Comparison c = compare(runs, ours, [&] { return assimp_read(file); });
+    figures.record(scan.name, "STL read and welded, and read by assimp", both(c));
     figures.at_most(scan.name, "STL read and welded / read by assimp, not welded", c.ratio(), 1);
 }
 
@@ -129,16 +103,16 @@ void measure_deep(const Scan& scan, Figures& figures) {
     split_non_manifold_vertices(mesh, edges(mesh));
     const CgalSurface surface(mesh);
     const ThreadLimit one(1);
-    const Compared all = compare(
+    const Comparison all = compare(
         3, [&] { return self_intersections(mesh); }, [&] { return surface.self_intersections(); });
-    figures.tell(scan.name, "all self-intersections, and by CGAL (self_intersections)", both(all));
+    figures.record(scan.name, "all self-intersections, and by CGAL (self_intersections)", both(all));
     figures.at_most(scan.name, "all self-intersections / by CGAL", all.ratio(), 1);
     InspectOptions deep;
     deep.deep = true;
-    const Compared whole = compare(
+    const Comparison whole = compare(
         3, [&] { return inspect(read_mesh(scan.file, {.weld = true}), deep); },
         [&] { return surface.does_self_intersect(); });
-    figures.tell(scan.name, "inspect --deep, and CGAL's test (does_self_intersect)", both(whole));
+    figures.record(scan.name, "inspect --deep, and CGAL's test (does_self_intersect)", both(whole));
     figures.at_most(scan.name, "inspect --deep, reading included / CGAL's test alone", whole.ratio(), 1);
     const bool is_equal = self_intersections(mesh).pairs.size() == surface.self_intersections();
     figures.add({scan.name, "pairs are as many as CGAL's", is_equal ? "yes" : "no", "yes", is_equal});
@@ -146,13 +120,13 @@ void measure_deep(const Scan& scan, Figures& figures) {
 
 void measure_memory(const Choice& choice, const Scan& scan, Figures& figures) {
     const auto measure = [&](const std::string& name, const fs::path& file, std::size_t faces) {
-        const Ended ended = run({choice.program.string(), "inspect", file.string(), "--json"});
+        const ChildResult ended = run({choice.program.string(), "inspect", file.string(), "--json"});
         if (ended.status != 0) {
             figures.add({name, "peak memory of inspect", "it ended with status " + std::to_string(ended.status),
                          "at most 120 bytes a face", std::nullopt});
             return;
         }
-        figures.tell(name, "inspect as a program of its own, CPU", time_text(ended.cpu));
+        figures.record(name, "inspect as a program of its own, CPU", time_text(ended.cpu));
         figures.at_most(name, "peak memory of inspect, bytes a face", ended.peak_bytes / static_cast<double>(faces),
                         120);
     };
@@ -181,7 +155,7 @@ void measure_holes(const Choice& choice, Figures& figures) {
     const std::vector<Vec3> points = mesh.points;
     const double seconds = best_of(1, cpu_s, [&] { return fill_holes(mesh); });
     const bool is_same = std::equal(before.begin(), before.end(), mesh.triangles.begin()) && mesh.points == points;
-    figures.tell("bunny", "holes closed in", time_text(seconds));
+    figures.record("bunny", "holes closed in", time_text(seconds));
     figures.add({"bunny", "faces when its holes are closed", std::to_string(mesh.triangles.size()), "69664",
                  mesh.triangles.size() == 69'664});
     figures.add({"bunny", "its own 69,451 faces and their points keep every bit", is_same ? "yes" : "no", "yes",
@@ -197,7 +171,7 @@ void measure(const Choice& choice, Figures& figures) {
         scan = {"skull", folder.path() / "skull.ply"};
         write_file(scan.file, to_ply(sample(Specimen::skull, options)));
     }
-    // First: a child counts the memory that this program has when it is started.
+    // First: the peak of a child includes the memory of this program at its start.
     if (choice.wants("memory") && !choice.program.empty()) measure_memory(choice, scan, figures);
     if (choice.wants("inspect")) measure_inspect(scan, figures);
     if (choice.wants("stl")) measure_stl(scan, figures);

@@ -1,4 +1,5 @@
-// MeshIO first: it must know the readers before the meshes
+// OpenMesh's reader with its default traits and with double precision. MeshIO.hh must be included before the mesh.
+
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 

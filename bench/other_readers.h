@@ -1,4 +1,4 @@
-// What other libraries do with the same file, to be compared with. Each in a source of its own.
+// Readers of other libraries, and CGAL's test for self-intersections, for comparison. Each library has its own source.
 
 #pragma once
 
@@ -9,23 +9,23 @@
 
 namespace qchopper::bench {
 
-// Reads a file into OpenMesh's mesh of single or double precision; returns its faces.
+// Reads a file into OpenMesh's mesh of single or double precision; returns the number of faces, 0 if it cannot.
 std::size_t openmesh_read(const std::filesystem::path& file, bool doubles);
 
 // Whether this bench was built with assimp.
 bool has_assimp();
-// Reads a file as assimp does without being asked for anything more: nothing welded. Returns its faces.
+// Reads a file with assimp without post-processing: nothing is welded. Returns the number of faces, 0 if it cannot.
 std::size_t assimp_read(const std::filesystem::path& file);
 
-// A mesh as CGAL's Surface_mesh, and what its tests for self-intersections say.
+// A mesh as CGAL's Surface_mesh, and its tests for self-intersections.
 class CgalSurface {
  public:
     explicit CgalSurface(const TriangleMesh& mesh);
     ~CgalSurface();
     CgalSurface(const CgalSurface&) = delete;
     CgalSurface& operator=(const CgalSurface&) = delete;
-    bool does_self_intersect() const;        // ends at the first pair
-    std::size_t self_intersections() const;  // all pairs
+    bool does_self_intersect() const;        // stops at the first pair
+    std::size_t self_intersections() const;  // number of all pairs
 
  private:
     struct Surface;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "bench/choice.h"
 #include "bench/measures.h"
 
 namespace {
@@ -16,35 +17,9 @@ using namespace qchopper::bench;
 constexpr const char* usage = R"(bench_search [--data DIR] [--program QCHOPPER] [--small] [--only GROUP]...
   --data     where bunny_bun_zipper.ply and ct_head_1912k.ply lie
   --program  the program whose memory is measured; without it that figure is left out
-  --small    the bunny and 100,000 faces instead: to see that it runs; targets mean nothing there
+  --small    the bunny and 100,000 faces instead, to check that it runs; the targets do not apply
   --only     evaluation, cuts, clip, caps, many, decision, run, growth or memory; all if none is named
 )";
-
-struct Choice {
-    std::filesystem::path data = default_data();
-    std::filesystem::path program;
-    bool is_small = false;
-    std::set<std::string> only;
-    bool wants(const std::string& group) const { return only.empty() || only.contains(group); }
-};
-
-bool parse(int argc, char** argv, Choice& choice) {
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        const bool has_value = i + 1 < argc;
-        if (word == "--small")
-            choice.is_small = true;
-        else if (word == "--data" && has_value)
-            choice.data = argv[++i];
-        else if (word == "--program" && has_value)
-            choice.program = argv[++i];
-        else if (word == "--only" && has_value)
-            choice.only.insert(argv[++i]);
-        else
-            return false;
-    }
-    return true;
-}
 
 std::vector<Measured> meshes(const Choice& choice) {
     std::vector<Measured> all;
@@ -67,11 +42,11 @@ void measure(const Choice& choice, Figures& figures) {
     const std::vector<Measured> all = is_memory_alone ? std::vector<Measured>{} : meshes(choice);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Measured& m = all[i];
-        figures.tell(m.name, "faces", number_text(static_cast<double>(m.faces())));
+        figures.record(m.name, "faces", number_text(static_cast<double>(m.faces())));
         Effort effort;
         effort.cuts = choice.wants("cuts");
         effort.clip = choice.wants("clip");
-        const Base base = measure_evaluation(m, effort, figures);
+        const Baseline base = measure_evaluation(m, effort, figures);
         if (choice.wants("caps")) measure_caps(m, base, effort, figures);
         if (choice.wants("decision")) measure_decision(m, base, effort, figures);
         const bool is_one_solid = m.name != "CT head, whole";  // else there are many pieces before the first cut

@@ -1,3 +1,5 @@
+// Imports real scans, and makes synthetic specimens of the wanted size.
+
 #include "bench/specimens.h"
 
 #include <algorithm>

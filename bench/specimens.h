@@ -1,4 +1,4 @@
-// The meshes that are measured, as pieces ready to be cut.
+// Provides the meshes that are measured, as pieces that can be cut. Millimetres.
 
 #pragma once
 
@@ -16,23 +16,24 @@ namespace qchopper::bench {
 struct Measured {
     std::string name;
     Piece piece;
-    double fragment_volume_mm3 = 0;  // 1e-5 of the scan's
+    double fragment_volume_mm3 = 0;  // 1e-5 of the scan's volume
     std::size_t faces() const { return piece.mesh->triangles.size(); }
 };
 
-// Where the real scans lie unless --data says otherwise.
+// The folder of the real scans unless --data names another.
 std::filesystem::path default_data();
 
-// A scan as it comes in, in mm. Nothing, and a line on stderr, if the file is not there.
+// Imports a scan. Null, and a line on stderr, if the file does not exist. Throws InputError as import_scan does.
 std::shared_ptr<const TriangleMesh> scan(const std::filesystem::path& file, double mm_per_unit);
 
-// The whole of a scan as one piece, however many solids it is.
+// The whole scan as one piece, even if it has several solids.
 Measured whole(const std::string& name, const TriangleMesh& mesh);
-// The solid with most faces.
+// The solid with the most faces.
 Measured biggest(const std::string& name, const TriangleMesh& mesh);
+// The largest solid of a synthetic specimen with so many faces.
 Measured one_shell(const std::string& name, Specimen specimen, std::size_t faces);
 
-// The candidates of a piece, by normal: what the sweep is asked.
+// Candidates with one normal, as the sweep takes them.
 struct Planes {
     Vec3 normal;
     std::vector<double> offsets;

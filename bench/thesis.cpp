@@ -54,13 +54,13 @@ Result segment(const Case& which, const TriangleMesh& scan) {
     settings.objectives.fragment_volume_mm3 = 1e-5 * volume_mm3(scan);
     double before = wall_s();
     result.segmentation = uncut(scan, settings.objectives.fragment_volume_mm3);
-    EvaluationCache book(settings.objectives, settings.candidates);
+    EvaluationCache cache(settings.objectives, settings.candidates);
     const auto on_round = [&](const Segmentation& now) {
         result.wall.push_back(wall_s() - before);
         before = wall_s();
         std::cerr << "cut " << now.cuts.size() << ": " << time_text(result.wall.back()) << std::endl;
     };
-    result.end = search(result.segmentation, settings, book, {}, on_round, Context{});
+    result.end = search(result.segmentation, settings, cache, {}, on_round, Context{});
     return result;
 }
 
@@ -123,16 +123,16 @@ void print_cuts(const Result& r) {
 int run(const fs::path& data, const fs::path& out) {
     fs::create_directories(out);
     std::vector<Result> results;
-    const auto take = [&](const Case& which, const TriangleMesh& mesh) {
+    const auto run_case = [&](const Case& which, const TriangleMesh& mesh) {
         results.push_back(segment(which, mesh));
         draw(results.back(), out);
     };
     const auto make = [](Specimen specimen, std::size_t faces) { return sample(specimen, {faces, 0}); };
-    if (const auto mesh = scan(data / "bunny_bun_zipper.ply", 1000)) take(bunny, *mesh);
-    take(femur, make(Specimen::femur, 644'620));
-    take(vertebrae, make(Specimen::vertebra, 1'823'276));
-    take(skull, make(Specimen::skull, 1'881'226));
-    if (const auto mesh = scan(data / "ct_head_1912k.ply", 1)) take(head, *mesh);
+    if (const auto mesh = scan(data / "bunny_bun_zipper.ply", 1000)) run_case(bunny, *mesh);
+    run_case(femur, make(Specimen::femur, 644'620));
+    run_case(vertebrae, make(Specimen::vertebra, 1'823'276));
+    run_case(skull, make(Specimen::skull, 1'881'226));
+    if (const auto mesh = scan(data / "ct_head_1912k.ply", 1)) run_case(head, *mesh);
     print_table(results);
     for (const Result& r : results) print_cuts(r);
     return 0;

@@ -1,3 +1,5 @@
+// Times a search up to a number of pieces; a callback that the search calls once per cut stops it.
+
 #include <atomic>
 
 #include "base/parallel.h"
@@ -25,18 +27,18 @@ Run run_to(const Measured& m, std::size_t pieces, std::size_t threads, Clock clo
     Run run;
     const double started = clock();
     Segmentation s = uncut(*m.piece.mesh, m.fragment_volume_mm3);
-    // The store is asked before the book evaluations and told afterwards, which is a clock for nothing.
-    double asked = 0;
+    // The cache calls find before it evaluates a piece and keep afterwards: the time between is that of the evaluation.
+    double started_at = 0;
     EvaluationStore between;
     between.find = [&](const Piece&) -> std::optional<PieceEvaluations> {
-        asked = wall_s();
+        started_at = wall_s();
         return std::nullopt;
     };
     between.keep = [&](const Piece&, const PieceEvaluations&) {
-        run.evaluation_s += asked > 0 ? wall_s() - asked : 0;
-        asked = 0;
+        run.evaluation_s += started_at > 0 ? wall_s() - started_at : 0;
+        started_at = 0;
     };
-    EvaluationCache book(settings.objectives, settings.candidates, between);
+    EvaluationCache cache(settings.objectives, settings.candidates, between);
     std::atomic<bool> is_enough = false;
     Context context;
     context.cancelled = &is_enough;
@@ -48,8 +50,8 @@ Run run_to(const Measured& m, std::size_t pieces, std::size_t threads, Clock clo
         is_enough = now.pieces.size() >= pieces;
     };
     try {
-        search(s, settings, book, {}, on_round, context);
-    } catch (const Cancelled&) {  // there are enough
+        search(s, settings, cache, {}, on_round, context);
+    } catch (const Cancelled&) {  // there are enough pieces
     }
     return run;
 }
@@ -58,13 +60,14 @@ Run run_to(const Measured& m, std::size_t pieces, std::size_t threads, Clock clo
 
 void measure_run(const Measured& m, std::size_t pieces, Figures& figures) {
     const Run one = run_to(m, pieces, 1, cpu_s);
-    figures.tell(m.name, "whole run: " + std::to_string(one.cuts) + " cuts, " + std::to_string(one.pieces) + " pieces",
-                 time_text(one.whole_s) + ", the first cut after " + time_text(one.first_s));
+    figures.record(m.name,
+                   "whole run: " + std::to_string(one.cuts) + " cuts, " + std::to_string(one.pieces) + " pieces",
+                   time_text(one.whole_s) + ", the first cut after " + time_text(one.first_s));
     figures.at_most(m.name, "whole run / first decision", one.whole_s / one.first_s, 6);
     const Run alone = run_to(m, pieces, 1, wall_s);
     const Run two = run_to(m, pieces, 2, wall_s);
-    figures.tell(m.name, "all evaluation of the run, wall",
-                 time_text(alone.evaluation_s) + "; two threads " + time_text(two.evaluation_s));
+    figures.record(m.name, "all evaluation of the run, wall",
+                   time_text(alone.evaluation_s) + "; two threads " + time_text(two.evaluation_s));
     figures.at_least(m.name, "that: one thread / two threads", alone.evaluation_s / two.evaluation_s, 1.7);
 }
 

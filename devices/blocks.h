@@ -1,4 +1,8 @@
-// The values that the blocks of the register map carry, field by field.
+// The values of the blocks of the register map: a struct for each block, a member for each field.
+//
+// Units are those of the map (docs/registers.md): lengths in 0.01 mm, shares in 0.01 %, times in s or in ms since 1970
+// (UTC). An id or a hash of zeros means none. That every member has the type and size of its field is checked when
+// registers.cpp is compiled (layout.h).
 
 #pragma once
 
@@ -13,7 +17,7 @@
 
 namespace qchopper {
 
-// What the cell says of itself. Field by field input registers 3..98.
+// STATUS: the state of the cell, its last acknowledgement and its job.
 struct Status {
     std::uint16_t version = map_version;
     std::uint16_t snapshot = 0;
@@ -45,7 +49,7 @@ struct Status {
     std::uint16_t alarms = 0;
     std::uint32_t alarm_code = 0;
     std::uint32_t alarm_block = 0;
-    std::string alarm_text;  // at most 16 bytes
+    std::string alarm_text;  // 16 bytes go over the wire
     TransferState transfer_state = TransferState::idle;
     std::uint32_t transfer_next = 0;
     AckResult transfer_result = AckResult::none;
@@ -62,23 +66,29 @@ struct Status {
     bool has(std::uint16_t flag_bit) const { return (flags & flag_bit) != 0; }
 };
 
-// What the cell remembers of one job; the answer to QUERY.
-struct ResultRecord {
-    Uuid job_id{};
-    JobState job_state = JobState::none;
-    JobResult job_result = JobResult::none;
-    std::uint32_t starts = 0;
+// What a cell keeps of a job for ever, also without power.
+struct JobRecord {
+    JobState state = JobState::none;
+    JobResult result = JobResult::none;
+    std::uint32_t starts = 0;  // 0 or 1
     std::uint32_t start_epoch = 0;
     std::uint32_t start_seq = 0;
     std::uint64_t start_time_ms = 0;
     std::uint64_t end_time_ms = 0;
     Sha256 file_sha256{};
     std::uint32_t last_block = 0;
-    std::uint32_t query_seq = 0;
+    bool operator==(const JobRecord&) const = default;
+};
+
+// RESULT: the answer to the last QUERY.
+struct ResultRecord : JobRecord {
+    Uuid job_id{};
+    std::uint32_t query_seq = 0;  // CMD_SEQ of that QUERY
     std::uint32_t query_owner = 0;
     bool operator==(const ResultRecord&) const = default;
 };
 
+// COMMAND: one command of a dispatcher.
 struct Command {
     std::uint32_t epoch = 0;
     std::uint32_t seq = 0;
@@ -92,14 +102,14 @@ struct Command {
     bool operator==(const Command&) const = default;
 };
 
-// The ticket in the scale of the wire.
+// TICKET: the job as integers; wire_ticket() in codec.h makes it from a JobTicket in mm.
 struct WireTicket {
     std::uint16_t ticket_version = 1;
     Uuid job_id{};
     Sha256 file_sha256{};
     std::uint32_t file_size = 0;
     Transfer transfer = Transfer::drop_folder;
-    std::string file_name;
+    std::string file_name;   // 1 to 32 bytes, a portable name
     std::uint16_t unit = 1;  // mm
     std::array<std::int32_t, 3> box_min{};
     std::array<std::int32_t, 3> box_max{};
@@ -123,17 +133,19 @@ struct WireTicket {
     bool operator==(const WireTicket&) const = default;
 };
 
+// HEARTBEAT: keeps the lease of a dispatcher.
 struct Heartbeat {
     std::uint32_t epoch = 0;
     std::uint32_t owner = 0;
-    std::uint16_t counter = 0;
+    std::uint16_t counter = 0;  // differs from the one before
     bool operator==(const Heartbeat&) const = default;
 };
 
+// CHUNK: a slice of the job file.
 struct Chunk {
-    std::uint32_t offset = 0;
+    std::uint32_t offset = 0;        // of its first byte in the file
     std::vector<std::uint8_t> data;  // 1..232 bytes
-    std::uint32_t crc = 0;
+    std::uint32_t crc = 0;           // chunk_crc() in codec.h
     bool operator==(const Chunk&) const = default;
 };
 

@@ -1,3 +1,6 @@
+// Walks the rows of a block's table (layout.h), once to encode or decode and once for each mark to check. O(registers
+// of the block), at most 125; the checksum is CRC-32 of IEEE 802.3.
+
 #include "devices/codec.h"
 
 #include <cassert>
@@ -12,55 +15,55 @@ bool is_our_major(std::uint16_t version) {
     return version >> 8 == map_version >> 8;
 }
 
-// Words before the first field of that part, or the size of the block without one.
+// Registers before the first field of that role; npos if the block has none.
 template <class T>
-std::size_t offset_of(Part part) {
-    const std::span<const Row<T>> rows = rows_of<T>();
-    for (const Row<T>& row : rows) {
-        if (row.part == part) return static_cast<std::size_t>(row.field.address - rows.front().field.address);
+std::size_t offset_of(FieldRole role) {
+    const std::span<const LayoutRow<T>> rows = rows_of<T>();
+    for (const LayoutRow<T>& row : rows) {
+        if (row.role == role) return static_cast<std::size_t>(row.field.address - rows.front().field.address);
     }
     return std::string::npos;
 }
 
 template <class T>
 std::uint32_t crc_of(std::span<const std::uint16_t> block) {
-    return RegisterReader(block.subspan(offset_of<T>(Part::crc))).u32();
+    return RegisterReader(block.subspan(offset_of<T>(FieldRole::crc))).u32();
 }
 
 template <class T>
-bool has(Part part) {
-    return offset_of<T>(part) != std::string::npos;
+bool has(FieldRole role) {
+    return offset_of<T>(role) != std::string::npos;
 }
 
 template <class T>
 BlockFault fault_of(const Block& block, std::span<const std::uint16_t> registers) {
     if (registers.size() != block.count) return BlockFault::length;
     if (is_all_zero(registers)) return BlockFault::empty;
-    const auto at = [&](Part part) { return registers[offset_of<T>(part)]; };
-    if (has<T>(Part::magic) && at(Part::magic) != cell_magic) return BlockFault::magic;
-    if (has<T>(Part::version) && !is_our_major(at(Part::version))) return BlockFault::version;
-    if (has<T>(Part::snap_end) && at(Part::snap_begin) != at(Part::snap_end)) return BlockFault::torn;
-    if (!has<T>(Part::crc)) return BlockFault::none;
-    return crc32_of_registers(registers.first(offset_of<T>(Part::crc))) == crc_of<T>(registers) ? BlockFault::none
-                                                                                                : BlockFault::crc;
+    const auto at = [&](FieldRole role) { return registers[offset_of<T>(role)]; };
+    if (has<T>(FieldRole::magic) && at(FieldRole::magic) != cell_magic) return BlockFault::magic;
+    if (has<T>(FieldRole::version) && !is_our_major(at(FieldRole::version))) return BlockFault::version;
+    if (has<T>(FieldRole::snap_end) && at(FieldRole::snap_begin) != at(FieldRole::snap_end)) return BlockFault::torn;
+    if (!has<T>(FieldRole::crc)) return BlockFault::none;
+    return crc32_of_registers(registers.first(offset_of<T>(FieldRole::crc))) == crc_of<T>(registers) ? BlockFault::none
+                                                                                                     : BlockFault::crc;
 }
 
 template <class T>
 Registers encoded(const T& value) {
-    const std::span<const Row<T>> rows = rows_of<T>();
+    const std::span<const LayoutRow<T>> rows = rows_of<T>();
     RegisterWriter writer;
-    for (const Row<T>& row : rows) {
+    for (const LayoutRow<T>& row : rows) {
         assert(writer.registers().size() == static_cast<std::size_t>(row.field.address - rows.front().field.address));
-        row.put(value, row.field, writer);
+        row.write(value, row.field, writer);
     }
     return writer.registers();
 }
 
 template <class T>
-T taken(std::span<const std::uint16_t> registers) {
+T read_values(std::span<const std::uint16_t> registers) {
     T value;
     RegisterReader reader(registers);
-    for (const Row<T>& row : rows_of<T>()) row.take(value, row.field, reader);
+    for (const LayoutRow<T>& row : rows_of<T>()) row.read(value, row.field, reader);
     return value;
 }
 
@@ -68,7 +71,7 @@ template <class T>
 Decoded<T> decoded(const Block& block, std::span<const std::uint16_t> registers) {
     const BlockFault fault = fault_of<T>(block, registers);
     if (fault != BlockFault::none) return {fault, {}};
-    return {BlockFault::none, taken<T>(registers)};
+    return {BlockFault::none, read_values<T>(registers)};
 }
 
 }  // namespace
@@ -77,7 +80,7 @@ const char* describe(BlockFault fault) {
     constexpr const char* texts[] = {"right",
                                      "of the wrong length",
                                      "all zero",
-                                     "without the mark of a cell of ours",
+                                     "without the magic number of a QChopper cell",
                                      "of another version of the register map",
                                      "damaged (checksum)",
                                      "torn (two snapshots in one)"};  // in the order of BlockFault
@@ -128,7 +131,7 @@ Registers encode(const Chunk& chunk) {
 }
 Decoded<Chunk> decode_chunk(std::span<const std::uint16_t> block) {
     if (block.size() <= chunk_head) return {BlockFault::length, {}};
-    Chunk chunk = taken<Chunk>(block);
+    Chunk chunk = read_values<Chunk>(block);
     const std::size_t length = chunk.data.size();
     if (length < 1 || length > max_chunk_bytes || block.size() != chunk_head + (length + 1) / 2) {
         return {BlockFault::length, {}};
@@ -138,19 +141,10 @@ Decoded<Chunk> decode_chunk(std::span<const std::uint16_t> block) {
 
 std::uint32_t chunk_crc(std::uint32_t epoch, std::uint32_t owner, const Uuid& job_id, std::uint32_t offset,
                         std::span<const std::uint8_t> data) {
-    // As bytes, not as words: an odd chunk has no padding byte in its sum.
-    std::vector<std::uint8_t> bytes;
-    const Registers head = RegisterWriter()
-                               .u32(epoch)
-                               .u32(owner)
-                               .bytes(job_id)
-                               .u32(offset)
-                               .u16(static_cast<std::uint16_t>(data.size()))
-                               .registers();
-    for (const std::uint16_t word : head) {
-        bytes.push_back(static_cast<std::uint8_t>(word >> 8));
-        bytes.push_back(static_cast<std::uint8_t>(word & 0xFF));
-    }
+    RegisterWriter head;
+    head.u32(epoch).u32(owner).bytes(job_id).u32(offset).u16(static_cast<std::uint16_t>(data.size()));
+    // Over bytes, not registers: the padding byte of an odd chunk is not covered.
+    std::vector<std::uint8_t> bytes = bytes_of(head.registers());
     bytes.insert(bytes.end(), data.begin(), data.end());
     return crc32_of(bytes);
 }

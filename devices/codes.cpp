@@ -1,3 +1,5 @@
+// Tables of texts; a result is searched linearly among 44 rows.
+
 #include "devices/codes.h"
 
 #include <iterator>
@@ -70,7 +72,7 @@ constexpr const char* flag_table[] = {"ready for ticket",
                                       "rehearsal running"};
 
 const ResultCode& row_of(AckResult result) {
-    static constexpr ResultCode unknown{none, "unknown result", "an answer that this program does not know"};
+    static constexpr ResultCode unknown{none, "unknown result", "a result that the register map does not define"};
     for (const ResultCode& one : result_table) {
         if (one.result == result) return one;
     }

@@ -1,6 +1,7 @@
 // The coded values of the register map: modes, states, results, flag bits, and their names.
 //
-// Numbers are those on the wire (docs/registers.md).
+// The numbers are those on the wire (docs/registers.md). A value read from the wire may be any number: name() and
+// describe() return a text for every one, never nullptr.
 
 #pragma once
 
@@ -9,12 +10,13 @@
 
 namespace qchopper {
 
-constexpr std::uint16_t cell_magic = 0x5143;
+constexpr std::uint16_t cell_magic = 0x5143;   // first register of STATUS and COMMAND
 constexpr std::uint16_t map_version = 0x0100;  // major.minor; the same major number is accepted
-constexpr std::uint16_t any_cell_id = 0xFFFF;  // what a simulated cell calls itself unless told
+constexpr std::uint16_t any_cell_id = 0xFFFF;  // CELL_ID of a simulated cell that was given none
 
 enum class UnitMode : std::uint16_t { production = 1, maintenance = 2, manual = 3, rehearsal = 4 };
 
+// States of a job; beside two of them their names in OPC 10031-4 (ISA-95 job control).
 enum class JobState : std::uint16_t {
     none = 0,
     stored = 1,    // NotAllowedToStart
@@ -40,7 +42,7 @@ enum class JobResult : std::uint16_t {
 
 enum class TransferState : std::uint16_t { idle = 0, open = 1, complete = 2, hash_mismatch = 3 };
 enum class Transfer : std::uint16_t { drop_folder = 1, chunks = 2 };
-enum class LinkLoss : std::uint16_t { go_on = 0, hold = 1 };  // what a running job does when the PC falls silent
+enum class LinkLoss : std::uint16_t { go_on = 0, hold = 1 };  // of a running job without heartbeats of the PC
 
 namespace flag {
 constexpr std::uint16_t ready_for_ticket = 1U << 0;
@@ -111,7 +113,7 @@ constexpr bool is_refusal(AckResult result) {
     return static_cast<std::uint16_t>(result) >= 0x100;
 }
 
-// One row of the table of results.
+// One row of the table of results in docs/registers.md.
 struct ResultCode {
     AckResult result;
     const char* name;
@@ -121,7 +123,7 @@ std::span<const ResultCode> result_codes();
 // Per bit of FLAGS, from bit 0.
 std::span<const char* const> flag_names();
 
-// As in the map, "NO_CONSENT"; and in words for the operator, "the operator at the cell did not consent".
+// The name in the map, "NO_CONSENT"; and for the operator "the operator at the cell did not consent".
 const char* name(AckResult result);
 const char* describe(AckResult result);
 const char* name(JobState state);

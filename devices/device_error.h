@@ -1,7 +1,7 @@
-// What goes wrong with the cell or on the way to it, in words for the operator.
+// The error of a cell that cannot be used: what failed, why, and what to do.
 //
-// The sibling of InputError. Only thrown while it is certain that no job was started by us; an answer of the cell to
-// a job ("no consent", "hash mismatch") is not an error but part of JobOutcome (devices/dispatch.h).
+// The counterpart of InputError, also caught in main. Thrown only while it is certain that this hand-off has started no
+// job. That the cell refuses a job ("no consent", "hash mismatch") is not an error but a JobOutcome.
 
 #pragma once
 
@@ -11,15 +11,15 @@
 namespace qchopper {
 
 enum class DeviceFault {
-    unreachable,  // nothing listens there, no name, no answer in time
-    protocol,     // somebody answers who is not a cell of ours: magic, version, checksum, word order
-    busy,         // another dispatcher owns the cell, or it runs another job: try again later
-    refused       // the cell is not the one that was asked for, or a job cannot be put in its words
+    unreachable,  // nothing listens, the host name cannot be resolved, or no answer in time
+    protocol,     // what answers has no STATUS of this register map: magic, version, checksum, order of registers
+    busy,         // another dispatcher owns the cell, or it is not idle: try again later
+    refused       // another cell than ordered, or it refused CLAIM
 };
 
 class DeviceError : public std::runtime_error {
  public:
-    // `what_failed` names the cell and says why; `to_do` is one sentence on what helps.
+    // `what_failed` names the cell and the reason; `to_do_next` is one sentence, or empty.
     DeviceError(DeviceFault fault_kind, const std::string& what_failed, std::string to_do_next = {})
         : std::runtime_error(what_failed), fault(fault_kind), to_do(std::move(to_do_next)) {}
 

@@ -1,3 +1,6 @@
+// A loop: advance() of hand_off.h returns an action, this performs it over the bus, the drop folder or the clock, and
+// passes the answer on. Everything runs in the caller's thread; memory is that of the job file and one block.
+
 #include "devices/dispatch.h"
 
 #include <errno.h>
@@ -26,11 +29,12 @@ void fill_random(std::span<std::uint8_t> bytes) {
         const ssize_t got = getrandom(bytes.data() + done, bytes.size() - done, 0);
         if (got > 0) done += static_cast<std::size_t>(got);
         if (got < 0 && errno != EINTR) {
-            throw InputError(InputFault::io, "this computer has no source of random numbers", "");
+            throw InputError(InputFault::io, "the operating system gives no random numbers; nothing was sent", "");
         }
     }
 }
 
+// Never 0.
 std::uint32_t random_number() {
     std::array<std::uint8_t, 4> bytes{};
     std::uint32_t number = 0;
@@ -41,7 +45,7 @@ std::uint32_t random_number() {
     return number;
 }
 
-// UUID version 4.
+// UUID version 4 (RFC 9562).
 Uuid random_id() {
     Uuid id{};
     fill_random(id);
@@ -55,23 +59,26 @@ std::uint64_t unix_ms() {
     return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
 }
 
-// The job file on its way into the drop folder. Under a name with a dot in front no cell looks at it; what was not
-// delivered is taken away again.
+// The job file in the drop folder: written under its staging name, then renamed. A file that was not renamed is
+// removed.
 class StagedFile {
  public:
     StagedFile() = default;
-    ~StagedFile() { take_away(); }
+    ~StagedFile() {
+        std::error_code ignored;
+        if (!staged_.empty()) std::filesystem::remove(staged_, ignored);
+    }
     StagedFile(const StagedFile&) = delete;
     StagedFile& operator=(const StagedFile&) = delete;
 
     void stage(const std::filesystem::path& folder, const std::string& file_name, const Uuid& job_id,
                const Bytes& bytes) {
         use_.emplace(folder);
-        staged_ = folder / name_on_its_way(file_name, job_id);
+        staged_ = folder / staging_name(file_name, job_id);
         target_ = folder / file_name;
         write_file(staged_, bytes);
     }
-    // Empty, or why not.
+    // Returns the reason if it fails, else "".
     std::string put() {
         std::error_code error;
         std::filesystem::rename(staged_, target_, error);
@@ -80,11 +87,6 @@ class StagedFile {
         return {};
     }
     bool is_staged() const { return !staged_.empty(); }
-    void take_away() {
-        std::error_code ignored;
-        if (!staged_.empty()) std::filesystem::remove(staged_, ignored);
-        staged_.clear();
-    }
 
  private:
     std::optional<DropFolderUse> use_;
@@ -104,16 +106,16 @@ class Dispatcher {
     Dispatcher& operator=(const Dispatcher&) = delete;
 
     JobOutcome run() {
-        note("CREATED job=" + to_text(plan_.ticket.job_id) + " sha256=" + to_hex(plan_.ticket.file_sha256));
-        say("job " + to_text(plan_.ticket.job_id) + ": " + file_name_);
+        write_journal("CREATED job=" + to_text(plan_.ticket.job_id) + " sha256=" + to_hex(plan_.ticket.file_sha256));
+        report("job " + to_text(plan_.ticket.job_id) + ": " + file_name_);
         HandOff state;
         HandOffInput input;
         for (;;) {
             input.cancelled = is_cancelled();
             HandOffTransition turn = advance(plan_, std::move(state), input, now_s());
             state = std::move(turn.state);
-            for (const std::string& line : turn.lines) say(line);
-            note(turn.action.journal);
+            for (const std::string& line : turn.lines) report(line);
+            write_journal(turn.action.journal);
             if (turn.action.kind == HandOffAction::Kind::finish) break;
             input = act(turn.action, state, input.cancelled);
         }
@@ -127,19 +129,19 @@ class Dispatcher {
     double now_s() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
     bool is_cancelled() const { return context_.cancelled != nullptr && context_.cancelled->load(); }
 
-    void note(const std::string& row) const {
+    void write_journal(const std::string& row) const {
         if (!row.empty() && plan_.options.journal) plan_.options.journal(row);
     }
 
-    void say(const std::string& line) {
+    void report(const std::string& line) {
         char time[32];
         std::snprintf(time, sizeof time, "%8.2f s  ", now_s());
         log_.push_back(time + line);
         context_.message(line);
     }
 
-    // `was_told`: the hand-off knows already that the caller wants to stop.
-    HandOffInput act(const HandOffAction& action, const HandOff& state, bool was_told) {
+    // `stop_requested`: the hand-off has been passed the request to stop.
+    HandOffInput act(const HandOffAction& action, const HandOff& state, bool stop_requested) {
         switch (action.kind) {
             case Kind::read_status:
                 return read_status();
@@ -152,7 +154,7 @@ class Dispatcher {
             case Kind::write_signature:
                 return write(signature_block.base, Registers(signature_block.count, 0));
             case Kind::heartbeat:
-                return write(heartbeat_block.base, encode(action.beat));
+                return write(heartbeat_block.base, encode(action.heartbeat));
             case Kind::write_chunk:
                 return write_chunk(action.offset, state.epoch);
             case Kind::stage_file:
@@ -161,7 +163,7 @@ class Dispatcher {
             case Kind::put_file:
                 return put_file();
             case Kind::wait:
-                wait(action.until_s, was_told);
+                wait(action.until_s, stop_requested);
                 return {};
             case Kind::finish:
                 break;
@@ -185,7 +187,7 @@ class Dispatcher {
     HandOffInput put_file() {
         HandOffInput input;
         try {
-            // A second time after a lost link: the cell may have taken the first away.
+            // After a lost link this is the second time, and the cell may have removed the first file.
             if (!staged_.is_staged()) staged_.stage(plan_.options.drop_folder, file_name_, plan_.ticket.job_id, file_);
             input.why = staged_.put();
         } catch (const InputError& error) {
@@ -203,10 +205,10 @@ class Dispatcher {
         return input;
     }
 
-    // Wakes up early when the caller wants to stop and the hand-off does not know it yet.
-    void wait(double until_s, bool was_told) const {
+    // Ends early at a request to stop that the hand-off has not been passed yet.
+    void wait(double until_s, bool stop_requested) const {
         constexpr double slice_s = 0.02;
-        while (now_s() < until_s && (was_told || !is_cancelled())) {
+        while (now_s() < until_s && (stop_requested || !is_cancelled())) {
             std::this_thread::sleep_for(std::chrono::duration<double>(std::min(slice_s, until_s - now_s())));
         }
     }
@@ -220,8 +222,8 @@ class Dispatcher {
             out.job_result = state.status->job_result;
         }
         if (state.result) {
-            out.job_state = state.result->job_state;
-            out.job_result = state.result->job_result;
+            out.job_state = state.result->state;
+            out.job_result = state.result->result;
             out.starts = state.result->starts;
             out.starts_known = true;
         }
@@ -238,7 +240,7 @@ class Dispatcher {
     }
 
     RegisterBus& bus_;
-    const Bytes& file_;  // the caller's
+    const Bytes& file_;  // of the caller
     HandOffPlan plan_;
     const Context& context_;
     std::string file_name_;

@@ -1,8 +1,8 @@
 // Hands one job to a cell and follows it to its end, over any bus of registers.
 //
-// Seconds. The report is one of three words and never a guess: STARTED only if the cell has started the job, NOT
-// STARTED only if it never can start it any more, UNKNOWN otherwise (tests/sim/hand_off_over_tcp_test.cpp). What to do
-// next is decided by the pure state machine of hand_off.h; this drives it.
+// The verdict is STARTED only if the cell has started the job, NOT STARTED only if it has not and no longer can, and
+// UNKNOWN otherwise (tests/sim/hand_off_over_tcp_test.cpp, tests/sim/hand_off_faults_test.cpp). The pure state machine
+// of hand_off.h decides each action; this performs them.
 
 #pragma once
 
@@ -15,11 +15,14 @@
 
 namespace qchopper {
 
-// Throws DeviceError while nothing was started: unreachable, not a cell of ours, another cell, busy; InputError if
-// `file`, the bytes of the job file, does not match the ticket or cannot be put into the drop folder. Refusals of the
-// job and everything after START are a JobOutcome. With context.cancelled this returns within leave_s: before START the
-// job is cancelled and the cell given back, confirmed if the cell answers in time; afterwards it is left to run by
-// itself.
+// `file` holds the bytes of the job file. Throws DeviceError while nothing was started: unreachable, no cell of this
+// register map, another cell, busy. Throws InputError if `file` does not match the ticket's size and SHA-256, if the
+// ticket cannot be encoded, or if the file cannot be written into the drop folder. Passes on what options.journal
+// throws. Refusals of the job and everything after START are a JobOutcome.
+//
+// Once context.cancelled is set this returns within timings.leave_s. Before START the job is cancelled and the lease
+// released, and the outcome states whether the cell has confirmed that. After START the job runs on by itself, unless
+// options.stop_when_cancelled: then Stop is sent, and this returns within timings.answer_s.
 JobOutcome dispatch_job(RegisterBus& bus, const JobTicket& ticket, const Bytes& file, const DispatchOptions& options,
                         const Context& context);
 

@@ -1,3 +1,6 @@
+// flock() on the folder itself: shared by all dispatchers, exclusive for the one that removes what was left behind,
+// given back by the kernel when a program dies. O(entries of the folder).
+
 #include "devices/drop_folder.h"
 
 #include <fcntl.h>
@@ -23,7 +26,7 @@ bool is_id(const std::string& text) {
 }
 
 // ".C.qjob.<job id>", or that with the ".tmp.4711" of write_file.
-bool is_on_its_way(std::string name) {
+bool is_staging_name(std::string name) {
     const std::size_t aside = name.rfind(".tmp.");
     if (aside != std::string::npos) name.resize(aside);
     if (name.size() < id_length + 3 || name.front() != '.') return false;
@@ -37,14 +40,14 @@ void remove_leftovers(const fs::path& folder) {
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
         std::error_code unknown;
         const bool is_file = fs::is_regular_file(entry->symlink_status(unknown));
-        if (is_file && is_on_its_way(entry->path().filename().string())) old.push_back(entry->path());
+        if (is_file && is_staging_name(entry->path().filename().string())) old.push_back(entry->path());
     }
     for (const fs::path& file : old) fs::remove(file, error);
 }
 
 }  // namespace
 
-std::string name_on_its_way(const std::string& file_name, const Uuid& job_id) {
+std::string staging_name(const std::string& file_name, const Uuid& job_id) {
     return "." + file_name + "." + to_text(job_id);
 }
 
@@ -52,8 +55,7 @@ DropFolderUse::DropFolderUse(const fs::path& folder)
     : lock_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
     if (lock_ < 0) return;
     if (::flock(lock_, LOCK_EX | LOCK_NB) == 0) remove_leftovers(folder);
-    // Shared by all who use the folder; the kernel gives it back when a program dies. Another may be removing leftovers
-    // at this moment, but a hand-off waits for nobody without end.
+    // Another dispatcher may be removing files at this moment; the wait for it is bounded.
     for (int attempt = 0; attempt < 100 && ::flock(lock_, LOCK_SH | LOCK_NB) != 0; ++attempt) ::usleep(10'000);
 }
 

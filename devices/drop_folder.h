@@ -1,7 +1,8 @@
 // The folder from which a cell fetches job files, while a dispatcher uses it.
 //
-// A file on its way has a name with a dot in front, at which no cell looks. A dispatcher that was killed leaves such
-// files; the next one removes them, unless another still uses the folder (tests/devices/drop_folder_test.cpp).
+// A file is written under a staging name that begins with a dot, which no cell reads, and renamed when it is complete.
+// A dispatcher that was killed leaves such files behind; the next one removes them, unless another still uses the
+// folder (tests/devices/drop_folder_test.cpp).
 
 #pragma once
 
@@ -12,19 +13,21 @@
 
 namespace qchopper {
 
-// ".C.qjob.<job id>": what a job file is called before it is delivered.
-std::string name_on_its_way(const std::string& file_name, const Uuid& job_id);
+// ".C.qjob.<job id>" for the job file "C.qjob".
+std::string staging_name(const std::string& file_name, const Uuid& job_id);
 
+// Holds a shared lock on the folder as long as it lives.
 class DropFolderUse {
  public:
-    // A folder that is not there or cannot be locked is left as it is: whoever writes into it will tell.
+    // Waits for the lock, at most a second. Never throws for a folder that is missing or cannot be locked: it goes on
+    // without a lock, and the write into the folder reports the fault.
     explicit DropFolderUse(const std::filesystem::path& folder);
     ~DropFolderUse();
     DropFolderUse(const DropFolderUse&) = delete;
     DropFolderUse& operator=(const DropFolderUse&) = delete;
 
  private:
-    int lock_;
+    int lock_;  // descriptor of the folder, or -1
 };
 
 }  // namespace qchopper

@@ -1,4 +1,7 @@
-// What describes the register map: fields, and the blocks that they make up.
+// The description of the register map: fields, and the blocks that consist of them.
+//
+// Addresses and counts are in 16-bit registers; addresses are 0-based. The fields of a block follow each other without
+// gap or overlap (tests/devices/registers_test.cpp).
 
 #pragma once
 
@@ -9,7 +12,7 @@ namespace qchopper {
 
 enum class FieldType : std::uint8_t { u16, u32, u64, i32, text, bytes, words };
 
-// One field of a block. `address` counts from the start of the whole map, `count` is in registers.
+// One field of a block. `address` is that in the map, not the offset in the block.
 struct Field {
     std::uint16_t address;
     std::uint16_t count;
@@ -23,13 +26,13 @@ enum class Side : std::uint8_t { input, holding };  // input: the cell publishes
 struct Block {
     const char* name;
     Side side;
-    std::uint16_t base;
-    std::uint16_t count;
-    bool whole;  // written by exactly one request that covers it, or not at all
+    std::uint16_t base;   // address of the first register
+    std::uint16_t count;  // registers
+    bool whole;           // written by exactly one request that covers it, or not at all
     std::span<const Field> fields;
     const char* meaning;
-    constexpr bool contains(std::uint32_t address, std::uint32_t words) const {
-        return address >= base && address + words <= static_cast<std::uint32_t>(base) + count;
+    constexpr bool contains(std::uint32_t address, std::uint32_t registers) const {
+        return address >= base && address + registers <= static_cast<std::uint32_t>(base) + count;
     }
 };
 

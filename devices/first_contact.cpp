@@ -1,3 +1,5 @@
+// Tries with growing pauses: 0.25, 0.5, then 1 s, for 2 s.
+
 #include "devices/first_contact.h"
 
 #include <algorithm>
@@ -14,25 +16,21 @@ namespace {
 constexpr double patience_s = 2;
 constexpr double pauses_s[] = {0.25, 0.5, 1};
 
-bool is_busy(const HandOffInput& failed) {
-    return failed.end == BusEnd::exception && (failed.exception == 5 || failed.exception == 6);
-}
-
-// A server that does not have our registers. The other exceptions say that something behind it has failed.
+// A server that does not have these registers. The exceptions from 4 on mean that something behind it has failed.
 bool lacks_registers(const HandOffInput& failed) {
     return failed.end == BusEnd::exception && failed.exception <= 3;
 }
 
 template <class T, class Decode>
-HandOffInput read(RegisterBus& bus, const Block& block, std::optional<T> HandOffInput::*where, Decode decode) {
+HandOffInput read(RegisterBus& bus, const Block& block, std::optional<T> HandOffInput::*member, Decode decode) {
     HandOffInput input;
-    for (int time = 0; time < 3; ++time) {
+    for (int tries = 0; tries < 3; ++tries) {
         const BusAnswer answer = bus.read_input(block.base, block.count);
         input = input_from(answer);
         if (!answer.is_ok()) return input;
         const auto decoded = decode(answer.registers);
         if (decoded.is_ok()) {
-            input.*where = decoded.value;
+            input.*member = decoded.value;
             return input;
         }
         input.fault = decoded.fault;
@@ -43,6 +41,10 @@ HandOffInput read(RegisterBus& bus, const Block& block, std::optional<T> HandOff
 }
 
 }  // namespace
+
+bool is_busy(const HandOffInput& failed) {
+    return failed.end == BusEnd::exception && (failed.exception == 5 || failed.exception == 6);
+}
 
 HandOffInput input_from(const BusAnswer& answer) {
     HandOffInput input;
@@ -69,28 +71,28 @@ std::optional<double> pause_before_next_contact(const HandOffInput& failed, int 
     return pause_s;
 }
 
-ContactFailure why_no_contact(const HandOffInput& failed) {
+ContactFailure contact_failure(const HandOffInput& failed) {
     if (failed.fault != BlockFault::none) {
         return {DeviceFault::protocol,
-                "what answers is not a cell of ours: its STATUS is " + std::string(describe(failed.fault)),
-                "Check address and port; a gateway in between may swap words."};
+                "what answers is not a QChopper cell: its STATUS is " + std::string(describe(failed.fault)),
+                "Check address and port; a gateway in between may swap registers."};
     }
     if (failed.is_alien) {
-        return {DeviceFault::protocol, "what answers does not speak Modbus TCP as a cell does: " + failed.why,
+        return {DeviceFault::protocol, "what answers does not follow Modbus TCP: " + failed.why,
                 "Check address and port."};
     }
     const std::string exception =
-        "exception " + std::to_string(failed.exception) + " (" + failed.why + ") to the question for its STATUS";
+        "exception " + std::to_string(failed.exception) + " (" + failed.why + ") to the request for its STATUS";
     if (lacks_registers(failed)) {
-        return {DeviceFault::protocol, "what answers is not a cell of ours: " + exception, "Check address and port."};
+        return {DeviceFault::protocol, "what answers is not a QChopper cell: " + exception, "Check address and port."};
     }
     if (is_busy(failed)) return {DeviceFault::busy, "the cell is busy: " + exception, "Try again later."};
     if (failed.end == BusEnd::exception) {
         return {DeviceFault::unreachable, "the cell cannot be reached behind what answers: " + exception,
-                "Is the cell itself switched on and in order?"};
+                "Check that the cell itself is switched on and works."};
     }
     return {DeviceFault::unreachable, "the cell does not answer: " + failed.why,
-            "Is the cell switched on, is this its address, and are all its connections in use?"};
+            "Check that the cell is switched on, that this is its address, and that it has a free connection."};
 }
 
 std::optional<Status> read_first_status(RegisterBus& bus, const std::string& where, const Context& context) {
@@ -99,10 +101,10 @@ std::optional<Status> read_first_status(RegisterBus& bus, const std::string& whe
     const auto seconds_since = [](Clock::time_point then) {
         return std::chrono::duration<double>(Clock::now() - then).count();
     };
-    struct Leaving {
+    struct LimitRemover {
         RegisterBus& bus;
-        ~Leaving() { bus.leave_when(nullptr, 0); }
-    } const leaving{bus};
+        ~LimitRemover() { bus.leave_when(nullptr, 0); }
+    } const remover{bus};
     bus.leave_when(context.cancelled, HandOffTimings{}.leave_s);
     std::optional<Clock::time_point> failed_at;
     for (int tries = 0; !is_cancelled(); ++tries) {
@@ -112,7 +114,7 @@ std::optional<Status> read_first_status(RegisterBus& bus, const std::string& whe
         const std::optional<double> pause_s = pause_before_next_contact(input, tries, seconds_since(*failed_at));
         if (is_cancelled()) break;
         if (!pause_s) {
-            const ContactFailure failure = why_no_contact(input);
+            const ContactFailure failure = contact_failure(input);
             throw DeviceError(failure.fault, where + ": " + failure.why, failure.to_do);
         }
         const Clock::time_point began = Clock::now();

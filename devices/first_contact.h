@@ -1,6 +1,7 @@
-// The first STATUS: how often it is asked for, and what it means if it does not come.
+// Reads blocks of a cell, and decides what a failed read of the first STATUS means.
 //
-// The pause and the reason are pure; the hand-off uses them too (tests/devices/hand_off_test.cpp).
+// Nothing here writes to the cell. The state machine of hand_off.h uses the pure functions too
+// (tests/devices/hand_off_test.cpp).
 
 #pragma once
 
@@ -14,8 +15,11 @@
 
 namespace qchopper {
 
-// Seconds until STATUS is worth another try after `tries` that failed before this one, the first of them `since_s` ago;
-// nothing if it is not, or no longer.
+// The cell answered with exception 5 (acknowledge) or 6 (server device busy): the same request may succeed later.
+bool is_busy(const HandOffInput& failed);
+
+// Seconds until the next read of STATUS. `tries` reads failed before `failed`; the first failed since_s seconds ago.
+// Nothing if another read cannot help, or if it would begin more than 2 s after the first failure.
 std::optional<double> pause_before_next_contact(const HandOffInput& failed, int tries, double since_s);
 
 struct ContactFailure {
@@ -23,17 +27,18 @@ struct ContactFailure {
     std::string why;
     std::string to_do;
 };
-// protocol only if somebody has answered who is not a cell of ours.
-ContactFailure why_no_contact(const HandOffInput& failed);
+// `failed` has ended without a STATUS. Fault `protocol` only if something has answered that is no cell of this map.
+ContactFailure contact_failure(const HandOffInput& failed);
 
-// A block that came torn or damaged is read again, twice, and never acted on.
+// One read of the whole block, decoded. A damaged or torn block is read again, at most three times in all; after that
+// it counts as lost, with the fault found.
 HandOffInput read_status_block(RegisterBus& bus);
 HandOffInput read_result_block(RegisterBus& bus);
-// The end of a call without what was read.
+// How a call ended, without the registers that were read.
 HandOffInput input_from(const BusAnswer& answer);
 
-// Asks who answers, before anything is sent. Nothing if the caller asked to stop; throws DeviceError, with `where` in
-// front.
+// Reads STATUS before anything is written, with the pauses above. Nothing if context.cancelled is set before one has
+// come. Throws DeviceError, its text beginning with `where`, if none comes. Removes the limit of bus.leave_when().
 std::optional<Status> read_first_status(RegisterBus& bus, const std::string& where, const Context& context);
 
 }  // namespace qchopper

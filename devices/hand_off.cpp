@@ -1,3 +1,10 @@
+// What every step of the hand-off has in common: lost links, exceptions, acknowledgements, heartbeats.
+//
+// Every CLAIM has a higher epoch than the one before, and the cell refuses commands of a lower one: a lease (C. Gray,
+// D. Cheriton: Leases: An Efficient Fault-Tolerant Mechanism for Distributed File Cache Consistency, 1989) with a
+// fencing number. What is in transit when the link is lost is void after the next CLAIM, and QUERY after that shows
+// whether the job has started. O(1) for each turn.
+
 #include "devices/hand_off.h"
 
 #include <algorithm>
@@ -15,14 +22,20 @@ HandOffAction plain(Kind kind, std::string journal) {
     return action;
 }
 
-HandOffAction pause(StepContext& context) {
+HandOffAction wait_until(double until_s) {
     HandOffAction action = plain(Kind::wait);
+    action.until_s = until_s;
+    return action;
+}
+
+HandOffAction pause(StepContext& context) {
+    const HandOff& h = context.h;
     constexpr double leaving_poll_s = 0.1;
     const double poll_s = context.timings().poll_s;
-    action.until_s = context.now_s + (context.is_leaving() ? std::min(poll_s, leaving_poll_s) : poll_s);
-    if (context.is_leaving()) action.until_s = std::min(action.until_s, context.h.leave_by_s);
-    if (context.h.is_owner) action.until_s = std::min(action.until_s, context.h.beat_s + context.timings().heartbeat_s);
-    return action;
+    double until_s = context.now_s + (context.is_leaving() ? std::min(poll_s, leaving_poll_s) : poll_s);
+    if (context.is_leaving()) until_s = std::min(until_s, h.leave_by_s);
+    if (h.is_owner) until_s = std::min(until_s, h.heartbeat_s + context.timings().heartbeat_s);
+    return wait_until(until_s);
 }
 
 HandOffAction send(StepContext& context, CellCommand command, std::string journal) {
@@ -52,15 +65,14 @@ HandOffAction finish(StepContext& context, StartVerdict verdict, const std::stri
         context.h.to_do = "It cannot start: the cell holds no valid START for it.";
     }
     context.h.step = HandOffStep::finished;
-    context.say(std::string(describe(verdict)) + ": " + context.h.why);
+    context.report(std::string(describe(verdict)) + ": " + context.h.why);
     return plain(Kind::finish, "CLOSED " + std::string(describe(verdict)));
 }
 
 HandOffAction give_up(StepContext& context, const std::string& why, const std::string& to_do) {
     if (context.h.contradicts_itself) return finish(context, StartVerdict::unknown, why, to_do);
     if (context.h.is_started) return finish(context, StartVerdict::started, why, to_do);
-    if (context.h.start_sent)
-        return finish(context, StartVerdict::unknown, why, "Look at the cell before anything else.");
+    if (context.h.start_sent) return finish(context, StartVerdict::unknown, why, look_first);
     return finish(context, StartVerdict::not_started, why, to_do);
 }
 
@@ -70,9 +82,7 @@ HandOffAction fail(StepContext& context, DeviceFault fault, const std::string& w
 }
 
 HandOffAction withdraw(StepContext& context, const std::string& why, const std::string& to_do) {
-    context.h.why = why;
-    context.h.to_do = to_do;
-    context.say(why);
+    context.set_reason(why, to_do);
     if (context.h.is_stored) return enter(context, HandOffStep::cancel);
     if (context.h.claim_sent) return enter(context, HandOffStep::release);
     return finish(context, StartVerdict::not_started, why, to_do);
@@ -80,8 +90,8 @@ HandOffAction withdraw(StepContext& context, const std::string& why, const std::
 
 HandOffAction fence(StepContext& context, const std::string& why) {
     if (context.is_leaving()) return leave_at_once(context);
-    if (++context.h.fences > most_fences) return give_up(context, why + ", again and again");
-    context.say(why + "; claiming the cell anew, then asking it what it knows of the job");
+    if (++context.h.fences > most_fences) return give_up(context, why + ", repeatedly");
+    context.report(why + "; claiming the cell again, then querying the job");
     return enter(context, HandOffStep::claim);
 }
 
@@ -100,25 +110,19 @@ HandOffAction try_contact_again(StepContext& context) {
     const std::optional<double> pause_s =
         pause_before_next_contact(context.in, h.lost_times++, context.now_s - h.lost_since_s);
     if (!pause_s) {
-        const ContactFailure failure = why_no_contact(context.in);
+        const ContactFailure failure = contact_failure(context.in);
         return fail(context, failure.fault, failure.why, failure.to_do);
     }
-    HandOffAction action = plain(Kind::wait);
-    action.until_s = context.now_s + *pause_s;
-    return action;
+    return wait_until(context.now_s + *pause_s);
 }
 
-// After a refusal that has nothing to do with the job: takes it out of the cell as far as that can still be done.
+// After a refusal that does not concern the job: CANCEL and RELEASE as far as that is still possible.
 HandOffAction back_out(StepContext& context, const std::string& why, const std::string& to_do) {
     HandOff& h = context.h;
     if (h.step == HandOffStep::release || !h.claim_sent) return give_up(context, why, to_do);
     const bool is_withdrawn = !h.why.empty();
     if (!is_withdrawn && !h.is_started) return withdraw(context, why, to_do);
-    if (!is_withdrawn) {
-        h.why = why;
-        h.to_do = to_do;
-        context.say(why);
-    }
+    if (!is_withdrawn) context.set_reason(why, to_do);
     return enter(context, HandOffStep::release);
 }
 
@@ -126,32 +130,28 @@ HandOffAction on_lost(StepContext& context) {
     HandOff& h = context.h;
     h.deferred.reset();
     if (!h.status) return try_contact_again(context);
-    if (h.step == HandOffStep::release) return give_up(context, "the link was lost while giving the cell back");
+    if (h.step == HandOffStep::release) return give_up(context, "the link was lost during RELEASE");
     if (context.is_leaving() && (h.is_started || h.start_sent)) return leave_at_once(context);
     if (h.lost_since_s < 0) {
         h.lost_since_s = context.now_s;
         h.lost_times = 0;
-        context.say("the link to the cell is lost (" + context.in.why + "); trying again");
+        context.report("the link to the cell is lost (" + context.in.why + "); trying again");
     }
     if (context.now_s - h.lost_since_s > context.timings().link_patience_s) {
         return give_up(context, h.is_started ? "the link to the cell was lost; the job runs on by itself"
                                              : "the link to the cell was lost and did not come back");
     }
-    HandOffAction action = plain(Kind::wait);
-    action.until_s = context.now_s + back_off_s[std::min<std::size_t>(h.lost_times++, std::size(back_off_s) - 1)];
-    if (context.is_leaving()) action.until_s = std::min(context.now_s + back_off_s[0], h.leave_by_s);
-    return action;
+    const double pause_s = back_off_s[std::min<std::size_t>(h.lost_times++, std::size(back_off_s) - 1)];
+    if (context.is_leaving()) return wait_until(std::min(context.now_s + back_off_s[0], h.leave_by_s));
+    return wait_until(context.now_s + pause_s);
 }
 
 HandOffAction on_exception(StepContext& context) {
     HandOff& h = context.h;
-    const bool is_busy = context.in.exception == 5 || context.in.exception == 6;
-    if (is_busy && ++h.busy_times <= most_busy_answers) {
+    if (is_busy(context.in) && ++h.busy_times <= most_busy_answers) {
         if (!h.deferred) h.deferred = h.last;
-        HandOffAction action = plain(Kind::wait);
-        action.until_s = context.now_s + busy_pause_s;
-        if (context.is_leaving()) action.until_s = std::min(action.until_s, h.leave_by_s);
-        return action;
+        const double until_s = context.now_s + busy_pause_s;
+        return wait_until(context.is_leaving() ? std::min(until_s, h.leave_by_s) : until_s);
     }
     h.deferred.reset();
     if (!h.status) return try_contact_again(context);
@@ -162,22 +162,22 @@ HandOffAction on_exception(StepContext& context) {
     return back_out(context, why, "Tell the integrator of the cell.");
 }
 
-// Keeps what every good STATUS tells, whatever the step.
+// Keeps what every STATUS shows, in all steps.
 void note_status(StepContext& context) {
     HandOff& h = context.h;
     const Status& fresh = *context.in.status;
-    if (h.lost_since_s >= 0) context.say("the link to the cell is back");
+    if (h.lost_since_s >= 0) context.report("the link to the cell is back");
     if (!h.status || fresh.heartbeat != h.status->heartbeat || h.lost_since_s >= 0) {
-        h.cell_beat_s = context.now_s;
-        if (h.is_frozen) context.say("the cell's heartbeat moves again");
+        h.cell_heartbeat_s = context.now_s;
+        if (h.is_frozen) context.report("the cell's heartbeat changes again");
         h.is_frozen = false;
     }
     if (h.status && h.step == HandOffStep::run && fresh.state != h.status->state) {
-        context.say(std::string("the cell is in ") + name(fresh.state));
+        context.report(std::string("the cell is in ") + name(fresh.state));
     }
     if (has_started(fresh.job_state) && fresh.job_id == context.job_id() && !h.is_started) {
         h.is_started = true;
-        if (h.start_sent) context.say("the job has started");
+        if (h.start_sent) context.report("the job has started");
     }
     if (fresh.job_id == context.job_id()) h.elapsed_s = fresh.elapsed_s;
     h.status = fresh;
@@ -192,21 +192,21 @@ HandOffAction wait_for_ack(StepContext& context) {
     const double bound_s = works_long ? 10 * context.timings().answer_s : context.timings().answer_s;
     if (status.ack_owner == context.plan.owner && status.ack_seq == h.seq) {
         if (status.ack_command != h.command.command) {
-            const std::string what = std::string("it acknowledged number ") + std::to_string(h.seq) + " as " +
+            const std::string what = std::string("it acknowledged command ") + std::to_string(h.seq) + " as " +
                                      name(status.ack_command) + ", and that was " + name(h.command.command);
             return h.start_sent || h.is_started ? contradict(context, what) : back_out(context, what, "");
         }
         if (is_refusal(status.ack_result)) return refused(context, status.ack_result);
         if (status.ack_result == AckResult::ok || status.ack_result == AckResult::already) return acknowledged(context);
-        if (!h.has_pending && asks_person) context.say("waiting for consent at the cell");
+        if (!h.has_pending && asks_person) context.report("waiting for consent at the cell");
         h.has_pending = true;
         if (waited_s > (asks_person ? context.timings().consent_s : bound_s)) {
-            return withdraw(context, std::string(name(h.command.command)) + " was not settled at the cell in time",
-                            "Is somebody at the cell?");
+            return withdraw(context, std::string(name(h.command.command)) + " was not completed at the cell in time",
+                            "Make sure that an operator is at the cell.");
         }
         return pause(context);
     }
-    // The acknowledgement of somebody else may have come in between; the job itself tells.
+    // STATUS may hold the acknowledgement of another client by now; the state of the job proves the start as well.
     if (h.step == HandOffStep::start && h.is_started) return acknowledged(context);
     if (waited_s > bound_s && !(h.has_pending && asks_person)) {
         if (h.step == HandOffStep::start) return fence(context, "the cell does not acknowledge START");
@@ -215,7 +215,7 @@ HandOffAction wait_for_ack(StepContext& context) {
     double resend_s = context.timings().resend_s;
     if (context.is_leaving()) resend_s = std::min(resend_s, context.timings().leave_s / 4);
     if (context.now_s - h.sent_s <= resend_s) return pause(context);
-    h.sent_s = context.now_s;  // the very same frame: it is done once, however often it arrives
+    h.sent_s = context.now_s;  // the same frame: the cell executes it once, however often it arrives
     HandOffAction again = plain(Kind::write_command);
     again.command = h.command;
     return again;
@@ -223,21 +223,22 @@ HandOffAction wait_for_ack(StepContext& context) {
 
 HandOffAction on_status(StepContext& context) {
     HandOff& h = context.h;
-    if (h.step == HandOffStep::check_cell) return look_at_cell(context);
-    // Whoever leaves does not wait for the heartbeat: CANCEL and RELEASE do no harm, whenever they are taken.
-    if (!context.is_leaving() && context.now_s - h.cell_beat_s > context.timings().frozen_s) {
-        if (!h.is_frozen)
-            context.say("CELL FROZEN: the cell answers, but its heartbeat stands still; no command is sent");
+    if (h.step == HandOffStep::check_cell) return check_identity(context);
+    // A hand-off that is to end does not wait for the heartbeat: CANCEL and RELEASE do no harm, whenever they take
+    // effect.
+    const double unchanged_s = context.now_s - h.cell_heartbeat_s;
+    if (!context.is_leaving() && unchanged_s > context.timings().frozen_s) {
+        if (!h.is_frozen) context.report("CELL FROZEN: its heartbeat does not change; no command is sent");
         h.is_frozen = true;
-        if (!h.is_started && context.now_s - h.cell_beat_s > context.timings().link_patience_s) {
-            return give_up(context, "the cell is frozen: it answers, but its heartbeat stands still");
+        if (!h.is_started && unchanged_s > context.timings().link_patience_s) {
+            return give_up(context, "the cell is frozen: its heartbeat does not change");
         }
         return pause(context);
     }
     if (h.waits_for_ack) return wait_for_ack(context);
     switch (h.step) {
         case HandOffStep::make_ready:
-            return get_ready(context);
+            return make_idle(context);
         case HandOffStep::deliver:
             return send_file(context);
         case HandOffStep::run:
@@ -258,14 +259,14 @@ HandOffAction after_answer(StepContext& context) {
         case Kind::write_signature:
             return enter(context, HandOffStep::store);
         case Kind::put_file:
-            if (!context.in.why.empty()) return withdraw(context, context.in.why, "Is the drop folder still there?");
+            if (!context.in.why.empty()) return withdraw(context, context.in.why, "Check that the drop folder exists.");
             return enter(context, HandOffStep::verify);
         case Kind::write_chunk:
             return send_file(context);
         case Kind::read_status:
             return context.in.status ? on_status(context) : plain(Kind::read_status);
         case Kind::read_result:
-            return context.in.result ? take_result(context) : pause(context);
+            return context.in.result ? on_result(context) : pause(context);
         default:
             return plain(Kind::read_status);
     }
@@ -296,10 +297,10 @@ HandOffAction next_action(StepContext& context) {
     if (context.in.status && h.step > HandOffStep::claim && !context.is_leaving()) {
         if (was_lost) {
             h.lost_since_s = -1;
-            if (h.step != HandOffStep::release) return fence(context, "what was under way is not known");
+            if (h.step != HandOffStep::release) return fence(context, "the effect of the last request is unknown");
         }
         if (context.in.status->boot_count != boots && h.step != HandOffStep::release) {
-            return fence(context, "the cell was switched off and on in between");
+            return fence(context, "the cell was restarted");
         }
     }
     if (context.in.status && was_lost) {
@@ -317,13 +318,13 @@ HandOffTransition advance(const HandOffPlan& plan, HandOff state, const HandOffI
     HandOffTransition result;
     hand_off::StepContext context{plan, state, input, now_s, result.lines};
     HandOffAction action = hand_off::next_action(context);
-    const bool beat_due = state.is_owner && now_s - state.beat_s >= plan.options.timings.heartbeat_s;
-    if (beat_due && action.kind != HandOffAction::Kind::finish && action.kind != HandOffAction::Kind::wait &&
+    const bool is_due = state.is_owner && now_s - state.heartbeat_s >= plan.options.timings.heartbeat_s;
+    if (is_due && action.kind != HandOffAction::Kind::finish && action.kind != HandOffAction::Kind::wait &&
         state.lost_since_s < 0) {
         state.deferred = action;
         action = hand_off::plain(HandOffAction::Kind::heartbeat);
-        action.beat = {state.epoch, plan.owner, ++state.beat_counter};
-        state.beat_s = now_s;
+        action.heartbeat = {state.epoch, plan.owner, ++state.heartbeat_counter};
+        state.heartbeat_s = now_s;
     }
     state.last = action;
     result.state = std::move(state);

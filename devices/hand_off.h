@@ -1,9 +1,9 @@
-// The hand-off of one job as a pure state machine: what is known, what was answered and the time give the next action.
+// The hand-off of one job as a pure state machine: the state, the last answer and the time give the next action.
 //
-// Seconds of a clock that never jumps. Nothing here touches the outside world: dispatch.h does the actions, writes the
-// journal row of an action before it, and brings back the answers. START is sent at most once per token, and only
-// after a fresh CLAIM and a QUERY; whatever is not known for certain is reported UNKNOWN
-// (tests/devices/hand_off_test.cpp).
+// Seconds of a monotonic clock. Nothing here reads or writes anything outside: dispatch.h performs the actions, writes
+// the journal row of an action before it, and returns the answers. A token is used by one START only, whose frame may
+// be repeated unchanged, after a CLAIM and a QUERY of the same epoch. The verdict is UNKNOWN wherever neither the start
+// nor its impossibility is certain (tests/devices/hand_off_test.cpp).
 
 #pragma once
 
@@ -15,6 +15,7 @@
 
 namespace qchopper {
 
+// Of one of the enumerators.
 const char* name(HandOffStep step);
 
 struct HandOffTransition {
@@ -22,9 +23,11 @@ struct HandOffTransition {
     HandOffAction action;
     std::vector<std::string> lines;  // for the operator
 };
+// One turn. `input` is the answer to the action of the turn before, at first HandOffInput{}; now_s never decreases.
+// After the action `finish` there is no further turn: the outcome is in `state`, or the error state.fault.
 HandOffTransition advance(const HandOffPlan& plan, HandOff state, const HandOffInput& input, double now_s);
 
-// What helps after a refusal, or nothing.
+// What the operator can do after a refusal; "" if nothing is known.
 const char* remedy(AckResult refusal);
 
 }  // namespace qchopper

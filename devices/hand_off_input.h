@@ -1,4 +1,4 @@
-// What the outside world answers to an action of the hand-off.
+// The answer to one action of the hand-off.
 
 #pragma once
 
@@ -11,16 +11,15 @@
 
 namespace qchopper {
 
-// The answer to the last action.
 struct HandOffInput {
     BusEnd end = BusEnd::ok;
-    int exception = 0;
-    BlockFault fault = BlockFault::none;  // with `lost`: somebody answered, but not like a cell
+    int exception = 0;                    // Modbus exception code if end is exception
+    BlockFault fault = BlockFault::none;  // with `lost`: registers came, but not a right block
     std::string why;                      // if end is not ok, or if put_file failed
-    bool is_alien = false;                // with `lost`: what came is no answer to the request
-    std::optional<Status> status;
-    std::optional<ResultRecord> result;
-    bool cancelled = false;  // the caller asks to stop
+    bool is_alien = false;                // with `lost`: bytes came that are no answer to the request
+    std::optional<Status> status;         // after read_status that ended ok
+    std::optional<ResultRecord> result;   // after read_result that ended ok
+    bool cancelled = false;               // the caller asks to stop
 };
 
 }  // namespace qchopper

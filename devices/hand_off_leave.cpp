@@ -1,21 +1,25 @@
+// The end of a hand-off on request, within leave_s: CANCEL and RELEASE before the start, RELEASE after it. O(1) for
+// each turn.
+
 #include <cassert>
 
 #include "devices/hand_off_context.h"
 
 namespace qchopper::hand_off {
-
 namespace {
 
-void note_what_is_known(HandOff& h) {
+constexpr const char* stop_there = "Stop it at the cell if it must not run.";
+
+void set_reason_of_request(HandOff& h) {
     h.is_cancelled = true;
     if (!h.is_started && h.start_sent) {
-        h.why = "stopped on request; START was sent, and the cell has not said whether it started the job";
-        h.to_do = "Look at the cell before anything else.";
+        h.why = "stopped on request; START was sent, and the cell has not reported whether it started the job";
+        h.to_do = look_first;
     }
     if (h.is_started && h.why.empty()) {
-        h.why = std::string("stopped watching on request; the cell showed the job last as ") +
-                name(h.status->job_state) + ", and what is still to be done goes on by itself";
-        h.to_do = "Stop it at the cell if it must not run.";
+        h.why = std::string("stopped monitoring on request; the last job state read is ") + name(h.status->job_state) +
+                ", and the cell continues by itself";
+        h.to_do = stop_there;
     }
 }
 
@@ -23,7 +27,7 @@ void note_what_is_known(HandOff& h) {
 
 HandOffAction leave_at_once(StepContext& context) {
     assert(context.is_leaving());
-    note_what_is_known(context.h);
+    set_reason_of_request(context.h);
     return give_up(context, "stopped on request");
 }
 
@@ -34,8 +38,8 @@ std::optional<HandOffAction> leave(StepContext& context) {
     const bool half_over = context.now_s >= h.leave_by_s - context.timings().leave_s / 2;
     const bool may_have_started = h.start_sent && !h.is_started;
     if (half_over && h.claim_sent && h.step < HandOffStep::release && !may_have_started) {
-        // A cell that answers to nothing else may still take RELEASE, which voids the token of a job just as well.
-        note_what_is_known(h);
+        // A cell that answers nothing else may still execute RELEASE, which makes the token of a job void as well.
+        set_reason_of_request(h);
         h.deferred.reset();
         return enter(context, HandOffStep::release);
     }
@@ -49,12 +53,10 @@ HandOffAction leave_running_job(StepContext& context) {
     HandOff& h = context.h;
     h.is_cancelled = true;
     if (!context.plan.options.stop_when_cancelled) {
-        h.why = "stopped watching on request; the job runs on by itself";
-        h.to_do = "Stop it at the cell if it must not run.";
-        context.say(h.why);
+        context.set_reason("stopped monitoring on request; the job runs on by itself", stop_there);
         return enter(context, HandOffStep::release);
     }
-    context.say("stopping the machine on request");
+    context.report("stopping the machine on request");
     h.leave_by_s = context.now_s + context.timings().answer_s;
     h.command = Command{};
     h.command.job_id = context.job_id();

@@ -1,6 +1,6 @@
-// What the hand-off of one job is at: its steps, its actions, and all that it knows.
+// The state of the hand-off of one job, its steps and its actions.
 //
-// Seconds of a clock that never jumps. Values only; hand_off.h says how they change.
+// Seconds of a monotonic clock. Plain values; advance() in hand_off.h changes them.
 
 #pragma once
 
@@ -42,7 +42,7 @@ enum class HandOffStep : std::uint8_t {
 struct HandOffPlan {
     WireTicket ticket;
     std::uint32_t owner = 0;   // random, not 0
-    std::uint32_t secret = 0;  // random, never shown
+    std::uint32_t secret = 0;  // random; proves to the cell that a second CLAIM is of the same owner
     DispatchOptions options;
 };
 
@@ -55,49 +55,49 @@ struct HandOffAction {
         write_signature,
         write_chunk,
         heartbeat,
-        stage_file,  // the job file to the drop folder under a name that the cell does not look at
-        put_file,    // and from there to its name
+        stage_file,  // write the job file into the drop folder under its staging name
+        put_file,    // rename it to its name
         wait,
         finish
     };
     Kind kind = Kind::read_status;
-    Command command;           // write_command
-    Heartbeat beat;            // heartbeat
-    std::uint32_t offset = 0;  // write_chunk
-    double until_s = 0;        // wait
+    Command command;           // of write_command
+    Heartbeat heartbeat;       // of heartbeat
+    std::uint32_t offset = 0;  // of write_chunk, in bytes
+    double until_s = 0;        // of wait
     std::string journal;       // a row to be kept before the action is done; empty: none
 };
 
-// What the hand-off knows. Begin with HandOff{}.
+// The state. The first is HandOff{}.
 struct HandOff {
     HandOffStep step = HandOffStep::check_cell;
-    HandOffAction last;  // what was asked for last
+    HandOffAction last;  // the action of the turn before
     bool has_begun = false;
     std::optional<HandOffAction> deferred;  // to be done after a heartbeat, or again after "busy"
 
-    Command command;  // under way
+    Command command;  // the last one sent
     bool waits_for_ack = false;
     std::uint32_t epoch = 0;
     std::uint32_t seq = 0;
-    std::uint32_t receipt = 0;
-    std::uint32_t chunk_next = 0;
-    std::uint32_t chunk_done = 0;  // as the cell said last
-    int chunks_in_flight = 0;
+    std::uint32_t receipt = 0;     // of the rehearsal
+    std::uint32_t chunk_next = 0;  // offset of the next chunk, in bytes
+    std::uint32_t chunk_done = 0;  // XFER_NEXT of the last STATUS that was used
+    int chunks_in_flight = 0;      // since then
 
     std::optional<Status> status;  // last good one
-    double step_since_s = 0;
-    double sent_s = 0;
-    double beat_s = 0;
-    std::uint16_t beat_counter = 0;
-    double cell_beat_s = 0;  // when the cell's heartbeat moved last
-    double lost_since_s = -1;
-    int lost_times = 0;
-    int busy_times = 0;
-    int fences = 0;    // repeated CLAIMs
-    int attempts = 0;  // STARTs that turned out not to have arrived
+    double step_since_s = 0;       // start of the step, of its last command or of its last progress
+    double sent_s = 0;             // when the command was sent last
+    double heartbeat_s = 0;        // when the last heartbeat was sent
+    std::uint16_t heartbeat_counter = 0;
+    double cell_heartbeat_s = 0;  // when the cell's heartbeat changed last
+    double lost_since_s = -1;     // -1: the link is not lost
+    int lost_times = 0;           // since then
+    int busy_times = 0;           // answers in a row
+    int fences = 0;               // repeated CLAIMs
+    int attempts = 0;             // STARTs that turned out not to have arrived
     int claims = 0;
     int ready_commands = 0;  // acknowledged since the cell was to be made ready
-    int odd_answers = 0;     // since the last one of use
+    int odd_answers = 0;     // RESULTs since the last one that helped
     int tokenless = 0;       // PREPAREs that were acknowledged without a token
 
     bool claim_sent = false;  // and not refused: the cell may hold a lease of ours
@@ -107,19 +107,19 @@ struct HandOff {
     bool start_sent = false;  // under the present epoch; the start may have happened
     bool start_acknowledged = false;
     bool is_started = false;          // STATUS or RESULT has shown it
-    bool contradicts_itself = false;  // the cell: nothing that it says of the start is believed
-    bool has_pending = false;         // PENDING was told
-    bool is_frozen = false;           // was told
-    bool is_cancelled = false;        // ends as it does because the caller asked to stop
-    bool is_given_back = false;       // the cell has answered to CANCEL or RELEASE
-    double leave_by_s = -1;           // once the caller has asked to stop: when the hand-off is over at the latest
+    bool contradicts_itself = false;  // the cell: the verdict is UNKNOWN
+    bool has_pending = false;         // PENDING was answered
+    bool is_frozen = false;           // and reported
+    bool is_cancelled = false;        // the outcome is due to the request to stop
+    bool is_given_back = false;       // the cell has answered CANCEL or RELEASE
+    double leave_by_s = -1;           // once the caller has asked to stop: the latest end of the hand-off
     bool reset_sent = false;          // at the end
 
-    double elapsed_s = 0;                // of the job, as the cell said last
-    std::optional<ResultRecord> result;  // of the query at the end
+    double elapsed_s = 0;                // of the job, from the last STATUS that shows it
+    std::optional<ResultRecord> result;  // of a job that has started
     StartVerdict verdict = StartVerdict::unknown;
     AckResult refusal = AckResult::none;
-    std::optional<DeviceFault> fault;  // finished by an error before anything was started
+    std::optional<DeviceFault> fault;  // finished with an error before anything was started
     std::string why;
     std::string to_do;
 };

@@ -1,3 +1,8 @@
+// What each step of the hand-off does, and which step follows. Most steps are one row of a table.
+//
+// Chunks go out in windows of 16; XFER_NEXT of the cell then states where the next window begins (go-back-N). O(1) for
+// each turn, and O(bytes / 232) turns for a file in chunks.
+
 #include <algorithm>
 
 #include "devices/hand_off.h"
@@ -6,19 +11,19 @@
 namespace qchopper::hand_off {
 namespace {
 
-// The steps that are one command: what it is, whether it names our job, and what comes next when it is done.
+// The steps that are one command: whether it names our job, and the next step after its acknowledgement.
 struct StepRow {
     HandOffStep step;
     CellCommand command;
     bool names_job;
     HandOffStep next;
-    const char* says;  // when it is done
+    const char* message;  // after its acknowledgement; "" for none
 };
 using enum HandOffStep;
 constexpr StepRow step_rows[] = {
-    {claim, CellCommand::claim, false, ask_before, "the cell is ours"},
+    {claim, CellCommand::claim, false, ask_before, "the cell is claimed"},
     {ask_before, CellCommand::query, true, make_ready, ""},
-    {store, CellCommand::store, true, deliver, "the cell has taken the ticket"},
+    {store, CellCommand::store, true, deliver, "the cell has accepted the ticket"},
     {verify, CellCommand::verify, true, prepare, "the cell has the job file, and it is the right one (SHA-256)"},
     {rehearse, CellCommand::rehearse, true, prepare, "the rehearsal in the cell has passed"},
     {prepare, CellCommand::prepare, true, start, "the operator at the cell has consented"},
@@ -46,7 +51,7 @@ std::string journal_row(const StepContext& context, HandOffStep step) {
         case start:
             return "START_INTENT" + job + numbers + " token=" + std::to_string(context.h.command.token);
         case clear_result:
-            return "RESULT" + job + " " + name(context.h.result ? context.h.result->job_state : JobState::none);
+            return "RESULT" + job + " " + name(context.h.result ? context.h.result->state : JobState::none);
         default:
             return std::string("COMMAND ") + name(step) + job + numbers;
     }
@@ -82,8 +87,8 @@ HandOffAction send_step(StepContext& context, const StepRow& row) {
     return send(context, row.command, journal_row(context, row.step));
 }
 
-// The way to the end after the job has ended; nothing here can change what is reported.
-HandOffAction wind_up(StepContext& context) {
+// After the end of the job: Reset and RELEASE. Nothing here changes the verdict.
+HandOffAction end_hand_off(StepContext& context) {
     const Status& status = context.status();
     switch (context.h.step) {
         case reset:
@@ -104,19 +109,20 @@ HandOffAction wind_up(StepContext& context) {
     }
 }
 
-// Somebody else's job stands in the way. We own the cell, so its dispatcher has gone.
-HandOffAction clear_the_way(StepContext& context) {
+// The cell has another job. Its dispatcher has lost the lease, because CLAIM was granted.
+HandOffAction clear_other_job(StepContext& context) {
     const Status& status = context.status();
     context.h.command = Command{};
     context.h.command.job_id = status.job_id;
     const std::string job = " job=" + to_text(status.job_id);
     if (status.job_state == JobState::ended || status.job_state == JobState::aborted) {
-        context.say("the cell still shows the end of job " + to_text(status.job_id) + " (" + name(status.job_result) +
-                    "); it is cleared from the display, the cell remembers it");
+        context.report("the cell still shows the end of job " + to_text(status.job_id) + " (" +
+                       name(status.job_result) + "); it is cleared from STATUS, the cell keeps its record");
         return send(context, CellCommand::clear_result, "CLEAR_OTHER" + job);
     }
     if (status.job_state == JobState::stored || status.job_state == JobState::prepared) {
-        context.say("the cell holds job " + to_text(status.job_id) + " of a dispatcher that has gone; it is cancelled");
+        context.report("the cell holds job " + to_text(status.job_id) +
+                       " of another dispatcher without lease; it is cancelled");
         return send(context, CellCommand::cancel, "CANCEL_OTHER" + job);
     }
     context.h.fault = DeviceFault::busy;
@@ -136,10 +142,10 @@ HandOffAction enter(StepContext& context, HandOffStep step) {
             if (context.plan.ticket.transfer == Transfer::chunks) return enter(context, claim);
             return plain(Kind::stage_file);
         case make_ready:
-            // Whoever has decided to withdraw does not go on after a lost link.
+            // A decision to withdraw holds also after a lost link.
             if (!h.why.empty()) return enter(context, h.is_stored ? cancel : release);
             h.ready_commands = 0;
-            return get_ready(context);
+            return make_idle(context);
         case write_ticket:
             return plain(Kind::write_ticket);
         case write_signature:
@@ -153,16 +159,16 @@ HandOffAction enter(StepContext& context, HandOffStep step) {
         case reset:
         case release:
         case finished:
-            return wind_up(context);
+            return end_hand_off(context);
         default:
             return send_step(context, *row_of(step));
     }
 }
 
-HandOffAction look_at_cell(StepContext& context) {
+HandOffAction check_identity(StepContext& context) {
     const Status& status = context.status();
     const DispatchOptions& options = context.plan.options;
-    context.h.cell_beat_s = context.now_s;
+    context.h.cell_heartbeat_s = context.now_s;
     if (status.cell_id != options.cell_id) {
         return fail(context, DeviceFault::refused,
                     "this is cell " + std::to_string(status.cell_id) + ", not cell " + std::to_string(options.cell_id) +
@@ -175,12 +181,12 @@ HandOffAction look_at_cell(StepContext& context) {
                                            : "a real cell was wanted, but this one is simulated; nothing was sent",
                     "Check the address.");
     }
-    context.say("cell " + std::to_string(status.cell_id) + (status.has(flag::simulated) ? " (SIMULATED)" : "") +
-                " is in " + name(status.state));
+    context.report("cell " + std::to_string(status.cell_id) + (status.has(flag::simulated) ? " (SIMULATED)" : "") +
+                   " is in " + name(status.state));
     return enter(context, stage_file);
 }
 
-HandOffAction get_ready(StepContext& context) {
+HandOffAction make_idle(StepContext& context) {
     HandOff& h = context.h;
     const Status& status = context.status();
     const bool foreign = status.job_id != Uuid{} && status.job_id != context.job_id();
@@ -191,7 +197,7 @@ HandOffAction get_ready(StepContext& context) {
                             name(status.state) + "; nothing was started",
                         "Look at the cell.");
     }
-    if (foreign) return clear_the_way(context);
+    if (foreign) return clear_other_job(context);
     switch (status.state) {
         case PackState::idle:
             return enter(context, write_ticket);
@@ -200,7 +206,7 @@ HandOffAction get_ready(StepContext& context) {
             context.h.command = Command{};
             return send(context, CellCommand::reset, "RESET");
         case PackState::aborted:
-            context.say("the machine is aborted; somebody at the cell must agree to clear it");
+            context.report("the machine is aborted; the operator at the cell must consent to clear it");
             context.h.command = Command{};
             return send(context, CellCommand::clear, "CLEAR");
         default:
@@ -220,7 +226,7 @@ HandOffAction send_file(StepContext& context) {
     if (context.plan.ticket.transfer == Transfer::drop_folder) return plain(Kind::put_file);
     const std::uint32_t size = context.plan.ticket.file_size;
     if (context.in.status && h.chunks_in_flight > 0) {
-        // What the cell says it has is where to go on, whatever became of the chunks before.
+        // XFER_NEXT is where to go on, also if chunks before it were lost.
         const bool moved = context.status().transfer_next != h.chunk_done;
         h.chunks_in_flight = 0;
         h.chunk_done = h.chunk_next = context.status().transfer_next;
@@ -229,8 +235,8 @@ HandOffAction send_file(StepContext& context) {
         if (context.now_s - h.step_since_s > context.timings().answer_s) {
             return withdraw(
                 context,
-                std::string("the cell does not take the job file: ") + describe(context.status().transfer_result),
-                "Give a drop folder.");
+                std::string("the cell does not accept the job file: ") + describe(context.status().transfer_result),
+                "Use a drop folder.");
         }
         if (!moved) return pause(context);
     }
@@ -250,7 +256,7 @@ HandOffAction watch(StepContext& context) {
     const Status& status = context.status();
     const bool shows_it_running = context.shows_our_job() && has_started(status.job_state);
     if (context.shows_our_job() && !shows_it_running && !h.is_started) {
-        // START was acknowledged: the state has to follow.
+        // START was acknowledged: STATUS must show the job as started soon.
         if (context.is_leaving() || context.now_s - h.step_since_s <= context.timings().answer_s) return pause(context);
         return enter(context, ask_after);
     }
@@ -261,7 +267,7 @@ HandOffAction watch(StepContext& context) {
     if (context.is_leaving() && !h.is_cancelled) return leave_running_job(context);
     if (h.is_owner && status.owner_held == 0) {
         h.is_owner = h.claim_sent = false;
-        context.say("the lease of the cell has run out; the job runs on");
+        context.report("the lease of the cell has run out; the job runs on");
     }
     return pause(context);
 }
@@ -273,7 +279,7 @@ HandOffAction acknowledged(StepContext& context) {
     switch (h.step) {
         case claim:
             h.is_owner = true;
-            h.beat_s = context.now_s;
+            h.heartbeat_s = context.now_s;
             break;
         case ask_before:
         case ask_after:
@@ -284,7 +290,7 @@ HandOffAction acknowledged(StepContext& context) {
                 return withdraw(context, "the cell has another file than the one that was sent", "Dispatch it again.");
             }
             if (context.plan.options.rehearse) {
-                context.say(row_of(verify)->says);
+                context.report(row_of(verify)->message);
                 return enter(context, rehearse);
             }
             break;
@@ -309,7 +315,7 @@ HandOffAction acknowledged(StepContext& context) {
     }
     if (h.step == cancel || h.step == release) h.is_given_back = true;
     const StepRow& row = *row_of(h.step);
-    if (row.says[0] != '\0') context.say(row.says);
+    if (row.message[0] != '\0') context.report(row.message);
     return enter(context, row.next);
 }
 
@@ -320,23 +326,23 @@ HandOffAction refused(StepContext& context, AckResult result) {
     if (h.step == ask_before || h.step == ask_after) {
         if (result == AckResult::unknown_job) return plain(Kind::read_result);
     }
-    if (h.step == cancel || h.step == release) h.is_given_back = true;  // it does not hold the job for us
+    if (h.step == cancel || h.step == release) h.is_given_back = true;  // also a refusal is an answer
     if (h.step == start && h.is_started && result != AckResult::already_finished) {
         return contradict(context, "it refused START, " + answer + ", and STATUS shows the job as started");
     }
     if (h.step == start && result == AckResult::already_finished) return enter(context, ask_after);
-    if (h.step == start) h.start_sent = false;  // its own refusal: this START has had no effect
+    if (h.step == start) h.start_sent = false;  // a refused START has had no effect
     if (h.step == run || h.step == make_ready || h.step == clear_result || h.step == reset || h.step == cancel ||
         h.step == release) {
-        context.say(std::string("the cell refused ") + name(h.command.command) + ": " + answer);
+        context.report(std::string("the cell refused ") + name(h.command.command) + ": " + answer);
         if (h.step == run) return pause(context);
-        if (h.step == release) h.is_owner = h.claim_sent = false;  // somebody else's by now
-        if (h.step == release) return wind_up(context);
+        if (h.step == release) h.is_owner = h.claim_sent = false;  // another dispatcher has the lease
+        if (h.step == release) return end_hand_off(context);
         if (h.step != make_ready) return enter(context, row_of(h.step)->next);
     }
     h.refusal = result;
     if (h.step == claim && !h.start_sent && !h.is_stored) {
-        if (result == AckResult::stale_epoch) return fence(context, "another dispatcher was faster");
+        if (result == AckResult::stale_epoch) return fence(context, "another dispatcher claimed the cell first");
         return fail(context, result == AckResult::lease_busy ? DeviceFault::busy : DeviceFault::refused,
                     "the cell cannot be claimed: " + answer + "; nothing was started",
                     result == AckResult::lease_busy ? "Try again when the other one has finished." : "");
@@ -360,17 +366,17 @@ const char* remedy(AckResult refusal) {
     };
     constexpr const char* changed = "Something changed the job file on the way; dispatch it again.";
     constexpr const char* other_cell = "Prepare the project with the cell file of this cell.";
-    constexpr const char* no_room = "Make room on the disk of the cell.";
+    constexpr const char* full_disk = "Free space on the disk of the cell.";
     constexpr Remedy remedies[] = {
         {AckResult::no_consent, "Ask the operator at the cell, then dispatch again."},
-        {AckResult::file_missing, "Is the drop folder the one that the cell looks into?"},
+        {AckResult::file_missing, "Check that the drop folder is the one from which the cell fetches job files."},
         {AckResult::hash_mismatch, changed},
         {AckResult::file_size, changed},
         {AckResult::envelope, other_cell},
         {AckResult::stock_too_small, other_cell},
         {AckResult::tool, other_cell},
-        {AckResult::store_full, no_room},
-        {AckResult::store_io, no_room},
+        {AckResult::store_full, full_disk},
+        {AckResult::store_io, full_disk},
         {AckResult::stale_epoch, "Only one dispatcher may drive a cell."},
     };
     for (const Remedy& row : remedies) {

@@ -1,4 +1,6 @@
 // How a hand-off ended.
+//
+// Seconds. devices/dispatch.h defines STARTED, NOT STARTED and UNKNOWN.
 
 #pragma once
 
@@ -18,17 +20,17 @@ const char* describe(StartVerdict verdict);
 
 struct JobOutcome {
     StartVerdict verdict = StartVerdict::unknown;
-    JobState job_state = JobState::none;     // last known
+    JobState job_state = JobState::none;     // the last one read, of this job
     JobResult job_result = JobResult::none;  // complete: the cell carved the job to its end
     Uuid job_id{};
-    std::uint32_t starts = 0;             // STARTS of the cell's own RESULT for this job: 0 or 1
-    bool starts_known = false;            // the RESULT was read at the end
-    AckResult refusal = AckResult::none;  // what the cell answered when it refused
-    bool cancelled = false;               // ended because the caller asked
+    std::uint32_t starts = 0;             // STARTS in the cell's RESULT for this job: 0 or 1
+    bool starts_known = false;            // that RESULT was read
+    AckResult refusal = AckResult::none;  // the result with which the cell refused the job
+    bool cancelled = false;               // ended because the caller asked to stop
     std::uint16_t cell_id = 0;
     bool simulated = false;
-    double elapsed_s = 0;          // of the job, as the cell counts
-    double took_s = 0;             // of the whole hand-off, by our clock
+    double elapsed_s = 0;          // of the job, counted by the cell
+    double took_s = 0;             // of the whole hand-off
     std::string why;               // one sentence: how it ended
     std::string to_do;             // one sentence, may be empty
     std::vector<std::string> log;  // the steps, one line each

@@ -1,7 +1,7 @@
-// One request of Modbus TCP and its answer, as bytes.
+// Encodes a Modbus TCP request as bytes, checks the bytes of its answer, and decodes them.
 //
-// Pure. An answer is held against its request field by field: transaction, protocol, length, unit, function, and byte
-// count or echoed address and count (tests/devices/modbus_frame_test.cpp changes every one of them).
+// Pure functions. An answer is compared with its request field by field: transaction, protocol, length, unit, function,
+// and byte count or echoed address and count (tests/devices/modbus_frame_test.cpp changes every one of them).
 
 #pragma once
 
@@ -25,20 +25,22 @@ struct ModbusRequest {
     std::uint8_t unit = 255;
     ModbusFunction function = ModbusFunction::read_input;
     std::uint16_t address = 0;
-    std::uint16_t count = 1;                     // of registers, 1 to what the function allows
-    std::span<const std::uint16_t> registers{};  // write_holding: `count` of them
+    std::uint16_t count = 1;                     // of registers: 1 to 125, of write_holding 1 to 123
+    std::span<const std::uint16_t> registers{};  // of write_holding: `count` of them; else none
 };
 
+// MBAP header and PDU, at most 260 bytes. Precondition: count and registers as stated above.
 Bytes frame_of(const ModbusRequest& request);
 
-// What can be said of the bytes that have come so far.
+// What the first bytes of an answer determine.
 struct AnswerSoFar {
-    std::size_t wanted = 0;  // as long as this it must become, as far as is known by now
-    std::string wrong;       // if not empty: this is no answer to the request, and why
+    std::size_t wanted = 0;  // bytes of the whole answer, or 8 while that is not known yet
+    std::string wrong;       // if not empty: why this is no answer to the request
 };
+// `bytes` may be any beginning of the answer, also empty.
 AnswerSoFar check_answer(const ModbusRequest& request, std::span<const std::uint8_t> bytes);
 
-// Of bytes that are as many as wanted, with nothing wrong.
-BusAnswer take_answer(const ModbusRequest& request, std::span<const std::uint8_t> bytes);
+// Precondition: check_answer() finds nothing wrong, and `bytes` are as many as wanted. Never ends as lost.
+BusAnswer decode_answer(const ModbusRequest& request, std::span<const std::uint8_t> bytes);
 
 }  // namespace qchopper

@@ -1,3 +1,6 @@
+// Non-blocking POSIX sockets and poll(), with one deadline for connecting and one for a call; one connection and one
+// request at a time. A host name is resolved in a thread of its own, because getaddrinfo() has no time limit. O(bytes).
+
 #include "devices/modbus_tcp.h"
 
 #include <arpa/inet.h>
@@ -46,7 +49,7 @@ struct Endpoints {
     std::vector<Endpoint> list;
 };
 
-Endpoints look_up(const std::string& host, std::uint16_t port, int flags) {
+Endpoints resolve(const std::string& host, std::uint16_t port, int flags) {
     addrinfo wanted{};
     wanted.ai_socktype = SOCK_STREAM;
     wanted.ai_flags = flags | AI_NUMERICSERV;
@@ -85,36 +88,36 @@ struct ModbusTcpBus::Link {
 
     bool is_watching() const { return cancelled != nullptr && leave_by == Deadline::max(); }
 
-    // The deadline, or the time to leave if the caller has asked for that.
+    // The earlier of the deadline and the end that leave_when() sets. Notes when the caller has asked to stop.
     Deadline bounded(Deadline deadline) {
         if (is_watching() && cancelled->load()) leave_by = after(leave_s);
         return std::min(deadline, leave_by);
     }
 
-    // How long to wait before the request to stop is looked at again.
+    // Milliseconds until the deadline, or until `cancelled` is to be read again.
     int slice_ms(Deadline deadline) const {
         constexpr int slice = 20;
         return is_watching() ? std::min(slice, ms_until(deadline)) : ms_until(deadline);
     }
 
-    // False if the time was over before anything happened.
+    // False if the deadline passed before any of the events.
     bool wait_for(int descriptor, short events, Deadline deadline) {
         for (;;) {
             const Deadline until = bounded(deadline);
             pollfd waiting{descriptor, events, 0};
             const int ready = poll(&waiting, 1, slice_ms(until));
-            if (ready > 0 || (ready < 0 && errno != EINTR)) return true;  // a fault shows at what is done next
+            if (ready > 0 || (ready < 0 && errno != EINTR)) return true;  // the next call reports a fault
             if (Clock::now() >= until) return false;
         }
     }
 
-    // A name server may be silent for much longer than we may wait: the question is left behind in its own thread.
+    // A name server may take much longer than the deadline: then its thread is left to end by itself.
     Endpoints find(Deadline deadline) {
-        Endpoints numeric = look_up(address.host, address.port, AI_NUMERICHOST);
+        Endpoints numeric = resolve(address.host, address.port, AI_NUMERICHOST);
         if (numeric.fault == 0) return numeric;
         auto answer = std::make_shared<std::promise<Endpoints>>();
         std::future<Endpoints> future = answer->get_future();
-        std::thread([answer, where = address] { answer->set_value(look_up(where.host, where.port, 0)); }).detach();
+        std::thread([answer, where = address] { answer->set_value(resolve(where.host, where.port, 0)); }).detach();
         for (;;) {
             const Deadline until = bounded(deadline);
             const auto slice = std::chrono::milliseconds(slice_ms(until));
@@ -123,7 +126,7 @@ struct ModbusTcpBus::Link {
         }
     }
 
-    // One connection attempt; -1 with `why` filled.
+    // One attempt. Returns the descriptor, or -1 and the reason in `why`.
     int connect_one(const Endpoint& endpoint, Deadline deadline, std::string& why) {
         const int descriptor = socket(endpoint.family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
         if (descriptor < 0) {
@@ -149,12 +152,12 @@ struct ModbusTcpBus::Link {
         return descriptor;
     }
 
-    // Empty if connected, else why not.
+    // Returns "" if connected, else the reason.
     std::string open() {
         if (fd >= 0) return {};
         const Deadline deadline = after(timings.connect_s);
         const Endpoints endpoints = find(deadline);
-        if (endpoints.fault != 0) return std::string("the name is not known (") + gai_strerror(endpoints.fault) + ")";
+        if (endpoints.fault != 0) return std::string("cannot resolve the name (") + gai_strerror(endpoints.fault) + ")";
         std::string why = not_in_time;
         for (const Endpoint& endpoint : endpoints.list) {
             fd = connect_one(endpoint, deadline, why);
@@ -168,16 +171,16 @@ struct ModbusTcpBus::Link {
         fd = -1;
     }
 
-    // Bytes that nobody has asked for: the answers are out of step with the requests. Empty if there are none.
-    std::string what_is_stray() const {
+    // Bytes before a request: answers and requests are out of step. Returns the reason, or "" if there are none.
+    std::string unexpected_input() const {
         std::uint8_t byte = 0;
         const ssize_t got = recv(fd, &byte, 1, MSG_PEEK | MSG_DONTWAIT);
-        if (got > 0) return "something came that was not asked for";
+        if (got > 0) return "the other side sent bytes without a request";
         if (got == 0) return "the connection was closed by the other side";
         return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR ? std::string() : std::strerror(errno);
     }
 
-    // Empty if everything was sent, else why not.
+    // Returns "" if everything was sent, else the reason.
     std::string send_all(const Bytes& bytes, Deadline deadline) {
         for (std::size_t done = 0; done < bytes.size();) {
             const ssize_t sent = send(fd, bytes.data() + done, bytes.size() - done, MSG_NOSIGNAL | MSG_DONTWAIT);
@@ -192,7 +195,7 @@ struct ModbusTcpBus::Link {
         return {};
     }
 
-    // The answer to what was just sent; nothing of a frame that is wrong is ever used.
+    // The answer to the request just sent. Nothing of a wrong frame is used.
     BusAnswer receive(const ModbusRequest& request, Deadline deadline) {
         BusAnswer lost;
         Bytes bytes;
@@ -218,13 +221,13 @@ struct ModbusTcpBus::Link {
                 return lost;
             }
         }
-        return take_answer(request, bytes);
+        return decode_answer(request, bytes);
     }
 
     BusAnswer exchange(const ModbusRequest& request) {
         const Deadline deadline = after(timings.call_s);
         BusAnswer answer;
-        answer.why = what_is_stray();
+        answer.why = unexpected_input();
         if (answer.why.empty()) answer.why = send_all(frame_of(request), deadline);
         return answer.why.empty() ? receive(request, deadline) : answer;
     }
@@ -258,7 +261,7 @@ void ModbusTcpBus::connect() {
     const std::string why = link_->open();
     if (why.empty()) return;
     throw DeviceError(DeviceFault::unreachable, "no cell at " + link_->text() + ": " + why + "; nothing was sent",
-                      "Is the cell switched on, and is this its address?");
+                      "Check that the cell is switched on and that this is its address.");
 }
 
 BusAnswer ModbusTcpBus::read_input(std::uint16_t address, std::uint16_t count) {

@@ -1,8 +1,9 @@
 // The bus over Modbus TCP; frames as in modbus_frame.h (docs/decisions/0016-requests-are-framed-by-us.md).
 //
-// Every call ends within `call_s`, even if the peer sends one byte at a time (tests/devices/modbus_tcp_test.cpp). Any
-// failure but an exception answer closes the connection, and so does an answer that is not wholly right; the next call
-// connects anew. Use an object from one thread.
+// A call on an open connection ends within call_s, even if the peer sends one byte at a time; a call without one
+// connects first, within connect_s (tests/devices/modbus_tcp_test.cpp). Every failure except an exception answer closes
+// the connection, and so does an answer that is not right in every field; the next call opens a new one. Calls do not
+// throw. To be used from one thread.
 
 #pragma once
 
@@ -19,17 +20,19 @@ struct TcpAddress {
     std::uint16_t port = 502;
 };
 
-// "127.0.0.1:15020", "cell-3:502", "[::1]:502"; without a port 502. Throws InputError (use).
+// "127.0.0.1:15020", "cell-3:502", "[::1]:502"; without a port 502. Throws InputError (use) if `text` is no address.
 TcpAddress parse_tcp_address(const std::string& text);
 
+// Upper bounds in seconds.
 struct ModbusTimings {
-    double connect_s = 2;   // finding the name and connecting, all addresses together
+    double connect_s = 2;   // resolving the name and connecting, all addresses together
     double response_s = 1;  // until the first byte of an answer
     double call_s = 2;      // a whole call on an open connection
 };
 
 class ModbusTcpBus : public RegisterBus {
  public:
+    // Connects with the first call.
     explicit ModbusTcpBus(TcpAddress address, std::uint8_t unit = 255, ModbusTimings timings = {});
     ~ModbusTcpBus() override;
     ModbusTcpBus(const ModbusTcpBus&) = delete;

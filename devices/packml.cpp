@@ -1,3 +1,6 @@
+// Transitions of PackML (ISA-TR88.00.02, Machine and Unit States) as tables that are searched linearly: O(rows), of
+// which there are 28.
+
 #include "devices/packml.h"
 
 #include <algorithm>
@@ -7,64 +10,64 @@ namespace qchopper {
 namespace {
 
 using enum PackState;
-using Command = CellCommand;
 
-struct Row {
+struct TransitionRow {
     PackState from;
-    Command command;
+    CellCommand command;
     PackState to;
 };
 
-// The base model of PackML with the optional ways to Holding.
-constexpr Row moves[] = {
-    {aborted, Command::clear, clearing},           {stopped, Command::reset, resetting},
-    {complete, Command::reset, resetting},         {idle, Command::start, starting},
-    {execute, Command::complete, completing},      {execute, Command::hold, holding},
-    {execute, Command::suspend, suspending},       {held, Command::unhold, unholding},
-    {suspended, Command::unsuspend, unsuspending}, {starting, Command::hold, holding},
-    {suspending, Command::hold, holding},          {suspended, Command::hold, holding},
-    {unsuspending, Command::hold, holding},        {unholding, Command::hold, holding},
+// The base model of PackML with its optional transitions to Holding.
+constexpr TransitionRow moves[] = {
+    {aborted, CellCommand::clear, clearing},           {stopped, CellCommand::reset, resetting},
+    {complete, CellCommand::reset, resetting},         {idle, CellCommand::start, starting},
+    {execute, CellCommand::complete, completing},      {execute, CellCommand::hold, holding},
+    {execute, CellCommand::suspend, suspending},       {held, CellCommand::unhold, unholding},
+    {suspended, CellCommand::unsuspend, unsuspending}, {starting, CellCommand::hold, holding},
+    {suspending, CellCommand::hold, holding},          {suspended, CellCommand::hold, holding},
+    {unsuspending, CellCommand::hold, holding},        {unholding, CellCommand::hold, holding},
 };
 
-// A command that asks for what is so already.
-constexpr Row in_place[] = {
-    {clearing, Command::clear, clearing},        {stopped, Command::clear, stopped},
-    {resetting, Command::reset, resetting},      {idle, Command::reset, idle},
-    {holding, Command::hold, holding},           {held, Command::hold, held},
-    {unholding, Command::unhold, unholding},     {suspending, Command::suspend, suspending},
-    {suspended, Command::suspend, suspended},    {unsuspending, Command::unsuspend, unsuspending},
-    {completing, Command::complete, completing}, {stopping, Command::stop, stopping},
-    {aborting, Command::abort, aborting},        {aborted, Command::abort, aborted},
+// The effect of the command is in place.
+constexpr TransitionRow in_place[] = {
+    {clearing, CellCommand::clear, clearing},        {stopped, CellCommand::clear, stopped},
+    {resetting, CellCommand::reset, resetting},      {idle, CellCommand::reset, idle},
+    {holding, CellCommand::hold, holding},           {held, CellCommand::hold, held},
+    {unholding, CellCommand::unhold, unholding},     {suspending, CellCommand::suspend, suspending},
+    {suspended, CellCommand::suspend, suspended},    {unsuspending, CellCommand::unsuspend, unsuspending},
+    {completing, CellCommand::complete, completing}, {stopping, CellCommand::stop, stopping},
+    {aborting, CellCommand::abort, aborting},        {aborted, CellCommand::abort, aborted},
 };
 
-struct Done {
+// State complete.
+struct CompletionRow {
     PackState acting;
     PackState to;
 };
-constexpr Done done_rows[] = {
+constexpr CompletionRow completions[] = {
     {clearing, stopped},     {starting, execute}, {execute, completing},  {stopping, stopped},
     {aborting, aborted},     {holding, held},     {unholding, execute},   {suspending, suspended},
     {unsuspending, execute}, {resetting, idle},   {completing, complete},
 };
 
-bool job_command_allowed(PackState from, Command command) {
+bool job_command_allowed(PackState from, CellCommand command) {
     switch (command) {
-        case Command::claim:
-        case Command::release:
-        case Command::query:
+        case CellCommand::claim:
+        case CellCommand::release:
+        case CellCommand::query:
             return true;
-        case Command::store:
-        case Command::verify:
-        case Command::prepare:
-        case Command::rehearse:
+        case CellCommand::store:
+        case CellCommand::verify:
+        case CellCommand::prepare:
+        case CellCommand::rehearse:
             return from == idle;
-        case Command::cancel:  // a job that has not started; it may have been overtaken by Abort
+        case CellCommand::cancel:  // also after an Abort before its start
             return from == idle || from == aborting || from == aborted || from == clearing || from == stopped ||
                    from == resetting;
-        case Command::clear_result:
+        case CellCommand::clear_result:
             return from == complete || from == stopped || from == aborted || from == idle || from == resetting ||
                    from == clearing;
-        case Command::set_mode:
+        case CellCommand::set_mode:
             return from == stopped || from == idle || from == aborted;
         default:
             return false;
@@ -81,22 +84,22 @@ bool has_active_job(PackState state) {
 
 Transition transition(PackState from, CellCommand command) {
     if (from == undefined || static_cast<std::uint16_t>(from) > last_pack_state) return {};
-    for (const Row& row : moves) {
+    for (const TransitionRow& row : moves) {
         if (row.from == from && row.command == command) return {TransitionKind::moves, row.to};
     }
-    for (const Row& row : in_place) {
+    for (const TransitionRow& row : in_place) {
         if (row.from == from && row.command == command) return {TransitionKind::already, row.to};
     }
-    // Start again, while the job runs: it has started, and once is enough.
-    if (command == Command::start && has_active_job(from)) return {TransitionKind::already, from};
-    if (command == Command::stop && has_active_job(from)) return {TransitionKind::moves, stopping};
-    if (command == Command::abort) return {TransitionKind::moves, aborting};
+    // The job has started: a second Start has no effect.
+    if (command == CellCommand::start && has_active_job(from)) return {TransitionKind::already, from};
+    if (command == CellCommand::stop && has_active_job(from)) return {TransitionKind::moves, stopping};
+    if (command == CellCommand::abort) return {TransitionKind::moves, aborting};
     if (job_command_allowed(from, command)) return {TransitionKind::allowed, from};
     return {};
 }
 
 PackState after_done(PackState acting) {
-    for (const Done& row : done_rows) {
+    for (const CompletionRow& row : completions) {
         if (row.acting == acting) return row.to;
     }
     return undefined;
@@ -116,7 +119,7 @@ const char* name(CellCommand command) {
     constexpr const char* job[] = {"CLAIM",  "RELEASE", "STORE",        "VERIFY",   "PREPARE",
                                    "CANCEL", "QUERY",   "CLEAR_RESULT", "REHEARSE", "SET_MODE"};
     const std::size_t number = static_cast<std::size_t>(command);
-    constexpr auto first_of_job = static_cast<std::size_t>(Command::claim);
+    constexpr auto first_of_job = static_cast<std::size_t>(CellCommand::claim);
     if (number < std::size(machine)) return machine[number];
     return number >= first_of_job && number - first_of_job < std::size(job) ? job[number - first_of_job] : "unknown";
 }

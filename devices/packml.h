@@ -1,7 +1,9 @@
-// The states and commands of the machine (PackML, ISA-TR88.00.02) and which command does what in which state.
+// The states and commands of the machine, and what each command does in each state.
 //
-// Numbers are those of PackTags 3.0. One table serves the simulated cell, the tests and docs/registers.md; that the
-// machine obeys it in all 17 states for all 20 commands is held by tests/sim/packml_test.cpp.
+// States, their numbers, the commands 1..10 and their transitions follow PackML (ISA-TR88.00.02, numbers of
+// PackTags 3.0); the commands from 100 on are of this register map. The same tables serve the simulated cell and
+// docs/registers.md. That the machine follows them in all 17 states for all 20 commands is tested against a table
+// written by hand (tests/sim/packml_test.cpp).
 
 #pragma once
 
@@ -56,6 +58,7 @@ enum class CellCommand : std::uint16_t {
     set_mode = 109
 };
 
+// All but `none`, in the order of docs/registers.md.
 constexpr std::array<CellCommand, 20> all_commands{
     CellCommand::reset,  CellCommand::start,        CellCommand::stop,      CellCommand::hold,
     CellCommand::unhold, CellCommand::suspend,      CellCommand::unsuspend, CellCommand::abort,
@@ -65,25 +68,27 @@ constexpr std::array<CellCommand, 20> all_commands{
 
 constexpr std::uint16_t last_pack_state = 17;
 
-// What a command meets in a state, once sender and job are right.
+// The effect of a command in a state, if its sender and its job are right.
 enum class TransitionKind : std::uint8_t {
     refused,  // WRONG_STATE
     moves,    // the machine goes to `to`
-    already,  // the wanted effect is in place: ALREADY
-    allowed   // a job command: taken, the machine stays where it is
+    already,  // the effect is in place: ALREADY
+    allowed   // a job command: accepted, the state stays as it is
 };
 struct Transition {
     TransitionKind kind = TransitionKind::refused;
-    PackState to = PackState::undefined;
+    PackState to = PackState::undefined;  // of `moves`
 };
+// Any numbers; `refused` for those that are no state or no command.
 Transition transition(PackState from, CellCommand command);
 
-// Where an acting state goes when it is done by itself ("state complete"); undefined for a waiting state.
+// The state that follows an acting one by itself ("state complete"); undefined for a waiting state.
 PackState after_done(PackState acting);
 
-// A job is in motion or could go on moving: from Starting until it has ended.
+// A job runs or is interrupted: Starting, Execute, Completing, Stopping, and the states of Hold and Suspend.
 bool has_active_job(PackState state);
 
+// "unknown" for a number that is no state or no command.
 const char* name(PackState state);
 const char* name(CellCommand command);
 

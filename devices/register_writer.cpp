@@ -1,3 +1,5 @@
+// Shifts and masks, so that the byte order of the computer does not matter; CRC-32 by zlib. O(bytes).
+
 #include "devices/register_writer.h"
 
 #include <zlib.h>
@@ -7,18 +9,18 @@
 
 namespace qchopper {
 
+std::vector<std::uint8_t> bytes_of(std::span<const std::uint16_t> registers) {
+    std::vector<std::uint8_t> bytes(2 * registers.size());
+    RegisterReader(registers).bytes(bytes);
+    return bytes;
+}
+
 std::uint32_t crc32_of(std::span<const std::uint8_t> bytes) {
     return static_cast<std::uint32_t>(crc32_z(0, bytes.data(), bytes.size()));
 }
 
 std::uint32_t crc32_of_registers(std::span<const std::uint16_t> registers) {
-    std::vector<std::uint8_t> bytes;
-    bytes.reserve(2 * registers.size());
-    for (const std::uint16_t word : registers) {
-        bytes.push_back(static_cast<std::uint8_t>(word >> 8));
-        bytes.push_back(static_cast<std::uint8_t>(word & 0xFF));
-    }
-    return crc32_of(bytes);
+    return crc32_of(bytes_of(registers));
 }
 
 std::string_view cut_utf8(std::string_view text, std::size_t max_bytes) {
@@ -79,9 +81,9 @@ std::uint64_t RegisterReader::u64() {
 
 void RegisterReader::bytes(std::span<std::uint8_t> data) {
     for (std::size_t i = 0; i < data.size(); i += 2) {
-        const std::uint16_t word = u16();
-        data[i] = static_cast<std::uint8_t>(word >> 8);
-        if (i + 1 < data.size()) data[i + 1] = static_cast<std::uint8_t>(word & 0xFF);
+        const std::uint16_t pair = u16();
+        data[i] = static_cast<std::uint8_t>(pair >> 8);
+        if (i + 1 < data.size()) data[i + 1] = static_cast<std::uint8_t>(pair & 0xFF);
     }
 }
 
@@ -92,7 +94,7 @@ std::string RegisterReader::text(std::size_t registers) {
 }
 
 bool is_all_zero(std::span<const std::uint16_t> registers) {
-    return std::all_of(registers.begin(), registers.end(), [](std::uint16_t word) { return word == 0; });
+    return std::all_of(registers.begin(), registers.end(), [](std::uint16_t value) { return value == 0; });
 }
 
 }  // namespace qchopper

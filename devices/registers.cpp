@@ -1,3 +1,7 @@
+// The register map as tables: one row for every field of every block, in the order of addresses.
+//
+// The tables are constants; field_named() searches a block linearly.
+
 #include "devices/registers.h"
 
 #include <algorithm>
@@ -13,11 +17,12 @@ namespace {
 using enum FieldType;
 using namespace layout;
 
-constexpr Row<Status> status_rows[] = {
-    fixed<Status, cell_magic>({0, 1, u16, "MAGIC", "0x5143"}, Part::magic),
-    bound<&Status::version>({1, 1, u16, "VERSION", "0x0100, major.minor"}, Part::version),
+constexpr LayoutRow<Status> status_rows[] = {
+    fixed<Status, cell_magic>({0, 1, u16, "MAGIC", "0x5143"}, FieldRole::magic),
+    bound<&Status::version>({1, 1, u16, "VERSION", "0x0100, major.minor"}, FieldRole::version),
     bound<&Status::snapshot>(
-        {2, 1, u16, "SNAP_BEGIN", "number of the snapshot; if it differs from SNAP_END: read again"}, Part::snap_begin),
+        {2, 1, u16, "SNAP_BEGIN", "number of the snapshot; if it differs from SNAP_END: read again"},
+        FieldRole::snap_begin),
     bound<&Status::heartbeat>({3, 1, u16, "CELL_HB", "+1 each 500 ms, wraps"}),
     bound<&Status::boot_count>({4, 2, u32, "BOOT_COUNT", "+1 at each start of the controller, persistent"}),
     bound<&Status::unit_mode>({6, 1, u16, "UNIT_MODE", "1 production, 2 maintenance, 3 manual, 4 rehearsal"}),
@@ -63,29 +68,29 @@ constexpr Row<Status> status_rows[] = {
     bound<&Status::bad_frames>({95, 1, u16, "BAD_FRAMES", "commands that could not be trusted, wraps"}),
     checksum<Status>({96, 2, u32, "STATUS_CRC", "CRC-32 over 0..95"}),
     bound<&Status::bad_reason>({98, 1, u16, "BAD_REASON", "why the last of BAD_FRAMES"}),
-    bound<&Status::snapshot>({99, 1, u16, "SNAP_END", "equals SNAP_BEGIN"}, Part::snap_end),
+    bound<&Status::snapshot>({99, 1, u16, "SNAP_END", "equals SNAP_BEGIN"}, FieldRole::snap_end),
 };
 
-constexpr Row<ResultRecord> result_rows[] = {
+constexpr LayoutRow<ResultRecord> result_rows[] = {
     bound<&ResultRecord::job_id>({200, 8, bytes, "JOB_ID", "that was asked for"}),
-    bound<&ResultRecord::job_state>({208, 1, u16, "JOB_STATE", "0: the cell does not know it"}),
-    bound<&ResultRecord::job_result>({209, 1, u16, "JOB_RESULT", ""}),
-    bound<&ResultRecord::starts>({210, 2, u32, "STARTS", "0 or 1"}),
-    bound<&ResultRecord::start_epoch>({212, 2, u32, "START_EPOCH", ""}),
-    bound<&ResultRecord::start_seq>({214, 2, u32, "START_SEQ", ""}),
-    bound<&ResultRecord::start_time_ms>({216, 4, u64, "START_TIME", "unix ms"}),
-    bound<&ResultRecord::end_time_ms>({220, 4, u64, "END_TIME", "unix ms"}),
-    bound<&ResultRecord::file_sha256>({224, 16, bytes, "FILE_SHA256", "of what was carved"}),
-    bound<&ResultRecord::last_block>({240, 2, u32, "LAST_BLOCK", ""}),
+    bound<&ResultRecord::state, ResultRecord>({208, 1, u16, "JOB_STATE", "0: the cell does not know it"}),
+    bound<&ResultRecord::result, ResultRecord>({209, 1, u16, "JOB_RESULT", ""}),
+    bound<&ResultRecord::starts, ResultRecord>({210, 2, u32, "STARTS", "0 or 1"}),
+    bound<&ResultRecord::start_epoch, ResultRecord>({212, 2, u32, "START_EPOCH", ""}),
+    bound<&ResultRecord::start_seq, ResultRecord>({214, 2, u32, "START_SEQ", ""}),
+    bound<&ResultRecord::start_time_ms, ResultRecord>({216, 4, u64, "START_TIME", "unix ms"}),
+    bound<&ResultRecord::end_time_ms, ResultRecord>({220, 4, u64, "END_TIME", "unix ms"}),
+    bound<&ResultRecord::file_sha256, ResultRecord>({224, 16, bytes, "FILE_SHA256", "of what was carved"}),
+    bound<&ResultRecord::last_block, ResultRecord>({240, 2, u32, "LAST_BLOCK", ""}),
     bound<&ResultRecord::query_seq>({242, 2, u32, "QUERY_SEQ", "CMD_SEQ of the query"}),
     bound<&ResultRecord::query_owner>({244, 2, u32, "QUERY_OWNER", "who asked"}),
     reserved<ResultRecord>({246, 12, words, "reserved", "0"}),
     checksum<ResultRecord>({258, 2, u32, "CRC", "CRC-32 over 200..257"}),
 };
 
-constexpr Row<Command> command_rows[] = {
-    fixed<Command, cell_magic>({0, 1, u16, "MAGIC", "0x5143"}, Part::magic),
-    fixed<Command, map_version>({1, 1, u16, "VERSION", "0x0100"}, Part::version),
+constexpr LayoutRow<Command> command_rows[] = {
+    fixed<Command, cell_magic>({0, 1, u16, "MAGIC", "0x5143"}, FieldRole::magic),
+    fixed<Command, map_version>({1, 1, u16, "VERSION", "0x0100"}, FieldRole::version),
     bound<&Command::epoch>({2, 2, u32, "EPOCH", "fencing number"}),
     bound<&Command::seq>({4, 2, u32, "CMD_SEQ", "1.., strictly rising over the owner's life"}),
     bound<&Command::command>({6, 1, u16, "CMD", "see below"}),
@@ -100,7 +105,7 @@ constexpr Row<Command> command_rows[] = {
     checksum<Command>({58, 2, u32, "CRC", "CRC-32 over 0..57"}),
 };
 
-constexpr Row<WireTicket> ticket_rows[] = {
+constexpr LayoutRow<WireTicket> ticket_rows[] = {
     bound<&WireTicket::ticket_version>({100, 1, u16, "TICKET_VERSION", "1"}),
     bound<&WireTicket::job_id>({101, 8, bytes, "JOB_ID", "UUID"}),
     bound<&WireTicket::file_sha256>({109, 16, bytes, "FILE_SHA256", ""}),
@@ -143,28 +148,29 @@ constexpr Field signature_fields[] = {
     {200, 32, bytes, "SIGNATURE", "Ed25519 over \"QCHOPPER-TICKET-1\" and the bytes of 100..197; all zero: unsigned"},
 };
 
-void put_length(const Chunk& from, const Field&, RegisterWriter& to) {
+void write_length(const Chunk& from, const Field&, RegisterWriter& to) {
     to.u16(static_cast<std::uint16_t>(from.data.size()));
 }
-void take_length(Chunk& to, const Field&, RegisterReader& from) {
-    // One byte more than fits is enough to see that there are too many.
+void read_length(Chunk& to, const Field&, RegisterReader& from) {
+    // One byte more than a chunk holds shows that LEN is too large; a larger LEN need not allocate more.
     to.data.resize(std::min<std::size_t>(from.u16(), max_chunk_bytes + 1U));
 }
-void put_data(const Chunk& from, const Field&, RegisterWriter& to) {
+void write_data(const Chunk& from, const Field&, RegisterWriter& to) {
     to.bytes(from.data);
 }
-void take_data(Chunk& to, const Field&, RegisterReader& from) {
+void read_data(Chunk& to, const Field&, RegisterReader& from) {
     from.bytes(to.data);
 }
 
-constexpr Row<Chunk> chunk_rows[] = {
+constexpr LayoutRow<Chunk> chunk_rows[] = {
     bound<&Chunk::offset>({300, 2, u32, "OFFSET", "must be XFER_NEXT"}),
-    Row<Chunk>{{302, 1, u16, "LEN", "1..232 bytes"}, Part::value, put_length, take_length},
+    LayoutRow<Chunk>{{302, 1, u16, "LEN", "1..232 bytes"}, FieldRole::value, write_length, read_length},
     bound<&Chunk::crc>({303, 2, u32, "CRC", "CRC-32 over EPOCH, OWNER, JOB_ID, OFFSET, LEN and the data"}),
-    Row<Chunk>{{305, 116, bytes, "DATA", "ceil(LEN/2) registers of it are written"}, Part::value, put_data, take_data},
+    LayoutRow<Chunk>{
+        {305, 116, bytes, "DATA", "ceil(LEN/2) registers of it are written"}, FieldRole::value, write_data, read_data},
 };
 
-constexpr Row<Heartbeat> heartbeat_rows[] = {
+constexpr LayoutRow<Heartbeat> heartbeat_rows[] = {
     bound<&Heartbeat::epoch>({500, 2, u32, "EPOCH", ""}),
     bound<&Heartbeat::owner>({502, 2, u32, "OWNER", ""}),
     bound<&Heartbeat::counter>({504, 1, u16, "COUNTER", "any, then it must change"}),
@@ -198,27 +204,27 @@ constexpr Block chunk_block{"CHUNK", Side::holding, 300, 121, true, chunk_fields
 constexpr Block heartbeat_block{"HEARTBEAT", Side::holding, 500, 5, true, heartbeat_fields, "keeps the lease"};
 
 template <>
-std::span<const Row<Status>> rows_of() {
+std::span<const LayoutRow<Status>> rows_of() {
     return status_rows;
 }
 template <>
-std::span<const Row<ResultRecord>> rows_of() {
+std::span<const LayoutRow<ResultRecord>> rows_of() {
     return result_rows;
 }
 template <>
-std::span<const Row<Command>> rows_of() {
+std::span<const LayoutRow<Command>> rows_of() {
     return command_rows;
 }
 template <>
-std::span<const Row<WireTicket>> rows_of() {
+std::span<const LayoutRow<WireTicket>> rows_of() {
     return ticket_rows;
 }
 template <>
-std::span<const Row<Chunk>> rows_of() {
+std::span<const LayoutRow<Chunk>> rows_of() {
     return chunk_rows;
 }
 template <>
-std::span<const Row<Heartbeat>> rows_of() {
+std::span<const LayoutRow<Heartbeat>> rows_of() {
     return heartbeat_rows;
 }
 

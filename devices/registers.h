@@ -1,7 +1,7 @@
 // The register map of a cell, version 1.0: every block and every field, as tables.
 //
-// Addresses are 0-based PDU addresses; 32 and 64 bits high word first; text two characters a register, first in the
-// high byte. docs/registers.md is what print_registers() prints (tests/devices/registers_test.cpp).
+// Addresses are 0-based, as in the PDU; the encoding is that of register_writer.h. Every block fits one request. The
+// file docs/registers.md is what print_registers() returns (tests/devices/registers_test.cpp).
 
 #pragma once
 
@@ -27,9 +27,9 @@ extern const Block chunk_block;  // written with 5 + ceil(LEN/2) registers
 extern const Block heartbeat_block;
 std::span<const Block* const> all_blocks();
 
-// Nothing if there is no field of that name.
+// nullptr if the block has no field of that name.
 const Field* field_named(const Block& block, const char* field_name);
-// Of a field that is there.
+// Precondition: the block has that field.
 std::uint16_t address_of(const Block& block, const char* field_name);
 
 // The text of docs/registers.md.

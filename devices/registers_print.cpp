@@ -1,3 +1,5 @@
+// Prints the tables of registers.cpp, codes.cpp and packml.cpp as Markdown. O(characters).
+
 #include <cstdio>
 #include <initializer_list>
 
@@ -44,16 +46,15 @@ std::string print_block(const Block& block) {
     return out;
 }
 
-std::string print_words() {
+std::string print_codes() {
     std::string out = "\n## FLAGS\n\n| bit | meaning |\n|---|---|\n";
     for (unsigned bit = 0; bit < flag_names().size(); ++bit) out += row({number(bit), flag_names()[bit]});
     out += "\n## JOB_STATE and JOB_RESULT\n\n| number | job state | job result |\n|---|---|---|\n";
     for (unsigned n = 0; n <= 8; ++n) {
         out += row({number(n), n <= 7 ? name(static_cast<JobState>(n)) : "", name(static_cast<JobResult>(n))});
     }
-    out +=
-        "\n## Results\n\nFrom 0x100 on the command was refused and had no effect.\n\n"
-        "| number | name | in words |\n|---|---|---|\n";
+    out += "\n## Results\n\nFrom 0x100 on the command was refused and had no effect.\n\n";
+    out += "| number | name | in words |\n|---|---|---|\n";
     for (const ResultCode& one : result_codes()) {
         out += row({hex(static_cast<unsigned>(one.result)), one.name, one.meaning});
     }
@@ -79,8 +80,7 @@ std::string print_machine() {
     std::string out =
         "\n## The machine: what a command does in a state\n\nA name is the state that follows; `(in place)` answers "
         "ALREADY; `yes` is taken without leaving the state; `-` answers WRONG_STATE. The last column is where an "
-        "acting "
-        "state goes by itself.\n\n| state |";
+        "acting state goes by itself.\n\n| state |";
     for (const CellCommand command : all_commands) {
         out += std::string(" ") + name(command) + " " + number(static_cast<unsigned>(command)) + " |";
     }
@@ -102,16 +102,13 @@ std::string print_machine() {
 std::string print_registers() {
     std::string out =
         "# Register map of a cell, version 1.0\n\nMade by `print_registers()` from the tables in "
-        "`devices/registers.cpp` and `devices/packml.cpp`; a test compares.\n\nModbus TCP, unit 1 or 255, functions 3, "
-        "4 "
-        "and 16 only. Addresses are 0-based. Numbers of 32 and 64 bits have the high word first; text has two "
-        "characters "
-        "a register, the first in the high byte, padded with zero bytes; there are no floats. CRC-32 is that of IEEE "
-        "802.3 over the bytes in wire order. Reads stay inside one block; holding registers read as zero. Blocks of "
-        "zeros "
-        "do nothing.\n";
+        "`devices/registers.cpp` and `devices/packml.cpp`; a test compares.\n\nModbus TCP, unit 1 or 255, functions "
+        "3, 4 and 16 only. Addresses are 0-based. Numbers of 32 and 64 bits have the high word first; text has two "
+        "characters a register, the first in the high byte, padded with zero bytes; there are no floats. CRC-32 is "
+        "that of IEEE 802.3 over the bytes in wire order. Reads stay inside one block; holding registers read as "
+        "zero. Blocks of zeros do nothing.\n";
     for (const Block* block : all_blocks()) out += print_block(*block);
-    return out + print_words() + print_machine();
+    return out + print_codes() + print_machine();
 }
 
 }  // namespace qchopper

@@ -1,4 +1,4 @@
-// From a ticket in millimetres to the integers of the wire.
+// Makes a WireTicket of a JobTicket: scales lengths in mm to integers, rounds them, and checks that they fit.
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ namespace {
 std::int32_t hundredths(const JobTicket& ticket, double length, const char* what) {
     const double scaled = std::round(length * 100);
     if (!(std::abs(scaled) <= std::numeric_limits<std::int32_t>::max())) {
-        refuse(ticket, std::string(what) + " is not a length that a cell can be told");
+        refuse(ticket, std::string(what) + " is not a number or too large for the ticket");
     }
     return static_cast<std::int32_t>(scaled);
 }
@@ -33,7 +33,7 @@ std::array<std::int32_t, 3> hundredths(const JobTicket& ticket, Vec3 lengths, co
 std::uint32_t thousandths(const JobTicket& ticket, double length, const char* what) {
     const double scaled = std::round(length * 1000);
     if (!(scaled >= 0 && scaled <= std::numeric_limits<std::uint32_t>::max())) {
-        refuse(ticket, std::string(what) + " is not a length that a cell can be told");
+        refuse(ticket, std::string(what) + " is not a number or too large for the ticket");
     }
     return static_cast<std::uint32_t>(scaled);
 }
@@ -43,7 +43,7 @@ std::uint32_t thousandths(const JobTicket& ticket, double length, const char* wh
 WireTicket wire_ticket(const JobTicket& ticket, const TicketOrder& order) {
     if (!is_portable_name(ticket.file_name)) {
         refuse(ticket, "'" + ticket.file_name +
-                           "' is not a file name that a cell takes (1 to 32 of A-Z a-z 0-9 . _ -, no dot in front)");
+                           "' is not a file name that a cell accepts (1 to 32 of A-Z a-z 0-9 . _ -, no dot in front)");
     }
     WireTicket t;
     t.job_id = order.job_id;

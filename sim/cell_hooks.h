@@ -1,4 +1,4 @@
-// The outside world of the simulated controller: its store, its log, its files.
+// What the simulated controller needs from outside: a store, a log, the check of a file.
 
 #pragma once
 
@@ -10,20 +10,21 @@
 
 namespace qchopper {
 
+// The answer to a pending VERIFY.
 struct FileCheck {
     enum class End { ok, missing, io_error };
     End end = End::missing;
-    std::uint64_t size = 0;
-    Sha256 sha256{};
+    std::uint64_t size = 0;  // bytes
+    Sha256 sha256{};         // of the copy in the store, if its size is right
 };
 
+// Called from the functions of machine.h, in their thread. Any of them may be empty.
 struct CellHooks {
-    // Puts the memory where a power cut cannot reach it; false: it could not, and the command is refused. May be empty.
+    // Writes the memory so that it outlives a power cut. False: it could not, and the command is refused.
     std::function<bool(const CellMemory&)> save;
-    std::function<void(const std::string&)> log;  // may be empty
-    // Lets copies of finished jobs go until so many bytes are free, or none is left; returns how many KiB are free
-    // then. May be empty: nothing is let go.
-    std::function<std::uint32_t(const CellMemory&, std::uint64_t bytes)> make_room;
+    std::function<void(const std::string&)> log;
+    // Removes copies of finished jobs until so many bytes are free or none is left; returns the free KiB.
+    std::function<std::uint32_t(const CellMemory&, std::uint64_t bytes)> remove_old_copies;
 };
 
 }  // namespace qchopper

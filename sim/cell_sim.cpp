@@ -1,3 +1,6 @@
+// Joins the machine to threads: the server's thread answers requests and passes time, one thread copies and hashes job
+// files, and each question to a person has a thread of its own. One mutex guards the state of the machine.
+
 #include "sim/cell_sim.h"
 
 #include <chrono>
@@ -23,7 +26,7 @@ CellTime now() {
     return {steady, static_cast<std::uint64_t>(unix_time)};
 }
 
-// Where an answer of the operator waits; outlives the cell, because a person may still be thinking when it goes.
+// Where the answer of a person is delivered. Outlives the cell, because the answer may come after its end.
 struct Mailbox {
     std::mutex mutex;
     bool is_open = true;
@@ -41,36 +44,36 @@ struct CellSim::Parts {
                         save_memory(store->memory(), memory);
                         return true;
                     } catch (const InputError& fault) {
-                        say(fault.what());
+                        report(fault.what());
                         return false;
                     }
                 },
-                [this](const std::string& line) { say(line); },
+                [this](const std::string& line) { report(line); },
                 [this](const CellMemory& memory, std::uint64_t bytes) {
-                    store->make_room(memory, bytes);
+                    store->remove_old_copies(memory, bytes);
                     return store->free_kib();
                 }};
     }
 
-    void say(const std::string& line) const {
+    void report(const std::string& line) const {
         if (options.on_message) options.on_message(line);
     }
 
     Bytes answer(std::uint8_t unit, std::span<const std::uint8_t> pdu) {
         const std::lock_guard lock(mutex);
         Bytes bytes = answer_pdu(unit, pdu, cell, now(), cell_hooks);
-        look_after_pending();
+        pass_on_pending();
         return bytes;
     }
 
     void tick() {
         const std::lock_guard lock(mutex);
         pass_time(cell, now(), cell_hooks);
-        look_after_pending();
+        pass_on_pending();
     }
 
-    // Under the lock. A file is hashed and a person is asked elsewhere: the server never waits for either.
-    void look_after_pending() {
+    // Under the lock. Passes a new pending question to another thread: the server waits for no file and no person.
+    void pass_on_pending() {
         if (!cell.pending || cell.pending->number == handled) return;
         if (cell.pending->waits == Pending::Waits::file) {
             handled = cell.pending->number;
@@ -113,7 +116,7 @@ struct CellSim::Parts {
             const FileTask task = std::move(*check);
             check.reset();
             lock.unlock();
-            const FileCheck found = import_scan(task);
+            const FileCheck found = store_file(task);
             const std::uint32_t free_kib = store->free_kib();
             lock.lock();
             cell.store_free_kib = free_kib;
@@ -121,40 +124,30 @@ struct CellSim::Parts {
         }
     }
 
-    // The file comes into the cell's own store, and what is hashed are the bytes that are stored: what runs is the
-    // copy.
-    FileCheck import_scan(const FileTask& task) const {
-        FileCheck found;
+    // Copies the file to the store and hashes the bytes of the copy: the copy is what runs.
+    FileCheck store_file(const FileTask& task) const {
         Bytes bytes = task.chunks;
-        const bool from_folder = task.ticket.transfer == Transfer::drop_folder;
         try {
-            if (from_folder) {
+            if (task.ticket.transfer == Transfer::drop_folder) {
                 const std::filesystem::path file = options.drop_folder / task.ticket.file_name;
                 std::error_code error;
                 const std::uintmax_t size = std::filesystem::file_size(file, error);
-                if (options.drop_folder.empty() || error || !std::filesystem::is_regular_file(file, error))
-                    return found;
-                found.size = size;
-                found.end = FileCheck::End::ok;
-                if (size != task.ticket.file_size) return found;  // never read more than was announced
+                if (options.drop_folder.empty() || error || !std::filesystem::is_regular_file(file, error)) return {};
+                // Never more is read than the ticket announces.
+                if (size != task.ticket.file_size) return {FileCheck::End::ok, size, {}};
                 bytes = read_file(file, {task.ticket.file_size, InputFault::io});
             }
         } catch (const InputError& fault) {
-            say(fault.what());
-            found.end = FileCheck::End::missing;
-            return found;
+            report(fault.what());
+            return {};
         }
         try {
             write_file(store->job(task.ticket.job_id), bytes);
         } catch (const InputError& fault) {
-            say(fault.what());
-            found.end = FileCheck::End::io_error;
-            return found;
+            report(fault.what());
+            return {FileCheck::End::io_error, 0, {}};
         }
-        found.end = FileCheck::End::ok;
-        found.size = bytes.size();
-        found.sha256 = sha256(bytes);
-        return found;
+        return {FileCheck::End::ok, bytes.size(), sha256(bytes)};
     }
 
     CellSimOptions options;
@@ -162,7 +155,7 @@ struct CellSim::Parts {
     CellHooks cell_hooks;
     mutable std::mutex mutex;  // guards all below
     CellState cell;
-    std::uint64_t handled = 0;  // number of the pending question that was passed on
+    std::uint64_t handled = 0;  // number of the question that was passed on last
     std::optional<FileTask> check;
     bool ends = false;
     std::condition_variable wake;
@@ -187,7 +180,7 @@ void CellSim::start() {
     }
     if (!(p.options.limits.speed > 0)) {
         throw InputError(InputFault::use, "the speed of a cell must be greater than 0",
-                         "1 is as slow as the real one.");
+                         "Give 1 for the speed of the real cell.");
     }
     p.store = std::make_unique<Store>(p.options.store_folder, p.options.most_store_bytes);
     p.cell_hooks = p.hooks();
@@ -202,7 +195,7 @@ void CellSim::start() {
     auto server = std::make_unique<ModbusServer>(
         ModbusServerOptions{p.options.listen_host, p.options.port, p.options.allow},
         [&p](std::uint8_t unit, std::span<const std::uint8_t> pdu) { return p.answer(unit, pdu); }, [&p] { p.tick(); },
-        [&p](const std::string& line) { p.say(line); });
+        [&p](const std::string& line) { p.report(line); });
     server->start();
     p.checker = std::thread([&p] { p.check_files(); });
     p.server = std::move(server);

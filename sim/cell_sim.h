@@ -1,7 +1,7 @@
-// A cell that is not there: the machine of machine.h behind a Modbus TCP server, with a drop folder and a store.
+// A simulated cell: the machine of machine.h behind a Modbus TCP server, with a drop folder and a store.
 //
-// Bit 9 of FLAGS says "simulated" and nothing can switch it off. Used as a program of its own (`qchopper cell-sim`)
-// and inside `qchopper dry-run`.
+// Bit 9 of FLAGS, "simulated", is always set. Used by `qchopper cell-sim`, a program of its own, and inside
+// `qchopper dry-run`. start() and stop() are to be called from one thread; status() may be called from any.
 
 #pragma once
 
@@ -18,16 +18,17 @@
 namespace qchopper {
 
 struct CellSimOptions {
-    std::string listen_host = "127.0.0.1";  // another than loopback needs an allow-list
+    std::string listen_host = "127.0.0.1";  // any other than loopback needs an allow-list
     std::uint16_t port = 0;                 // 0: a free one, see CellSim::port()
     std::vector<std::string> allow;         // numeric addresses of peers
     std::filesystem::path drop_folder;      // where job files arrive; empty: only chunks
-    std::filesystem::path store_folder;  // memory that outlives the program; empty: none (a folder of its own, removed)
+    std::filesystem::path store_folder;     // of a memory that outlives the program; empty: a temporary one
     std::uint64_t most_store_bytes = std::uint64_t{8} << 30;  // of all copies of job files together
-    CellLimits limits;  // cell id, consent, speed, reach, stock, tools: see machine.h
-    // Asks a person (Consent::ask): true is consent. Runs in a thread of its own and may take for ever.
+    CellLimits limits;  // cell id, consent, speed > 0, reach, stock, tools: see cell_state.h
+    // Asks a person (Consent::ask): true is consent; empty: never. Called in a thread of its own, for as long as it
+    // takes; it may outlive the cell.
     std::function<bool(const std::string& question)> ask;
-    std::function<void(const std::string& line)> on_message;  // what happens, for a log; called from the cell's threads
+    std::function<void(const std::string& line)> on_message;  // a line for a log; called from the cell's threads
 };
 
 class CellSim {
@@ -37,12 +38,13 @@ class CellSim {
     CellSim(const CellSim&) = delete;
     CellSim& operator=(const CellSim&) = delete;
 
-    // Throws InputError: address in use or not allowed, folder missing, store unreadable or held by another program.
+    // Throws InputError: address in use or not allowed, drop folder missing, speed not above 0, store unreadable or
+    // held by another program. A second call has no effect.
     void start();
-    std::uint16_t port() const;  // the real one, after start()
-    void stop();                 // safe to call twice
+    std::uint16_t port() const;  // the one in use; 0 while the cell does not run
+    void stop();                 // a second call has no effect
 
-    Status status() const;  // what a client would read now
+    Status status() const;  // STATUS at this moment
 
  private:
     struct Parts;

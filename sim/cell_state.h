@@ -1,6 +1,6 @@
-// All that the simulated cell's controller knows, as plain values: its limits, its memory, its job, its lease.
+// The state of the simulated cell's controller, as plain values: its limits, its memory, its job, its lease.
 //
-// Milliseconds; lengths in mm in the base frame of the program.
+// Times in ms (`_ms`) of the steady clock unless the name says unix; lengths in mm in the base frame of the program.
 
 #pragma once
 
@@ -26,7 +26,7 @@ struct CellTool {
     std::uint32_t feed_max_mm_per_min = 0xFFFFFFFF;
 };
 
-// What this cell is and can. Its reach and largest stock are far above any bone; cli takes them from the cell file.
+// What this cell is and can do. The defaults of reach and stock are far above any bone.
 struct CellLimits {
     std::uint16_t cell_id = any_cell_id;
     Consent consent = Consent::automatic;
@@ -34,42 +34,30 @@ struct CellLimits {
     Box reach{{-5000, -5000, -5000}, {5000, 5000, 5000}};
     Vec3 max_stock{5000, 5000, 5000};
     std::vector<CellTool> tools;               // in the rack; empty: any
-    std::uint32_t takeover_code = 0;           // opens a living lease to another dispatcher; 0: nothing does
+    std::uint32_t takeover_code = 0;           // with it a CLAIM replaces the lease of another dispatcher; 0: none does
     std::uint32_t max_chunk_file = 64U << 20;  // bytes that may come in chunks
-    std::int64_t acting_ms = 200;              // an acting state other than Execute, a rehearsal five times that
+    std::int64_t acting_ms = 200;              // of an acting state except Execute; a rehearsal takes five times that
 };
 
 struct CellTime {
-    std::int64_t steady_ms = 0;  // of a clock that never jumps: leases, tokens, motion
-    std::uint64_t unix_ms = 0;   // only shown
+    std::int64_t steady_ms = 0;  // of a monotonic clock, for leases, tokens and motion
+    std::uint64_t unix_ms = 0;   // for STATUS and the records only
 };
 
 // What outlives a power cut.
-struct JobRecord {
-    JobState state = JobState::none;
-    JobResult result = JobResult::none;
-    std::uint32_t starts = 0;
-    std::uint32_t start_epoch = 0;
-    std::uint32_t start_seq = 0;
-    std::uint64_t start_time_ms = 0;
-    std::uint64_t end_time_ms = 0;
-    Sha256 file_sha256{};
-    std::uint32_t last_block = 0;
-    bool operator==(const JobRecord&) const = default;
-};
 struct CellMemory {
     std::uint32_t boot_count = 0;
     std::uint32_t epoch_held = 0;
     std::uint32_t starts_total = 0;
-    std::map<Uuid, JobRecord> jobs;  // every id ever started or cancelled, for ever
+    std::map<Uuid, JobRecord> jobs;  // every id ever started or cancelled
     bool operator==(const CellMemory&) const = default;
 };
 
-// One sender's last command and what it got.
+// The last command of one sender and its result.
 struct Acknowledgement {
     std::uint32_t owner = 0;
     std::uint32_t seq = 0;
-    std::uint32_t crc = 0;
+    std::uint32_t crc = 0;  // of its block
     CellCommand command = CellCommand::none;
     AckResult result = AckResult::none;
     std::uint32_t detail = 0;
@@ -79,13 +67,13 @@ struct Lease {
     std::uint32_t owner = 0;
     std::uint32_t secret = 0;
     std::int64_t until_ms = 0;
-    std::int64_t beat_ms = 0;  // last heartbeat, or the CLAIM
-    std::optional<std::uint16_t> counter;
+    std::int64_t heartbeat_ms = 0;         // of the last heartbeat, or of CLAIM
+    std::optional<std::uint16_t> counter;  // of the last heartbeat
 };
 
 struct CellJob {
     WireTicket ticket;
-    Registers ticket_block;  // as it came, for "the same ticket again"
+    Registers ticket_block;  // as received, to compare a second STORE with
     bool is_signed = false;
     JobState state = JobState::none;
     JobResult result = JobResult::none;
@@ -94,19 +82,19 @@ struct CellJob {
     std::int64_t token_until_ms = 0;
     std::uint32_t receipt = 0;  // of a rehearsal that passed
     TransferState transfer = TransferState::idle;
-    Bytes chunks;
-    Sha256 stored_sha256{};
-    double run_s = 0;        // carved so far, up to the last time that Execute was left
+    Bytes chunks;            // received so far
+    Sha256 stored_sha256{};  // of the copy that VERIFY found
+    double run_s = 0;        // carved until Execute was left last, in seconds of the job
     bool cut_short = false;  // by the command Complete
     bool is_active() const { return state == JobState::running || state == JobState::interrupted; }
     bool is_waiting() const { return state == JobState::stored || state == JobState::prepared; }
     bool is_finished() const { return state == JobState::ended || state == JobState::aborted; }
 };
 
-// A command that was answered PENDING and who is to say how it ends.
+// A command that was answered PENDING, and what it waits for.
 struct Pending {
     enum class Waits { consent, file, rehearsal };
-    std::uint64_t number = 0;  // names it: a late answer to an older one is not taken
+    std::uint64_t number = 0;  // of the question; an answer with another number is ignored
     Waits waits = Waits::consent;
     CellCommand command = CellCommand::none;
     std::uint32_t owner = 0;
@@ -129,15 +117,15 @@ struct CellState {
     bool warning = false;
     std::optional<Pending> pending;
     std::uint64_t pending_count = 0;
-    Registers ticket_draft;               // empty: none
-    Registers signature_draft;            // empty: none
-    Acknowledgement ack;                  // published
-    std::deque<Acknowledgement> senders;  // last one of each owner, bounded
+    Registers ticket_draft;               // TICKET as written last; empty: none
+    Registers signature_draft;            // SIGNATURE as written last; empty: none
+    Acknowledgement ack;                  // in STATUS
+    std::deque<Acknowledgement> senders;  // the last one of each owner, of at most 256 owners
     std::uint16_t bad_frames = 0;
     AckResult bad_reason = AckResult::none;
     AckResult transfer_result = AckResult::none;
-    ResultRecord answer;  // RESULT block
-    bool has_answer = false;
+    ResultRecord answer;      // RESULT, if has_answer
+    bool has_answer = false;  // a QUERY was received
     std::uint32_t events = 0;
     std::uint32_t store_free_kib = 0;
     std::uint64_t random = 1;  // state of the generator of tokens and receipts

@@ -1,3 +1,6 @@
+// Power on, heartbeats, chunks and STATUS of the simulated controller. O(jobs in the memory) for power on, O(1)
+// otherwise (a chunk: O(its bytes)).
+
 #include "sim/machine.h"
 
 #include <algorithm>
@@ -17,7 +20,12 @@ bool save(const CellMemory& memory, const CellHooks& hooks) {
     return !hooks.save || hooks.save(memory);
 }
 
-// splitmix64: the value stays a value, and a test can foretell it.
+bool holds_lease(const CellState& cell, std::uint32_t owner, std::uint32_t epoch) {
+    return cell.lease && cell.lease->owner == owner && cell.memory.epoch_held == epoch;
+}
+
+// SplitMix64 (G. Steele, D. Lea, C. Flood: Fast Splittable Pseudorandom Number Generators, 2014): its state is one
+// number of CellState, and a test can predict it.
 std::uint32_t random_number(CellState& cell) {
     std::uint32_t number = 0;
     while (number == 0) {
@@ -52,19 +60,18 @@ CellState boot(const CellLimits& limits, CellMemory memory, std::uint64_t seed, 
     return cell;
 }
 
-void take_heartbeat(CellState& cell, std::span<const std::uint16_t> block, CellTime now) {
+void receive_heartbeat(CellState& cell, std::span<const std::uint16_t> block, CellTime now) {
     const Decoded<Heartbeat> beat = decode_heartbeat(block);
-    if (!beat.is_ok() || !cell.lease) return;
+    if (!beat.is_ok() || !cell::holds_lease(cell, beat.value.owner, beat.value.epoch)) return;
     Lease& lease = *cell.lease;
-    const bool is_holder = beat.value.epoch == cell.memory.epoch_held && beat.value.owner == lease.owner;
-    if (!is_holder || now.steady_ms >= lease.until_ms || lease.counter == beat.value.counter) return;
+    if (now.steady_ms >= lease.until_ms || lease.counter == beat.value.counter) return;
     lease.counter = beat.value.counter;
-    lease.beat_ms = now.steady_ms;
+    lease.heartbeat_ms = now.steady_ms;
     lease.until_ms = now.steady_ms + cell::lease_ms;
     cell.watchdog_expired = false;
 }
 
-void take_chunk(CellState& cell, const Chunk& chunk) {
+void receive_chunk(CellState& cell, const Chunk& chunk) {
     CellJob& job = cell.job;
     const auto answer = [&]() -> AckResult {
         if (!cell.lease) return AckResult::not_owner;
@@ -126,7 +133,7 @@ void show_job(const CellState& cell, CellTime now, Status& s) {
     s.tool_no = job.ticket.tool_no;
     s.feed_override = 10000;
     s.spindle_rpm = cell.state == PackState::execute ? job.ticket.spindle_max_rpm : std::uint16_t{0};
-    // No program is read here: the tip goes straight through the box of the piece.
+    // No program is read here: the tip moves in a straight line through the box of the piece.
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double from = job.ticket.box_min[axis];
         const double to = job.ticket.box_max[axis];

@@ -1,8 +1,8 @@
-// The simulated cell's controller: what each write, each moment and each consent changes in it.
+// The simulated cell's controller: how each write, the time and each consent change its state.
 //
-// Pure: functions on a value (cell_state.h), with the time given by the caller and the outside world behind CellHooks.
-// A refused command changes nothing but the acknowledgement, and at most one start is ever done for a job id
-// (tests/sim/machine_test.cpp, tests/sim/packml_test.cpp).
+// Functions on a value (cell_state.h). The time is an argument and never decreases from call to call; store, log and
+// files are behind CellHooks. A refused command changes nothing but the acknowledgement, and a job id is started at
+// most once, power cuts included (tests/sim/machine_test.cpp, tests/sim/packml_test.cpp). Not thread-safe.
 
 #pragma once
 
@@ -14,21 +14,25 @@
 
 namespace qchopper {
 
-// A controller that has just been switched on. A job that the memory calls running was cut off: it is aborted for
-// good, and the machine stands in Aborted; otherwise it stands in Stopped. Nothing starts by itself.
+// The state after power on. A job that is running in `memory` was interrupted by a power cut: it becomes aborted, and
+// the machine is in Aborted; otherwise it is in Stopped. Nothing starts by itself. `seed` is for tokens and receipts.
 CellState boot(const CellLimits& limits, CellMemory memory, std::uint64_t seed, CellTime now, const CellHooks& hooks);
 
-// What time alone does: acting states end, the job goes on, lease and token run out, automatic consent is given.
+// The effects of time: acting states end, the job advances, lease and token expire, automatic consent is given.
 void pass_time(CellState& cell, CellTime now, const CellHooks& hooks);
 
-// The answers to cell.pending, by its number.
+// The answer to cell.pending. Ignored if `number` is not that of cell.pending.
 void consent_given(CellState& cell, std::uint64_t number, bool yes, CellTime now, const CellHooks& hooks);
 void file_checked(CellState& cell, std::uint64_t number, const FileCheck& check, CellTime now, const CellHooks& hooks);
 
-// One COMMAND block as it came.
-void take_command(CellState& cell, std::span<const std::uint16_t> block, CellTime now, const CellHooks& hooks);
-void take_heartbeat(CellState& cell, std::span<const std::uint16_t> block, CellTime now);
-void take_chunk(CellState& cell, const Chunk& chunk);
+// A COMMAND block with any content. A damaged or old one is counted in bad_frames; one of zeros has no effect; the same
+// frame again gets the same acknowledgement and has no further effect.
+void receive_command(CellState& cell, std::span<const std::uint16_t> block, CellTime now, const CellHooks& hooks);
+// A HEARTBEAT block with any content. Extends the lease if it is of its holder and the counter has changed.
+void receive_heartbeat(CellState& cell, std::span<const std::uint16_t> block, CellTime now);
+// Appends the data to the job's file if the checksum is right and the offset is its end; the result is in
+// cell.transfer_result.
+void receive_chunk(CellState& cell, const Chunk& chunk);
 
 Status status_of(const CellState& cell, CellTime now);
 

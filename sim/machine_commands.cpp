@@ -1,3 +1,9 @@
+// The commands of the simulated controller. Checked first: frame, repetition, owner, command, lease.
+//
+// CLAIM grants a lease (C. Gray, D. Cheriton: Leases: An Efficient Fault-Tolerant Mechanism for Distributed File Cache
+// Consistency, 1989) with a fencing number, the epoch; heartbeats extend it. A start is written to the memory before
+// the machine moves. O(owners kept), at most 256; CLAIM, CANCEL and Start copy the memory: O(jobs kept).
+
 #include <algorithm>
 #include <cassert>
 
@@ -8,13 +14,18 @@ namespace qchopper {
 namespace cell {
 namespace {
 
+struct Answer {
+    AckResult result = AckResult::ok;
+    std::uint32_t detail = 0;
+};
+
 constexpr Uuid any_job = [] {
     Uuid ones{};
     ones.fill(0xFF);
     return ones;
 }();
 
-void bad_frame(CellState& cell, AckResult reason, const CellHooks& hooks) {
+void count_bad_frame(CellState& cell, AckResult reason, const CellHooks& hooks) {
     ++cell.bad_frames;
     cell.bad_reason = reason;
     log(cell, hooks, std::string("a command that cannot be trusted: ") + name(reason));
@@ -38,11 +49,11 @@ bool is_current(const CellState& cell, const Uuid& id) {
     return cell.job.state != JobState::none && cell.job.ticket.job_id == id;
 }
 
-AckResult state_rule(const CellState& cell, CellCommand command) {
-    return transition(cell.state, command).kind == TransitionKind::refused ? AckResult::wrong_state : AckResult::ok;
+bool is_refused(const CellState& cell, CellCommand command) {
+    return transition(cell.state, command).kind == TransitionKind::refused;
 }
 
-// What is said of a job that the cell does not have before it.
+// The result for a job that is not the current one.
 AckResult not_current(const CellState& cell, const Uuid& id) {
     const auto known = cell.memory.jobs.find(id);
     if (known == cell.memory.jobs.end())
@@ -54,7 +65,7 @@ Answer wait_for(CellState& cell, const Command& command, Pending::Waits waits, C
                 const std::string& question) {
     Pending pending{++cell.pending_count, waits, command.command, command.owner, command.seq, question, 0};
     pending.due_ms = now.steady_ms + 5 * cell.limits.acting_ms;
-    // The same question asked again is one question: only whom to answer has changed.
+    // The same command again does not ask a second time: only the acknowledgement to complete is another.
     if (cell.pending && cell.pending->command == command.command) {
         pending.number = cell.pending->number;
         pending.due_ms = cell.pending->due_ms;
@@ -65,7 +76,7 @@ Answer wait_for(CellState& cell, const Command& command, Pending::Waits waits, C
 
 Answer claim(CellState& cell, const Command& command, CellTime now, const CellHooks& hooks) {
     if (command.epoch <= cell.memory.epoch_held) return {AckResult::stale_epoch, cell.memory.epoch_held};
-    // A number far ahead would leave hardly any for those who come after.
+    // A number far ahead would leave few numbers for later CLAIMs.
     if (command.epoch - cell.memory.epoch_held > most_epoch_jump) {
         return {AckResult::epoch_jump, cell.memory.epoch_held};
     }
@@ -120,31 +131,17 @@ Answer machine_command(CellState& cell, const Command& command, CellTime now, co
 }
 
 Answer query(CellState& cell, const Command& command) {
-    ResultRecord answer;
-    answer.job_id = command.job_id;
-    answer.query_seq = command.seq;
-    answer.query_owner = command.owner;
     const auto known = cell.memory.jobs.find(command.job_id);
-    if (known != cell.memory.jobs.end()) {
-        const JobRecord& record = known->second;
-        answer.job_state = record.state;
-        answer.job_result = record.result;
-        answer.starts = record.starts;
-        answer.start_epoch = record.start_epoch;
-        answer.start_seq = record.start_seq;
-        answer.start_time_ms = record.start_time_ms;
-        answer.end_time_ms = record.end_time_ms;
-        answer.file_sha256 = record.file_sha256;
-        answer.last_block = record.last_block;
-    }
+    const JobRecord record = known == cell.memory.jobs.end() ? JobRecord{} : known->second;
+    ResultRecord answer{record, command.job_id, command.seq, command.owner};
     if (is_current(cell, command.job_id)) {
-        answer.job_state = cell.job.state;
-        answer.job_result = cell.job.result;
+        answer.state = cell.job.state;
+        answer.result = cell.job.result;
         answer.file_sha256 = cell.job.stored_sha256;
     }
     cell.answer = answer;
     cell.has_answer = true;
-    return {answer.job_state == JobState::none ? AckResult::unknown_job : AckResult::ok, 0};
+    return {answer.state == JobState::none ? AckResult::unknown_job : AckResult::ok, 0};
 }
 
 Answer set_mode(CellState& cell, const Command& command) {
@@ -152,7 +149,7 @@ Answer set_mode(CellState& cell, const Command& command) {
     if (command.arg0 == static_cast<std::uint32_t>(cell.mode)) return {AckResult::already, 0};
     const bool is_settable = command.arg0 >= 1 && command.arg0 <= 3 && cell.mode != UnitMode::rehearsal;
     if (!is_settable) return {AckResult::wrong_mode, 0};
-    if (const AckResult rule = state_rule(cell, command.command); is_refusal(rule)) return {rule, 0};
+    if (is_refused(cell, command.command)) return {AckResult::wrong_state, 0};
     drop_preparation(cell, AckResult::wrong_mode);
     cell.mode = static_cast<UnitMode>(command.arg0);
     return {};
@@ -175,14 +172,16 @@ Answer store(CellState& cell, const Command& command, const CellHooks& hooks) {
     if (cell.job.state != JobState::none)
         return {AckResult::busy_other_job, static_cast<std::uint32_t>(cell.job.state)};
     if (cell.mode != UnitMode::production) return {AckResult::wrong_mode, 0};
-    if (const AckResult rule = state_rule(cell, command.command); is_refusal(rule)) return {rule, 0};
+    if (is_refused(cell, command.command)) return {AckResult::wrong_state, 0};
     if (const auto fault = wrong_field(ticket.value, cell.ticket_draft, cell.limits))
         return {fault->result, fault->address};
     if (command.file_sha256 != ticket.value.file_sha256) return {AckResult::hash_mismatch, 0};
     const bool is_chunks = ticket.value.transfer == Transfer::chunks;
     if (is_chunks && ticket.value.file_size > cell.limits.max_chunk_file)
         return {AckResult::store_full, address_of(ticket_block, "FILE_SIZE")};
-    if (hooks.make_room) cell.store_free_kib = hooks.make_room(cell.memory, ticket.value.file_size + 1024ULL);
+    if (hooks.remove_old_copies) {
+        cell.store_free_kib = hooks.remove_old_copies(cell.memory, ticket.value.file_size + 1024ULL);
+    }
     if (ticket.value.file_size / 1024 >= cell.store_free_kib)
         return {AckResult::store_full, address_of(ticket_block, "FILE_SIZE")};
     cell.job = CellJob{};
@@ -206,7 +205,7 @@ Answer cancel(CellState& cell, const Command& command, const CellHooks& hooks) {
                 0};
     }
     if (cell.job.is_finished()) return {AckResult::already_finished, 0};
-    if (const AckResult rule = state_rule(cell, command.command); is_refusal(rule)) return {rule, 0};
+    if (is_refused(cell, command.command)) return {AckResult::wrong_state, 0};
     if (!cell.job.is_waiting()) return {AckResult::wrong_state, 0};
     CellMemory next = cell.memory;
     next.jobs[command.job_id].state = JobState::cancelled;
@@ -225,13 +224,13 @@ Answer clear_result(CellState& cell, const Command& command) {
         return {known == AckResult::already_finished ? AckResult::already : AckResult::unknown_job, 0};
     }
     if (!cell.job.is_finished()) return {AckResult::wrong_state, 0};
-    if (const AckResult rule = state_rule(cell, command.command); is_refusal(rule)) return {rule, 0};
+    if (is_refused(cell, command.command)) return {AckResult::wrong_state, 0};
     cell.job = CellJob{};
     return {};
 }
 
-// What VERIFY, REHEARSE and PREPARE ask of the job before anything of their own.
-Answer stored_job(const CellState& cell, const Command& command) {
+// The conditions that VERIFY, REHEARSE and PREPARE have in common.
+Answer check_stored_job(const CellState& cell, const Command& command) {
     if (!is_current(cell, command.job_id)) return {not_current(cell, command.job_id), 0};
     if (cell.job.is_finished()) return {AckResult::already_finished, 0};
     if (cell.job.state == JobState::prepared && command.command != CellCommand::rehearse)
@@ -239,7 +238,7 @@ Answer stored_job(const CellState& cell, const Command& command) {
     if (cell.mode != UnitMode::production && !(cell.pending && cell.pending->command == command.command)) {
         return {AckResult::wrong_mode, 0};
     }
-    if (const AckResult rule = state_rule(cell, command.command); is_refusal(rule)) return {rule, 0};
+    if (is_refused(cell, command.command)) return {AckResult::wrong_state, 0};
     if (cell.job.state != JobState::stored) return {AckResult::wrong_state, 0};
     if (cell.pending && cell.pending->command != command.command) return {AckResult::wrong_state, 0};
     if (command.file_sha256 != cell.job.ticket.file_sha256) return {AckResult::hash_mismatch, 0};
@@ -258,8 +257,6 @@ Answer prepare(CellState& cell, const Command& command, CellTime now) {
                     "Job " + ticket.file_name + " (piece " + std::to_string(ticket.piece_no) + " of " +
                         std::to_string(ticket.piece_count) + "): is the block loaded and the area clear?");
 }
-
-}  // namespace
 
 Answer start_job(CellState& cell, const Command& command, CellTime now, const CellHooks& hooks) {
     CellJob& job = cell.job;
@@ -285,7 +282,7 @@ Answer start_job(CellState& cell, const Command& command, CellTime now, const Ce
     record.file_sha256 = job.stored_sha256;
     ++next.starts_total;
     assert(next.jobs.size() == cell.memory.jobs.size() + 1 && record.starts == 1);
-    if (!save(next, hooks)) return {AckResult::store_io, 0};  // first remembered, then moved
+    if (!save(next, hooks)) return {AckResult::store_io, 0};  // before anything moves
     cell.memory = std::move(next);
     job.token = 0;
     job.state = JobState::running;
@@ -312,7 +309,7 @@ Answer job_command(CellState& cell, const Command& command, CellTime now, const 
         default:
             break;
     }
-    const Answer fitness = stored_job(cell, command);
+    const Answer fitness = check_stored_job(cell, command);
     if (fitness.result != AckResult::ok) return fitness;
     if (command.command == CellCommand::prepare) return prepare(cell, command, now);
     if (command.command == CellCommand::verify) {
@@ -324,17 +321,13 @@ Answer job_command(CellState& cell, const Command& command, CellTime now, const 
     return wait_for(cell, command, Pending::Waits::rehearsal, now, {});
 }
 
-namespace {
-
-Answer judge(CellState& cell, const Command& command, CellTime now, const CellHooks& hooks) {
+Answer execute(CellState& cell, const Command& command, CellTime now, const CellHooks& hooks) {
     if (command.owner == 0) return {AckResult::not_owner, 0};
     if (!is_known(command.command)) return {AckResult::unknown_cmd, 0};
     if (command.command == CellCommand::claim) return claim(cell, command, now, hooks);
     if (needs_lease(command.command)) {
         if (command.epoch < cell.memory.epoch_held) return {AckResult::stale_epoch, cell.memory.epoch_held};
-        const bool is_holder =
-            cell.lease && cell.lease->owner == command.owner && command.epoch == cell.memory.epoch_held;
-        if (!is_holder) return {AckResult::not_owner, 0};
+        if (!holds_lease(cell, command.owner, command.epoch)) return {AckResult::not_owner, 0};
     }
     if (command.command == CellCommand::start) return start_job(cell, command, now, hooks);
     if (static_cast<std::uint16_t>(command.command) >= static_cast<std::uint16_t>(CellCommand::claim)) {
@@ -343,12 +336,12 @@ Answer judge(CellState& cell, const Command& command, CellTime now, const CellHo
     return machine_command(cell, command, now, hooks);
 }
 
-void remember(CellState& cell, const Acknowledgement& ack) {
+void keep_acknowledgement(CellState& cell, const Acknowledgement& ack) {
     std::erase_if(cell.senders, [&](const Acknowledgement& old) { return old.owner == ack.owner; });
     cell.senders.push_back(ack);
     assert(cell.senders.size() <= most_senders + 1);
     if (cell.senders.size() > most_senders) {
-        // Never that of the lease holder: it may still have to be repeated.
+        // The oldest, but never that of the lease holder: it may have to be repeated.
         const bool first_holds = cell.lease && cell.senders.front().owner == cell.lease->owner;
         cell.senders.erase(cell.senders.begin() + (first_holds ? 1 : 0));
     }
@@ -357,26 +350,27 @@ void remember(CellState& cell, const Acknowledgement& ack) {
 }  // namespace
 }  // namespace cell
 
-void take_command(CellState& cell, std::span<const std::uint16_t> block, CellTime now, const CellHooks& hooks) {
+void receive_command(CellState& cell, std::span<const std::uint16_t> block, CellTime now, const CellHooks& hooks) {
     pass_time(cell, now, hooks);
     const Decoded<Command> decoded = decode_command(block);
     if (decoded.fault == BlockFault::empty || decoded.fault == BlockFault::length) return;
-    if (!decoded.is_ok()) return cell::bad_frame(cell, cell::reason_of(decoded.fault), hooks);
+    if (!decoded.is_ok()) return cell::count_bad_frame(cell, cell::reason_of(decoded.fault), hooks);
     const Command& command = decoded.value;
     const std::uint32_t crc = command_crc(block);
-    if (command.seq == 0) return cell::bad_frame(cell, AckResult::stale_seq, hooks);
+    if (command.seq == 0) return cell::count_bad_frame(cell, AckResult::stale_seq, hooks);
     for (const Acknowledgement& last : cell.senders) {
         if (last.owner != command.owner || command.seq > last.seq) continue;
-        if (command.seq < last.seq || crc != last.crc) return cell::bad_frame(cell, AckResult::stale_seq, hooks);
+        if (command.seq < last.seq || crc != last.crc) return cell::count_bad_frame(cell, AckResult::stale_seq, hooks);
         cell.ack = last;
         return;
     }
-    const cell::Answer answer = cell::judge(cell, command, now, hooks);
+    const cell::Answer answer = cell::execute(cell, command, now, hooks);
     const Acknowledgement ack{command.owner, command.seq, crc, command.command, answer.result, answer.detail};
-    cell::remember(cell, ack);
+    cell::keep_acknowledgement(cell, ack);
     cell.ack = ack;
-    const bool is_holder = cell.lease && cell.lease->owner == command.owner && command.epoch == cell.memory.epoch_held;
-    if (is_holder && !is_refusal(answer.result)) cell.lease->until_ms = now.steady_ms + cell::lease_ms;
+    if (!is_refusal(answer.result) && cell::holds_lease(cell, command.owner, command.epoch)) {
+        cell.lease->until_ms = now.steady_ms + cell::lease_ms;
+    }
     cell::log(cell, hooks, std::string(name(command.command)) + ": " + name(answer.result));
 }
 

@@ -1,4 +1,6 @@
-// What the sources of the machine share. Not for others.
+// What the sources of the machine share: its time limits and the functions that each defines for the others.
+//
+// For machine.cpp, machine_time.cpp and machine_commands.cpp only.
 
 #pragma once
 
@@ -7,31 +9,28 @@
 
 namespace qchopper::cell {
 
-constexpr std::int64_t lease_ms = 5000;
-constexpr std::int64_t watchdog_ms = 2500;
-constexpr std::int64_t token_ms = 120000;
+constexpr std::int64_t lease_ms = 5000;     // of a lease without a heartbeat
+constexpr std::int64_t watchdog_ms = 2500;  // until the watchdog expires
+constexpr std::int64_t token_ms = 120000;   // of a start token
 constexpr std::size_t most_senders = 256;
 constexpr std::uint32_t most_epoch_jump = 1U << 20;
 
+// machine.cpp
 void log(CellState& cell, const CellHooks& hooks, const std::string& line);
-bool save(const CellMemory& memory, const CellHooks& hooks);
+bool save(const CellMemory& memory, const CellHooks& hooks);  // false: it could not be written
+bool holds_lease(const CellState& cell, std::uint32_t owner, std::uint32_t epoch);
 std::uint32_t random_number(CellState& cell);  // never 0
 
 // machine_time.cpp
+// Precondition: `to` is a state, not `undefined`.
 void enter_state(CellState& cell, PackState to, std::int64_t at_ms);
+// Of the job, in seconds of its estimated time.
 double run_so_far_s(const CellState& cell, CellTime now);
-// The job is over: remembered, and shown until it is cleared.
+// Ends the job: writes it to the memory, and STATUS shows it until CLEAR_RESULT. Precondition: it was started.
 void end_job(CellState& cell, JobState state, JobResult result, CellTime now, const CellHooks& hooks);
-// Token and consent die; what waited for a person or a rehearsal is answered with `why`.
+// Removes token and consent, and settles what waits for consent or for a rehearsal with `why`.
 void drop_preparation(CellState& cell, AckResult why);
+// Ends cell.pending, if any, with this result in its acknowledgement. Precondition: `result` is not PENDING.
 void settle(CellState& cell, AckResult result, std::uint32_t detail = 0);
-
-// machine_commands.cpp
-struct Answer {
-    AckResult result = AckResult::ok;
-    std::uint32_t detail = 0;
-};
-Answer job_command(CellState& cell, const Command& command, CellTime now, const CellHooks& hooks);
-Answer start_job(CellState& cell, const Command& command, CellTime now, const CellHooks& hooks);
 
 }  // namespace qchopper::cell

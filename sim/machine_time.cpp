@@ -1,3 +1,6 @@
+// What time, consent and the check of a file change in the simulated controller. O(1), and O(acknowledgements kept) for
+// the end of a pending command.
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -29,8 +32,8 @@ void enter_state(CellState& cell, PackState to, std::int64_t at_ms) {
 void end_job(CellState& cell, JobState state, JobResult result, CellTime now, const CellHooks& hooks) {
     cell.job.state = state;
     cell.job.result = result;
-    cell.consent_present = false;                               // the block is used: the next start needs a new look
-    assert(cell.memory.jobs.contains(cell.job.ticket.job_id));  // START remembered it
+    cell.consent_present = false;                               // the block is used: the next start needs a new consent
+    assert(cell.memory.jobs.contains(cell.job.ticket.job_id));  // since START
     JobRecord& record = cell.memory.jobs[cell.job.ticket.job_id];
     record.state = state;
     record.result = result;
@@ -65,7 +68,7 @@ namespace {
 
 void pass_lease(CellState& cell, CellTime now, const CellHooks& hooks) {
     if (!cell.lease) return;
-    if (!cell.watchdog_expired && now.steady_ms - cell.lease->beat_ms >= watchdog_ms) {
+    if (!cell.watchdog_expired && now.steady_ms - cell.lease->heartbeat_ms >= watchdog_ms) {
         cell.watchdog_expired = true;
         log(cell, hooks, "no heartbeat of the dispatcher for 2.5 s");
         const bool holds = cell.job.is_active() && cell.job.ticket.on_link_loss == LinkLoss::hold;
@@ -103,7 +106,7 @@ void pass_pending(CellState& cell, CellTime now, const CellHooks& hooks) {
     }
 }
 
-// When the present state is done by itself.
+// When the present state ends by itself. Precondition: it is an acting state.
 std::int64_t state_ends_ms(const CellState& cell) {
     if (cell.state != PackState::execute) return cell.state_since_ms + cell.limits.acting_ms;
     const double left_s = cell.job.ticket.estimated_time_s - cell.job.run_s;
@@ -179,7 +182,7 @@ void file_checked(CellState& cell, std::uint64_t number, const FileCheck& check,
     cell.job.transfer = result == AckResult::ok             ? TransferState::complete
                         : result == AckResult::file_missing ? TransferState::idle
                                                             : TransferState::hash_mismatch;
-    // What came in chunks and is wrong must come again from the beginning.
+    // A wrong file that was received in chunks must be sent again from the beginning.
     if (result != AckResult::ok && ticket.transfer == Transfer::chunks) {
         cell.job.chunks.clear();
         cell.job.transfer = TransferState::open;

@@ -1,3 +1,6 @@
+// JSON by nlohmann::json, with a SHA-256 over the text before the key "sha256" is added. Reading parses the text,
+// writes it again and compares: O(bytes), three times the text in memory.
+
 #include "sim/memory.h"
 
 #include <limits>
@@ -22,7 +25,7 @@ std::array<std::uint8_t, N> id_from(const std::string& text) {
     return *id;
 }
 
-// A number of another kind, or one that the type does not hold, would be taken for some other number.
+// The value of a key. nlohmann::json would convert a number of another kind or range without an error.
 template <class Whole>
 Whole whole(const Json& object, const char* key) {
     const Json& value = object.at(key);
@@ -53,10 +56,10 @@ JobRecord record_from(const Json& json) {
     record.start_seq = whole<std::uint32_t>(json, "start_seq");
     record.start_time_ms = whole<std::uint64_t>(json, "start_time_ms");
     record.end_time_ms = whole<std::uint64_t>(json, "end_time_ms");
-    record.file_sha256 = id_from<32>(json.at("file_sha256").get<std::string>());
+    record.file_sha256.bytes = id_from<32>(json.at("file_sha256").get<std::string>());
     record.last_block = whole<std::uint32_t>(json, "last_block");
     if (record.state > JobState::cancelled || record.result > JobResult::rehearsal_failed) {
-        throw std::invalid_argument("a job has a state or a result that there is not");
+        throw std::invalid_argument("a job has a state or a result that is not defined");
     }
     return record;
 }
@@ -69,7 +72,7 @@ CellMemory from_text(std::string_view text) {
     memory.epoch_held = whole<std::uint32_t>(json, "epoch_held");
     memory.starts_total = whole<std::uint32_t>(json, "starts_total");
     for (const auto& [id, record] : json.at("jobs").items()) memory.jobs[id_from<16>(id)] = record_from(record);
-    // The checksum is part of it.
+    // Compares the checksum as well.
     if (to_json(memory) != text) throw std::invalid_argument("it is not, to the last byte, what a cell wrote");
     return memory;
 }
@@ -91,13 +94,12 @@ std::string to_json(const CellMemory& memory) {
 
 CellMemory memory_from_json(std::string_view text, const std::string& name) {
     const auto refuse = [&](const std::string& why) {
-        throw InputError(InputFault::config,
-                         "the memory of the simulated cell, " + name + ", cannot be relied on: " + why,
+        throw InputError(InputFault::config, "the memory of the simulated cell, " + name + ", cannot be used: " + why,
                          "Give another store folder, or delete the file if no dispatcher may rely on it any more.");
     };
     try {
         return from_text(text);
-    } catch (const Json::exception&) {  // its own words speak of the library
+    } catch (const Json::exception&) {  // its text is about the library
         refuse("it is no JSON, or a value is missing");
     } catch (const std::invalid_argument& fault) {
         refuse(fault.what());

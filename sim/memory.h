@@ -1,7 +1,7 @@
-// The cell's memory on disk: what must outlive a power cut, as one JSON file that is replaced whole.
+// Reads and writes the memory of the simulated cell: one JSON file that is replaced whole.
 //
-// Loading what was saved gives it back; a crash while saving leaves the old file or the new one
-// (tests/sim/memory_test.cpp).
+// Loading what was saved gives it back; a crash while saving leaves the old file or the new one. Every changed byte is
+// found, because a wrong job id would allow a second start (tests/sim/memory_test.cpp).
 
 #pragma once
 
@@ -13,17 +13,17 @@
 
 namespace qchopper {
 
-// Ends in a SHA-256 of itself: one damaged byte may be the id of a job that ran.
+// The last key is the SHA-256 of the text without it.
 std::string to_json(const CellMemory& memory);
 
-// Throws InputError (config) naming `name` if it is not what to_json makes, to the last byte.
+// Throws InputError (config) naming `name` unless `text` equals, byte for byte, what to_json() returns for some memory.
 CellMemory memory_from_json(std::string_view text, const std::string& name);
 
-// An empty memory if the file is not there. Throws InputError (config) if it is damaged: a memory that cannot be read
-// must not be taken for an empty one, or a job could start twice.
+// An empty memory if there is no file. Throws InputError if it cannot be read (missing, config): it must not count as
+// empty, or a job could start twice.
 CellMemory load_memory(const std::filesystem::path& file);
 
-// Throws InputError (create, io).
+// Throws InputError (create, io); then the old file is unchanged.
 void save_memory(const std::filesystem::path& file, const CellMemory& memory);
 
 }  // namespace qchopper

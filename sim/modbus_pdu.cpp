@@ -1,3 +1,7 @@
+// Functions, limits and exceptions after the Modbus Application Protocol Specification V1.1b3 (2012); that a block is
+// read and written as a whole is a rule of the register map. Shares no framing with devices/modbus_frame.cpp.
+// O(registers).
+
 #include "sim/modbus_pdu.h"
 
 #include <algorithm>
@@ -12,12 +16,12 @@ constexpr std::uint8_t write_holding = 16;
 constexpr std::uint8_t illegal_function = 1;
 constexpr std::uint8_t illegal_address = 2;
 constexpr std::uint8_t illegal_value = 3;
-constexpr std::uint8_t no_such_unit = 0x0B;
+constexpr std::uint8_t no_such_unit = 0x0B;  // gateway target device failed to respond
 
 constexpr std::size_t most_read = 125;
 constexpr std::size_t most_written = 123;
 
-std::uint16_t word_at(std::span<const std::uint8_t> bytes, std::size_t at) {
+std::uint16_t u16_at(std::span<const std::uint8_t> bytes, std::size_t at) {
     return static_cast<std::uint16_t>((bytes[at] << 8U) | bytes[at + 1]);
 }
 
@@ -31,13 +35,13 @@ const Block* block_around(Side side, std::uint32_t address, std::uint32_t count)
 Registers read_block(const Block& block, const CellState& cell, CellTime now) {
     if (&block == &status_block) return encode(status_of(cell, now));
     if (&block == &result_block && cell.has_answer) return encode(cell.answer);
-    return Registers(block.count, 0);  // what was written is never shown: it may hold a secret
+    return Registers(block.count, 0);  // what was written is never read back: it may hold a secret
 }
 
 Bytes answer_read(Side side, std::span<const std::uint8_t> pdu, CellState& cell, CellTime now, const CellHooks& hooks) {
     if (pdu.size() != 5) return exception_pdu(pdu[0], illegal_value);
-    const std::uint16_t address = word_at(pdu, 1);
-    const std::uint16_t count = word_at(pdu, 3);
+    const std::uint16_t address = u16_at(pdu, 1);
+    const std::uint16_t count = u16_at(pdu, 3);
     if (count < 1 || count > most_read) return exception_pdu(pdu[0], illegal_value);
     const Block* block = block_around(side, address, count);
     if (block == nullptr) return exception_pdu(pdu[0], illegal_address);
@@ -45,27 +49,27 @@ Bytes answer_read(Side side, std::span<const std::uint8_t> pdu, CellState& cell,
     const Registers registers = read_block(*block, cell, now);
     Bytes answer{pdu[0], static_cast<std::uint8_t>(2 * count)};
     for (std::size_t i = 0; i < count; ++i) {
-        const std::uint16_t word = registers[address - block->base + i];
-        answer.push_back(static_cast<std::uint8_t>(word >> 8));
-        answer.push_back(static_cast<std::uint8_t>(word & 0xFF));
+        const std::uint16_t value = registers[address - block->base + i];
+        answer.push_back(static_cast<std::uint8_t>(value >> 8));
+        answer.push_back(static_cast<std::uint8_t>(value & 0xFF));
     }
     return answer;
 }
 
-// 0, or the exception.
+// Returns 0 or the exception code.
 std::uint8_t write_block(const Block& block, const Registers& registers, CellState& cell, CellTime now,
                          const CellHooks& hooks) {
     if (&block == &chunk_block) {
         const Decoded<Chunk> chunk = decode_chunk(registers);
         if (!chunk.is_ok()) return illegal_value;
         pass_time(cell, now, hooks);
-        take_chunk(cell, chunk.value);
+        receive_chunk(cell, chunk.value);
         return 0;
     }
-    if (&block == &command_block) take_command(cell, registers, now, hooks);
+    if (&block == &command_block) receive_command(cell, registers, now, hooks);
     if (&block == &heartbeat_block) {
         pass_time(cell, now, hooks);
-        take_heartbeat(cell, registers, now);
+        receive_heartbeat(cell, registers, now);
     }
     if (&block == &ticket_block) cell.ticket_draft = is_all_zero(registers) ? Registers{} : registers;
     if (&block == &signature_block) cell.signature_draft = is_all_zero(registers) ? Registers{} : registers;
@@ -74,8 +78,8 @@ std::uint8_t write_block(const Block& block, const Registers& registers, CellSta
 
 Bytes answer_write(std::span<const std::uint8_t> pdu, CellState& cell, CellTime now, const CellHooks& hooks) {
     if (pdu.size() < 6) return exception_pdu(pdu[0], illegal_value);
-    const std::uint16_t address = word_at(pdu, 1);
-    const std::uint16_t count = word_at(pdu, 3);
+    const std::uint16_t address = u16_at(pdu, 1);
+    const std::uint16_t count = u16_at(pdu, 3);
     const bool fits = count >= 1 && count <= most_written && pdu[5] == 2 * count && pdu.size() == 6U + 2U * count;
     if (!fits) return exception_pdu(pdu[0], illegal_value);
     const Block* block = block_around(Side::holding, address, count);
@@ -83,7 +87,7 @@ Bytes answer_write(std::span<const std::uint8_t> pdu, CellState& cell, CellTime 
     const bool is_whole = block == &chunk_block ? count > chunk_head : count == block->count;
     if (!is_whole) return exception_pdu(pdu[0], illegal_address);
     Registers registers;
-    for (std::size_t i = 0; i < count; ++i) registers.push_back(word_at(pdu, 6 + 2 * i));
+    for (std::size_t i = 0; i < count; ++i) registers.push_back(u16_at(pdu, 6 + 2 * i));
     const std::uint8_t code = write_block(*block, registers, cell, now, hooks);
     if (code != 0) return exception_pdu(pdu[0], code);
     return {pdu.begin(), pdu.begin() + 5};

@@ -1,8 +1,8 @@
-// The cell's answer to one Modbus request: bytes in, bytes out, no sockets.
+// Answers one Modbus request to the cell: bytes to bytes, without sockets.
 //
-// Strict: functions 3, 4 and 16 only; first count and length (exception 3), then address, gaps and atomic blocks
-// (exception 2). A request that is answered with an exception changes nothing, whatever its bytes are
-// (tests/sim/pdu_test.cpp).
+// Unit 1 and 255 (else exception 0x0B), functions 3, 4 and 16 (else exception 1); first count and length are checked
+// (exception 3), then the address: one block, and a whole one to write (exception 2). A request that is answered with
+// an exception changes nothing, whatever its bytes are (tests/sim/pdu_test.cpp).
 
 #pragma once
 
@@ -13,11 +13,11 @@
 
 namespace qchopper {
 
-// `pdu` begins with the function code. The answer is never empty and never longer than 253 bytes.
+// `pdu` begins with the function code; it may be empty. The answer has 2 to 253 bytes.
 Bytes answer_pdu(std::uint8_t unit, std::span<const std::uint8_t> pdu, CellState& cell, CellTime now,
                  const CellHooks& hooks);
 
-// Function code with the high bit, and the code.
+// Two bytes: the function code with its high bit set, and the exception code.
 Bytes exception_pdu(std::uint8_t function, std::uint8_t code);
 
 }  // namespace qchopper

@@ -1,3 +1,6 @@
+// One thread with poll() over non-blocking sockets; a buffer for each connection. Framing and its limits follow Modbus
+// Messaging on TCP/IP Implementation Guide V1.0b (2006). O(connections) for each turn of the loop, of at most 8.
+
 #include "sim/modbus_server.h"
 
 #include <arpa/inet.h>
@@ -25,12 +28,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t most_connections = 8;
-constexpr double quiet_s = 1;                  // those turned away are told of when no more came for so long,
+constexpr double quiet_s = 1;                  // refused connections are reported when no more came for so long,
 constexpr double count_s = 10;                 // but not later than this after the first
 constexpr std::size_t input_bytes = 520;       // two frames of the largest kind
-constexpr std::size_t output_bytes = 4 * 260;  // four answers; then this client is not read any more
-constexpr std::size_t head_bytes = 7;
-constexpr std::size_t least_length = 2;
+constexpr std::size_t output_bytes = 4 * 260;  // four answers; a client that has not read them is not read either
+constexpr std::size_t head_bytes = 7;          // MBAP: transaction, protocol, length, unit
+constexpr std::size_t least_length = 2;        // of unit and PDU
 constexpr std::size_t most_length = 254;
 
 struct Connection {
@@ -83,14 +86,15 @@ Listener listen_on(const ModbusServerOptions& options) {
     addrinfo* found = nullptr;
     in_addr v4{};
     in6_addr v6{};
-    // inet_pton is strict where others take "0" or "127.1" for an address.
+    // inet_pton is strict: other functions accept "0" and "127.1".
     const bool is_numeric = inet_pton(AF_INET, host.c_str(), &v4) == 1 || inet_pton(AF_INET6, host.c_str(), &v6) == 1;
     if (!is_numeric || getaddrinfo(host.c_str(), std::to_string(options.port).c_str(), &wanted, &found) != 0) {
         refuse(options, "this is not a numeric address", "Give an address such as 127.0.0.1.");
     }
     const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> guard(found, &freeaddrinfo);
     if (!is_loopback(host) && options.allow.empty()) {
-        refuse(options, "others could reach it, and no list says who may", "Listen on 127.0.0.1.");
+        refuse(options, "other computers could reach it, and no list of allowed addresses is given",
+               "Listen on 127.0.0.1.");
     }
     const int fd = socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     if (fd < 0) refuse(options, std::strerror(errno), "", InputFault::create);
@@ -102,8 +106,7 @@ Listener listen_on(const ModbusServerOptions& options) {
         getsockname(fd, reinterpret_cast<sockaddr*>(&bound), &size) != 0) {
         const int error = errno;
         close(fd);
-        refuse(options, std::strerror(error),
-               "Is another cell listening there? Take another port, or 0 for a free one.", InputFault::create);
+        refuse(options, std::strerror(error), "Choose another port, or 0 for a free one.", InputFault::create);
     }
     const std::uint16_t port = bound.ss_family == AF_INET ? reinterpret_cast<const sockaddr_in&>(bound).sin_port
                                                           : reinterpret_cast<const sockaddr_in6&>(bound).sin6_port;
@@ -120,7 +123,7 @@ struct ModbusServer::Loop {
           on_tick(std::move(tick)),
           on_message(std::move(message)) {}
 
-    void say(const std::string& line) const {
+    void report(const std::string& line) const {
         if (on_message) on_message(line);
     }
 
@@ -132,13 +135,13 @@ struct ModbusServer::Loop {
                 waiting.push_back({connection.fd, static_cast<short>(events), 0});
             }
             const int ready = poll(waiting.data(), waiting.size(), static_cast<int>(1000 * options.tick_s));
-            if (ready < 0 && errno != EINTR) say(std::string("poll: ") + std::strerror(errno));
-            if (ready > 0 && waiting[0].revents != 0) return tell_turned_away();
+            if (ready < 0 && errno != EINTR) report(std::string("poll: ") + std::strerror(errno));
+            if (ready > 0 && waiting[0].revents != 0) return report_refused();
             serve(waiting);
-            if (ready > 0 && waiting[1].revents != 0) take_connections();
+            if (ready > 0 && waiting[1].revents != 0) accept_connections();
             close_overdue();
             const auto now = Clock::now();
-            if (since(last_away, now) > quiet_s || since(first_away, now) > count_s) tell_turned_away();
+            if (since(last_refused, now) > quiet_s || since(first_refused, now) > count_s) report_refused();
             on_tick();
         }
     }
@@ -149,7 +152,7 @@ struct ModbusServer::Loop {
             const short events = waiting[i].revents;
             bool is_alive = (events & (POLLERR | POLLNVAL)) == 0;
             if ((events & POLLHUP) != 0 && connection->is_full()) is_alive = false;
-            if (is_alive && (events & POLLOUT) != 0) is_alive = flush(*connection) && work(*connection);
+            if (is_alive && (events & POLLOUT) != 0) is_alive = flush(*connection) && answer_frames(*connection);
             if (is_alive && (events & (POLLIN | POLLHUP)) != 0) is_alive = receive(*connection);
             connection = is_alive ? std::next(connection) : drop(connection);
         }
@@ -162,28 +165,28 @@ struct ModbusServer::Loop {
 
     bool receive(Connection& connection) {
         std::uint8_t buffer[input_bytes];
-        const std::size_t room = input_bytes - std::min(input_bytes, connection.input.size());
-        if (room == 0 || connection.is_full()) return true;
-        const ssize_t got = recv(connection.fd, buffer, room, 0);
+        const std::size_t space = input_bytes - std::min(input_bytes, connection.input.size());
+        if (space == 0 || connection.is_full()) return true;
+        const ssize_t got = recv(connection.fd, buffer, space, 0);
         if (got == 0) return false;
         if (got < 0) return errno == EAGAIN || errno == EINTR;
         const auto now = Clock::now();
         if (connection.input.empty()) connection.frame_began = now;
         connection.last_byte = now;
         connection.input.insert(connection.input.end(), buffer, buffer + got);
-        return work(connection);
+        return answer_frames(connection);
     }
 
-    // Answers every complete frame for whose answer there is room. False: the connection is to be closed.
-    bool work(Connection& connection) {
+    // Answers every complete frame while the output has space. False: the connection is to be closed.
+    bool answer_frames(Connection& connection) {
         for (bool more = true; more;) {
             while (has_frame(connection) && !connection.is_full()) answer_frame(connection);
             if (!is_modbus(connection)) {
-                say(connection.peer + " does not speak Modbus TCP; closed");
+                report(connection.peer + " does not follow Modbus TCP; closed");
                 return false;
             }
             if (!flush(connection)) return false;
-            // What was sent has made room for frames that are here already: poll would not tell of them again.
+            // poll() does not report frames that were received before and could not be answered for lack of space.
             more = has_frame(connection) && !connection.is_full();
         }
         return true;
@@ -193,7 +196,7 @@ struct ModbusServer::Loop {
         return (std::size_t{connection.input[4]} << 8U) | connection.input[5];
     }
 
-    // As far as can be told from what has come so far.
+    // Of the bytes received so far; true while the header is not complete.
     static bool is_modbus(const Connection& connection) {
         const Bytes& in = connection.input;
         if (in.size() < head_bytes) return true;
@@ -225,7 +228,7 @@ struct ModbusServer::Loop {
         if (connection.output.empty()) return true;
         const ssize_t sent = send(connection.fd, connection.output.data(), connection.output.size(), MSG_NOSIGNAL);
         if (sent < 0) return errno == EAGAIN || errno == EINTR;
-        if (connection.is_full()) connection.frame_began = Clock::now();  // its time ran on while we did not read
+        if (connection.is_full()) connection.frame_began = Clock::now();  // the time without reading does not count
         connection.output.erase(connection.output.begin(), connection.output.begin() + sent);
         connection.output_moved = Clock::now();
         return true;
@@ -237,14 +240,14 @@ struct ModbusServer::Loop {
             const char* why = nullptr;
             const bool is_reading = !connection->is_full();
             if (!connection->output.empty() && since(connection->output_moved, now) > options.drain_s) {
-                why = "does not fetch its answers";
+                why = "does not read its answers";
             } else if (is_reading && !connection->input.empty() &&
                        since(connection->frame_began, now) > options.frame_s) {
                 why = "did not complete its request in time";
             } else if (since(connection->last_byte, now) > options.idle_s) {
-                why = "was silent for too long";
+                why = "sent nothing for too long";
             }
-            if (why != nullptr) say(connection->peer + " " + why + "; closed");
+            if (why != nullptr) report(connection->peer + " " + why + "; closed");
             connection = why == nullptr ? std::next(connection) : drop(connection);
         }
     }
@@ -256,29 +259,29 @@ struct ModbusServer::Loop {
         return connections.size() + (!options.allow.empty() && !is_listed ? 1 : 0) < most_connections;
     }
 
-    // Whoever knocks without end must not fill the log: they are counted.
-    void turn_away(const std::string& peer) {
-        last_away = Clock::now();
-        if (turned_away == 0) first_away = last_away;
-        ++turned_away;
-        peer_away = peer;
+    // Counted and reported together, so that repeated attempts do not fill the log.
+    void count_refused(const std::string& peer) {
+        last_refused = Clock::now();
+        if (refused == 0) first_refused = last_refused;
+        ++refused;
+        refused_peer = peer;
     }
 
-    void tell_turned_away() {
-        if (turned_away == 0) return;
-        say(std::to_string(turned_away) + (turned_away == 1 ? " connection" : " connections") +
-            " turned away, the last from " + peer_away + ": not on the list, or too many at once");
-        turned_away = 0;
+    void report_refused() {
+        if (refused == 0) return;
+        report(std::to_string(refused) + (refused == 1 ? " connection" : " connections") + " refused, the last from " +
+               refused_peer + ": not on the list, or too many at once");
+        refused = 0;
     }
 
-    void take_connections() {
+    void accept_connections() {
         for (;;) {
             sockaddr_storage address{};
             socklen_t size = sizeof address;
             const int fd =
                 accept4(listener.fd, reinterpret_cast<sockaddr*>(&address), &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
             if (fd < 0 && (errno == EMFILE || errno == ENFILE)) {
-                // Out of descriptors: give up the spare one to turn the caller away, else poll would spin.
+                // Out of descriptors: the spare one serves to accept and close the connection, else poll() would spin.
                 close(spare);
                 const int surplus = accept(listener.fd, nullptr, nullptr);
                 if (surplus >= 0) close(surplus);
@@ -288,7 +291,7 @@ struct ModbusServer::Loop {
             if (fd < 0) return;
             const std::string peer = numeric(address);
             if (!may_stay(peer)) {
-                turn_away(peer);
+                count_refused(peer);
                 close(fd);
                 continue;
             }
@@ -307,10 +310,10 @@ struct ModbusServer::Loop {
     int wake = -1;
     int spare = -1;
     std::list<Connection> connections;
-    std::size_t turned_away = 0;  // since it was last told
-    std::string peer_away;
-    Clock::time_point first_away;
-    Clock::time_point last_away;
+    std::size_t refused = 0;  // connections since the last report
+    std::string refused_peer;
+    Clock::time_point first_refused;
+    Clock::time_point last_refused;
     std::thread thread;
 };
 

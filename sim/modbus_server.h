@@ -1,8 +1,8 @@
-// A strict Modbus TCP server: frames by their length field, never waits for one client while others want something.
+// A strict Modbus TCP server: passes the PDU of each request to a function and sends its answer.
 //
-// One thread, poll(), a buffer per connection. Closed: a protocol id that is not 0, a length outside 2..254, a frame
-// that is not complete after 2 s, an answer that is not fetched for 2 s, a minute of silence, the 9th connection
-// (tests/sim/server_test.cpp). Knows nothing of registers.
+// A slow client never delays another. A connection is closed for a protocol id other than 0, a length outside 2..254, a
+// frame not complete after frame_s, an answer not read for drain_s, nothing received for idle_s, and if it is the 9th
+// (tests/sim/server_test.cpp). Memory is bounded for each connection.
 
 #pragma once
 
@@ -18,18 +18,19 @@
 namespace qchopper {
 
 struct ModbusServerOptions {
-    std::string host = "127.0.0.1";  // numeric; another than loopback needs an allow-list
+    std::string host = "127.0.0.1";  // numeric; any other than loopback needs an allow-list
     std::uint16_t port = 0;          // 0: a free one
     std::vector<std::string> allow;  // numeric addresses that may connect; loopback always may
     double frame_s = 2;
     double drain_s = 2;
     double idle_s = 60;
-    double tick_s = 0.02;  // how often on_tick is called
+    double tick_s = 0.02;  // longest time between two calls of on_tick
 };
 
 class ModbusServer {
  public:
-    // Answers one request; called from the server's thread. Must be quick.
+    // Answers one request with a PDU of 1 to 253 bytes. All functions are called from the server's thread, and while
+    // one runs, no client is served. They must not throw. on_message may be empty.
     using Answer = std::function<Bytes(std::uint8_t unit, std::span<const std::uint8_t> pdu)>;
 
     ModbusServer(ModbusServerOptions options, Answer answer, std::function<void()> on_tick,
@@ -38,10 +39,11 @@ class ModbusServer {
     ModbusServer(const ModbusServer&) = delete;
     ModbusServer& operator=(const ModbusServer&) = delete;
 
-    // Binds, listens, serves in a thread. Throws InputError: address not allowed or in use.
+    // Binds, listens, serves in a thread; while that runs, a second call has no effect. Throws InputError (use,
+    // create): address not numeric, not allowed, or in use.
     void start();
-    std::uint16_t port() const;
-    void stop();
+    std::uint16_t port() const;  // after start()
+    void stop();                 // closes all connections; a second call has no effect
 
  private:
     struct Loop;

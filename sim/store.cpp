@@ -1,3 +1,6 @@
+// A lock file with flock(), and copies named after their jobs. Removing copies sorts them by the end of their jobs:
+// O(n log n) comparisons for n copies, and one pass over the folder for each copy removed.
+
 #include "sim/store.h"
 
 #include <errno.h>
@@ -38,10 +41,10 @@ std::vector<Copy> copies_in(const fs::path& folder) {
     return copies;
 }
 
-// What a cell that was killed while it wrote left behind. Whoever holds the lock knows that nobody writes.
+// Files that a killed cell had not finished writing. Under the lock nothing else writes here.
 void remove_leftovers(const fs::path& folder) {
-    for (const fs::path& room : {folder, folder / "jobs"}) {
-        for (const Copy& copy : copies_in(room)) {
+    for (const fs::path& place : {folder, folder / "jobs"}) {
+        for (const Copy& copy : copies_in(place)) {
             std::error_code ignored;
             if (copy.name.find(".tmp.") != std::string::npos) fs::remove(copy.file, ignored);
         }
@@ -66,10 +69,9 @@ Store::Store(const fs::path& folder, std::uint64_t most_bytes)
     }
     const bool is_held = lock_ >= 0 && errno == EWOULDBLOCK;
     if (lock_ >= 0) close(lock_);
-    throw InputError(
-        is_held ? InputFault::busy : InputFault::create,
-        "the store " + folder_.string() + (is_held ? " belongs to another cell that runs" : " cannot be locked"),
-        "Give another store folder.");
+    throw InputError(is_held ? InputFault::busy : InputFault::create,
+                     "the store " + folder_.string() + (is_held ? " is in use by another cell" : " cannot be locked"),
+                     "Give another store folder.");
 }
 
 Store::~Store() {
@@ -93,7 +95,7 @@ std::uint32_t Store::free_kib() const {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(free_bytes() / 1024, 0xFFFFFFFFU));
 }
 
-void Store::make_room(const CellMemory& memory, std::uint64_t bytes) const {
+void Store::remove_old_copies(const CellMemory& memory, std::uint64_t bytes) const {
     if (free_bytes() >= bytes) return;
     std::map<std::string, std::uint64_t> ends;
     for (const auto& [id, record] : memory.jobs) ends[to_text(id) + ".qjob"] = record.end_time_ms;

@@ -1,7 +1,7 @@
 // The cell's folder: its memory, its lock, the copies of the files that it runs.
 //
-// Copies of finished jobs make room for new ones, the oldest first; the ids of their jobs stay in the memory
-// (tests/sim/store_test.cpp).
+// Copies of finished jobs are removed for new ones, the oldest first; the ids of their jobs stay in the memory
+// (tests/sim/store_test.cpp). One program at a time holds a folder.
 
 #pragma once
 
@@ -16,17 +16,18 @@ namespace qchopper {
 
 class Store {
  public:
-    // An empty folder: one of its own, gone with the cell. `most_bytes`: of all copies together. Throws InputError.
+    // An empty path: a temporary folder, removed at the end. `most_bytes`: of all copies together. Throws InputError
+    // (create, busy): the folder cannot be made or locked, or another program holds it.
     Store(const std::filesystem::path& folder, std::uint64_t most_bytes);
     ~Store();
     Store(const Store&) = delete;
     Store& operator=(const Store&) = delete;
 
     std::filesystem::path memory() const { return folder_ / "memory.json"; }
-    std::filesystem::path job(const Uuid& id) const;
-    std::uint32_t free_kib() const;
-    // Removes copies until so many bytes are free or none is left. To be asked while the cell has no job.
-    void make_room(const CellMemory& memory, std::uint64_t bytes) const;
+    std::filesystem::path job(const Uuid& id) const;  // of the copy of a job's file
+    std::uint32_t free_kib() const;                   // 0 if that cannot be read
+    // Removes copies until so many bytes are free or none is left. Precondition: the cell has no job.
+    void remove_old_copies(const CellMemory& memory, std::uint64_t bytes) const;
 
  private:
     std::uint64_t free_bytes() const;

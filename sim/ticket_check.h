@@ -1,6 +1,6 @@
-// Whether a ticket makes sense, and whether its job fits this cell.
+// Checks the values of a ticket, and whether its job fits the cell.
 //
-// The detail of a refusal is the address of the first field that is wrong (tests/sim/machine_test.cpp).
+// The address of a fault is that of the first wrong field in the register map (tests/sim/machine_test.cpp).
 
 #pragma once
 
@@ -16,11 +16,11 @@ struct TicketFault {
     std::uint16_t address = 0;
 };
 
-// Field by field, when the ticket is stored.
+// For STORE. `block` holds the registers that `ticket` was decoded from, all of TICKET.
 std::optional<TicketFault> wrong_field(const WireTicket& ticket, std::span<const std::uint16_t> block,
                                        const CellLimits& limits);
 
-// Reach, stock, tool and its speeds, before the operator is asked for consent.
+// For PREPARE and REHEARSE, before the operator is asked: reach, stock, tool and its speeds.
 std::optional<TicketFault> does_not_fit(const WireTicket& ticket, const CellLimits& limits);
 
 }  // namespace qchopper

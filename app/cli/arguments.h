@@ -1,4 +1,6 @@
-// What the operator typed, as values.
+// The command line as values: one struct per command, in which nothing stands for an option that is not given.
+//
+// parse_arguments() has checked single values (option_values.h); check_arguments.h checks which options go together.
 
 #pragma once
 
@@ -17,7 +19,7 @@ struct SampleArguments {
     std::string specimen;
     std::size_t faces = 100'000;
     int holes = 0;
-    int marks = 0;
+    int pen_grooves = 0;
     std::filesystem::path out;
 };
 
@@ -27,13 +29,13 @@ struct InspectArguments {
     bool deep = false;
 };
 
-// How a scan becomes a solid, for every command that takes one in.
+// How a scan becomes a solid, for every command that imports one.
 struct RepairChoiceArguments {
     std::optional<double> weld_mm;
     std::optional<std::string> fill;  // auto | flat | fair | none
     bool resolve_self_intersections = false;
-    bool smooth_marks = false;
-    std::optional<double> wrap_mm;
+    bool smooth_pen_grooves = false;
+    std::optional<double> alpha_wrap_mm;
 };
 
 struct RepairArguments : RepairChoiceArguments {
@@ -43,13 +45,14 @@ struct RepairArguments : RepairChoiceArguments {
     std::optional<double> scale;
     std::optional<std::string> fragments;  // keep | drop
     bool keep_self_intersections = false;
-    std::optional<double> mark_width;  // mm, of the widest mark
-    std::optional<double> mark_depth;  // mm, of the deepest
-    std::vector<std::string> skipped;  // names of steps
+    std::optional<double> groove_width;  // mm, of the widest pen groove
+    std::optional<double> groove_depth;  // mm, of the deepest
+    std::vector<std::string> skipped;    // names of steps
 };
 
-// What a new project is told; a stop rule also tells a search how to go on.
+// The settings of a new project. Stop rules and beam are also those of a search that goes on.
 struct ProjectArguments : RepairChoiceArguments {
+    std::filesystem::path input;  // a scan, or a project folder to go on with
     std::optional<std::string> units;
     std::optional<double> scale;
     std::optional<std::filesystem::path> cell;
@@ -68,13 +71,10 @@ struct ProjectArguments : RepairChoiceArguments {
     std::optional<std::filesystem::path> out;
 };
 
-struct PrepareArguments : ProjectArguments {
-    std::filesystem::path input;  // a scan, or a project folder to go on with
-};
+struct PrepareArguments : ProjectArguments {};
 
 struct SegmentArguments : ProjectArguments {
-    std::filesystem::path input;  // a scan, or a project folder
-    // What to do; one of these, or none to see how the project stands.
+    // What to do: one of these, or none to see the state of the project.
     bool step = false;
     std::optional<std::size_t> accept;   // a place in the ranking, from 1
     std::optional<std::string> plane;    // nx,ny,nz,d
@@ -86,7 +86,7 @@ struct SegmentArguments : ProjectArguments {
     bool goes_on = false;                           // --auto
     std::optional<std::filesystem::path> plan;      // to write
     std::optional<std::filesystem::path> replayed;  // a plan to replay
-    // How.
+    // Options of these.
     std::optional<std::string> piece;
     std::optional<std::size_t> top;
     bool write_pieces = false;
@@ -126,7 +126,7 @@ struct DispatchArguments {
 };
 
 struct Arguments {
-    bool json = false;  // for the option parser; run.cpp knows it earlier
+    bool json = false;  // for the option parser only; run.cpp reads it before
     bool quiet = false;
     std::variant<SampleArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
                  ExplainArguments, ExportArguments, DryRunArguments, CellSimArguments, DispatchArguments>

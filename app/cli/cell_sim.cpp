@@ -1,3 +1,5 @@
+// Runs a simulated cell until a signal ends the program.
+
 #include <poll.h>
 #include <unistd.h>
 
@@ -16,7 +18,7 @@
 namespace qchopper {
 namespace {
 
-// Waits for a line on stdin, but not longer than the program runs. End of input is no.
+// Waits for a line on stdin, or until the program is cancelled. End of input means no.
 bool ask_on_terminal(const std::string& question) {
     std::cerr << question << " [y/N] " << std::flush;
     std::string line;
@@ -31,7 +33,7 @@ bool ask_on_terminal(const std::string& question) {
     return line == "y" || line == "Y" || line == "yes";
 }
 
-// As an address to connect to, but for port 0: any that is free.
+// An address as for a connection, but port 0 is allowed: any free port.
 TcpAddress listen_address(const std::string& text) {
     if (!text.ends_with(":0")) return parse_tcp_address(text);
     TcpAddress address = parse_tcp_address(text.substr(0, text.size() - 2));
@@ -55,20 +57,19 @@ int run(const CellSimArguments& arguments, Terminal& terminal) {
                              : arguments.consent == "ask" ? Consent::ask
                                                           : Consent::never;
     options.ask = ask_on_terminal;
-    std::mutex saying;  // the cell speaks from its own threads
+    std::mutex terminal_mutex;  // the cell sends messages from its own threads
     options.on_message = [&](const std::string& line) {
-        const std::lock_guard lock(saying);
-        terminal.say(line);
+        const std::lock_guard lock(terminal_mutex);
+        terminal.message(line);
     };
     CellSim sim(options);
     sim.start();
     const bool is_ipv6 = address.host.find(':') != std::string::npos;
     const std::string where = (is_ipv6 ? "[" + address.host + "]" : address.host) + ":" + std::to_string(sim.port());
-    terminal.show("listening " + where);
-    terminal.json(listening_document(where));
+    terminal.show({"listening " + where}, listening_document(where));
     while (!Terminal::is_cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
     sim.stop();
-    terminal.say("simulated cell stopped");
+    terminal.message("simulated cell stopped");
     return exit_done;
 }
 

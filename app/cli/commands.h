@@ -1,4 +1,7 @@
-// The commands: each takes what was typed, calls app/project and app/report, and returns the exit code.
+// The commands: each passes its arguments to app/project, shows the report of app/report and returns the exit code.
+//
+// They throw InputError, DeviceError and Cancelled, which run_program() reports; terminal.unchanged is then the
+// sentence about what is unchanged.
 
 #pragma once
 
@@ -19,7 +22,7 @@ int run(const DryRunArguments& arguments, Terminal& terminal);
 int run(const CellSimArguments& arguments, Terminal& terminal);
 int run(const DispatchArguments& arguments, Terminal& terminal);
 
-// What dry-run and dispatch share: hands the jobs over, shows table or document, and returns the exit code.
+// For dry-run and dispatch: hands the jobs over, shows table or document, and returns the exit code.
 int hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options,
               const std::string& schema, Terminal& terminal);
 

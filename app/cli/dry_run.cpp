@@ -1,3 +1,5 @@
+// Hands the jobs of a project to a simulated cell in this process, over TCP.
+
 #include "app/cli/commands.h"
 #include "app/cli/simulated_limits.h"
 #include "base/temporary_folder.h"
@@ -18,8 +20,8 @@ int run(const DryRunArguments& arguments, Terminal& terminal) {
     options.limits.acting_ms = 20;
     CellSim sim(options);
     sim.start();
-    terminal.say("dry run: a simulated cell inside this program, over TCP on 127.0.0.1:" + std::to_string(sim.port()) +
-                 "; consent is given at once, nothing moves");
+    terminal.message("dry run: a simulated cell inside this program, over TCP on 127.0.0.1:" +
+                     std::to_string(sim.port()) + "; consent is given at once, nothing moves");
     ModbusTcpBus bus({"127.0.0.1", sim.port()});
     DispatchOptions dispatch;
     dispatch.cell_id = cell.id;

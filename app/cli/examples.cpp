@@ -1,3 +1,5 @@
+// One table of texts.
+
 #include "app/cli/examples.h"
 
 #include <array>
@@ -22,12 +24,12 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
 66 input missing, 69 cell not reachable, 73/74 cannot write, 75 try again later, 76 protocol, 78 settings file,
 130 stopped (finished work is kept).)"},
     {"sample", R"(  qchopper sample vertebra --faces 50000 -o vertebra.ply
-  qchopper sample femur --holes 3 --marks 2 -o femur.stl)"},
+  qchopper sample femur --holes 3 --pen-grooves 2 -o femur.stl)"},
     {"inspect", R"(  qchopper inspect vertebra.ply --units mm
   qchopper inspect femur.glb --deep
   qchopper inspect - --units mm --json < skull.stl.gz)"},
     {"repair", R"(  qchopper repair vertebra.ply --units mm -o solid.ply
-  qchopper repair femur.obj --units cm --weld 0.05 --fill fair --smooth-marks -o solid.ply)"},
+  qchopper repair femur.obj --units cm --weld 0.05 --fill fair --smooth-pen-grooves -o solid.ply)"},
     {"prepare", R"(  qchopper prepare vertebra.ply --units mm --cell cells/foam-1.toml --min-cuts 3 -o vertebra.qch
   qchopper prepare femur.3mf --cell cells/foam-1.toml --preset femur --beam 3 -o femur.qch
   qchopper prepare femur.qch)"},

@@ -1,4 +1,4 @@
-// What --help shows below the options: examples of the one command, or of all.
+// What --help shows below the options: examples of one command, or of the whole data flow.
 
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace qchopper {
 
-// Of a command by its name; of the whole way, with the exit codes, for an empty name.
+// For an empty name the examples of the data flow, with the exit codes; empty for an unknown command.
 std::string examples_of(const std::string& command);
 
 }  // namespace qchopper

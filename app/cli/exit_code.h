@@ -1,9 +1,6 @@
-// Exit codes after sysexits, so that scripts can tell what went wrong. One table for all commands.
+// Exit codes of all commands, after sysexits.h of BSD, so that scripts can distinguish errors (docs/errors.md).
 
 #pragma once
-
-#include "base/error.h"
-#include "devices/device_error.h"
 
 namespace qchopper {
 
@@ -23,39 +20,5 @@ enum ExitCode : int {
     exit_interrupted = 130,  // Ctrl-C; finished work is kept
     exit_terminated = 143    // SIGTERM; the same
 };
-
-constexpr ExitCode exit_code(InputFault fault) {
-    switch (fault) {
-        case InputFault::use:
-            return exit_use;
-        case InputFault::mesh:
-            return exit_mesh;
-        case InputFault::missing:
-            return exit_missing;
-        case InputFault::create:
-            return exit_create;
-        case InputFault::io:
-            return exit_io;
-        case InputFault::busy:
-            return exit_busy;
-        case InputFault::config:
-            return exit_config;
-    }
-    return exit_internal;
-}
-
-constexpr ExitCode exit_code(DeviceFault fault) {
-    switch (fault) {
-        case DeviceFault::unreachable:
-            return exit_unreachable;
-        case DeviceFault::protocol:
-            return exit_protocol;
-        case DeviceFault::busy:
-            return exit_busy;
-        case DeviceFault::refused:
-            return exit_demand_broken;
-    }
-    return exit_internal;
-}
 
 }  // namespace qchopper

@@ -1,4 +1,4 @@
-// Why this plane: the candidates of a cut, with a plot of what all of them cost.
+// Explains a cut by the candidates that were ranked for it, with a plot of their values.
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
@@ -29,8 +29,7 @@ int run(const ExplainArguments& arguments, Terminal& terminal) {
     const Explanation e = explain(open, cut, context);
     terminal.warn(warnings(e));
     write_file(picture, to_svg(plot(e, without_slash(arguments.project).filename().string())));
-    terminal.show(lines(e, open.project(), picture.string()));
-    terminal.json(document(e, open.project(), picture.string()));
+    terminal.show(lines(e, open.project(), picture.string()), document(e, open.project(), picture.string()));
     return exit_done;
 }
 

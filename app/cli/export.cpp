@@ -1,3 +1,5 @@
+// Writes pieces for other programs.
+
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
 #include "app/cli/version.h"
@@ -10,8 +12,7 @@ int run(const ExportArguments& arguments, Terminal& terminal) {
     OpenProject open(without_slash(arguments.project), terminal.context());
     const ExportedProject exported = export_pieces(open, arguments, version, terminal.context());
     terminal.warn(warnings(exported, arguments));
-    terminal.show(lines(exported, open.project()));
-    terminal.json(document(exported, arguments, open.project(), arguments.project));
+    terminal.show(lines(exported, open.project()), document(exported, arguments, open.project(), arguments.project));
     return exported.is_demand_met() ? exit_done : exit_demand_broken;
 }
 

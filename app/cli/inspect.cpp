@@ -1,4 +1,7 @@
+// Reports what a scan is and what is wrong with it.
+
 #include "segment/import/inspect.h"
+
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
 #include "app/report/inspect_report.h"
@@ -16,8 +19,7 @@ int run(const InspectArguments& arguments, Terminal& terminal) {
     const std::optional<double> mm = agreed_mm_per_unit(inspection.mm_per_unit, given, name_of_scan(arguments.scan));
     InspectedFile file{name_of_scan(arguments.scan), {}, inspection};
     if (mm) file.units = name_of(unit_of(*mm));
-    terminal.show(lines(file));
-    terminal.json(document(file));
+    terminal.show(lines(file), document(file));
     return exit_done;
 }
 

@@ -1,3 +1,5 @@
+// Entry point.
+
 #include "app/cli/run.h"
 
 int main(int argc, char** argv) {

@@ -1,3 +1,5 @@
+// Numbers are read without a locale. A direction is scaled by a power of two before it is normalized.
+
 #include "app/cli/option_values.h"
 
 #include <algorithm>
@@ -15,14 +17,14 @@ namespace {
 constexpr double largest_weight = 1e12;
 
 std::vector<std::string> split(const std::string& text) {
-    std::vector<std::string> words{""};
+    std::vector<std::string> parts{""};
     for (const char c : text) {
         if (c == ',')
-            words.emplace_back();
+            parts.emplace_back();
         else
-            words.back() += c;
+            parts.back() += c;
     }
-    return words;
+    return parts;
 }
 
 std::optional<double> number_from(const std::string& text) {
@@ -50,34 +52,29 @@ std::optional<double>* weight_named(GivenWeights& weights, const std::string& na
 
 }  // namespace
 
-Weights GivenWeights::over(Weights weights) const {
-    return {face_ratio.value_or(weights.face_ratio), fragility.value_or(weights.fragility),
-            piece_count.value_or(weights.piece_count), undercut.value_or(weights.undercut)};
-}
-
 std::optional<GivenWeights> weights_from(const std::string& text) {
-    const std::vector<std::string> words = split(text);
+    const std::vector<std::string> parts = split(text);
     GivenWeights weights;
     const bool is_bare = text.find('=') == std::string::npos;
-    if (is_bare && words.size() != 4) return std::nullopt;
+    if (is_bare && parts.size() != 4) return std::nullopt;
     const std::array<const char*, 4> order{"face_ratio", "fragility", "piece_count", "undercut"};
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        const std::size_t equals = words[i].find('=');
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const std::size_t equals = parts[i].find('=');
         if (!is_bare && equals == std::string::npos) return std::nullopt;
-        std::optional<double>* weight = weight_named(weights, is_bare ? order[i] : words[i].substr(0, equals));
+        std::optional<double>* weight = weight_named(weights, is_bare ? order[i] : parts[i].substr(0, equals));
         if (weight == nullptr || *weight) return std::nullopt;  // unknown, or named twice
-        *weight = number_from(is_bare ? words[i] : words[i].substr(equals + 1));
+        *weight = number_from(is_bare ? parts[i] : parts[i].substr(equals + 1));
         if (!*weight || **weight < 0 || **weight > largest_weight) return std::nullopt;
     }
     return weights;
 }
 
 std::optional<Plane> plane_from(const std::string& text) {
-    const std::vector<std::string> words = split(text);
-    if (words.size() != 4) return std::nullopt;
+    const std::vector<std::string> parts = split(text);
+    if (parts.size() != 4) return std::nullopt;
     std::array<double, 4> v{};
     for (std::size_t i = 0; i < 4; ++i) {
-        const std::optional<double> value = number_from(words[i]);
+        const std::optional<double> value = number_from(parts[i]);
         if (!value) return std::nullopt;
         v[i] = *value;
     }
@@ -102,21 +99,21 @@ std::optional<std::size_t> place_from(const std::string& text) {
     return static_cast<std::size_t>(*value);
 }
 
-// Own words instead of those of the option parser, which print type names and 300-digit bounds.
-OptionCheck number_between(double low, double high, const std::string& words) {
+// Messages of their own: those of the option parser have type names and bounds of 300 digits.
+OptionCheck number_between(double low, double high, const std::string& what) {
     return [=](const std::string& text) {
         double value = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
         const bool ok = error == std::errc() && end == text.data() + text.size() && value >= low && value <= high;
-        return ok ? std::string() : "\"" + text + "\" is not " + words;
+        return ok ? std::string() : "\"" + text + "\" is not " + what;
     };
 }
 
-OptionCheck one_of(const std::vector<std::string>& words) {
+OptionCheck one_of(const std::vector<std::string>& values) {
     return [=](const std::string& text) {
-        if (std::find(words.begin(), words.end(), text) != words.end()) return std::string();
+        if (std::find(values.begin(), values.end(), text) != values.end()) return std::string();
         std::string list;
-        for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+        for (const std::string& value : values) list += (list.empty() ? "" : ", ") + value;
         return "\"" + text + "\" is not one of " + list;
     };
 }

@@ -1,3 +1,5 @@
+// One function per command, on the option parser CLI11.
+
 #include "app/cli/parse_arguments.h"
 
 #include <CLI/CLI.hpp>
@@ -59,7 +61,8 @@ struct Parser {
     }
 
     void add_sample() {
-        CLI::App* c = app.add_subcommand("sample", "make a specimen that looks like a bone and is hard like one");
+        CLI::App* c =
+            app.add_subcommand("sample", "make a synthetic specimen: a bone with everything that makes scans hard");
         c->add_option("SPECIMEN", sample.specimen, "vertebra, femur or skull")
             ->required()
             ->check(one_of({"vertebra", "femur", "skull"}));
@@ -67,29 +70,32 @@ struct Parser {
             ->check(number_between(1, many, "a count of faces"));
         c->add_option("--holes", sample.holes, "leave so many holes (0)")
             ->check(number_between(0, 1e6, "a count of holes"));
-        c->add_option("--marks", sample.marks, "draw so many shallow dents, as a marker pen leaves them in a scan (0)")
-            ->check(number_between(0, 1e6, "a count of marks"));
+        const OptionCheck is_count = number_between(0, 1e6, "a count of pen grooves");
+        c->add_option("--pen-grooves", sample.pen_grooves,
+                      "draw so many grooves, as a marker pen leaves them in a scan (0)")
+            ->check(is_count);
+        c->add_option("--marks", sample.pen_grooves)->check(is_count)->group("");
         c->add_option("-o,--out", sample.out, "the file to write: .ply, or .stl")->required();
-        add_common(c, common);
+        add_common(c, common, [this] { common.command = sample; });
     }
 
     void add_inspect() {
-        CLI::App* c = app.add_subcommand("inspect", "say what a scan is and what is wrong with it");
+        CLI::App* c = app.add_subcommand("inspect", "report what a scan is and what is wrong with it");
         c->add_option("SCAN", inspect.scan, std::string(scan_formats) + "; - is standard input")->required();
         c->add_option("--units", inspect.units, "what one unit of the file is: mm, cm, m, in")
             ->check(one_of({"mm", "cm", "m", "in"}));
-        c->add_flag("--deep", inspect.deep, "look for faces that run through each other too");
-        add_common(c, common);
+        c->add_flag("--deep", inspect.deep, "find faces that run through each other too");
+        add_common(c, common, [this] { common.command = inspect; });
     }
 
     void add_explain() {
         CLI::App* c =
-            app.add_subcommand("explain", "say why a cut lies where it lies, with a plot of what all planes cost");
+            app.add_subcommand("explain", "explain why a cut lies where it lies, with a plot of what all planes cost");
         c->add_option("PROJECT", explain.project, "the folder NAME.qch")->required();
         c->add_option("--cut", explain.cut, "the number of the cut (the last)")
             ->check(number_between(1, 1e6, "the number of a cut"));
         c->add_option("-o,--out", explain.out, "the plot to write, .svg (PROJECT/pictures/cut-K.svg)");
-        add_common(c, common);
+        add_common(c, common, [this] { common.command = explain; });
     }
 
     void add_export() {
@@ -105,11 +111,12 @@ struct Parser {
         c->add_option("--simplify", exported.simplify_mm,
                       "as few faces as a deviation of so many mm allows; caps stay as they are")
             ->check(number_between(1e-9, many, "a length in mm above 0"));
-        c->add_option("--max-faces", exported.max_faces, "no more than so many faces a piece; the deviation is told")
+        c->add_option("--max-faces", exported.max_faces,
+                      "no more than so many faces a piece; the deviation is reported")
             ->check(number_between(4, many, "a count of faces from 4"));
         c->add_option("-o,--out", exported.out,
                       "the file to make, or for STL and PLY the folder (NAME.3mf, NAME-stl beside the project)");
-        add_common(c, common);
+        add_common(c, common, [this] { common.command = exported; });
     }
 
     void add_dry_run() {
@@ -118,20 +125,20 @@ struct Parser {
         c->add_option("--piece", dry_run.piece, "only this piece");
         c->add_option("--speed", dry_run.speed, "simulated seconds per second (100000)")
             ->check(number_between(1e-3, 1e9, "a factor above 0"));
-        add_common(c, common);
+        add_common(c, common, [this] { common.command = dry_run; });
     }
 
     void add_cell_sim() {
-        CLI::App* c = app.add_subcommand("cell-sim", "be a simulated cell until stopped");
+        CLI::App* c = app.add_subcommand("cell-sim", "run a simulated cell until stopped");
         c->add_option("--listen", cell_sim.listen, "HOST:PORT (127.0.0.1:15020); port 0 takes a free one");
         c->add_option("--drop", cell_sim.drop, "the folder where job files arrive")->required();
         c->add_option("--consent", cell_sim.consent, "auto, ask (on this terminal) or never (auto)")
             ->check(one_of({"auto", "ask", "never"}));
-        c->add_option("--store", cell_sim.store, "the folder of the cell's lasting memory; none: it forgets");
+        c->add_option("--store", cell_sim.store, "the folder of the cell's lasting memory; none: a temporary one");
         c->add_option("--cell", cell_sim.cell, "take id, reach and stock from this cell file");
         c->add_option("--speed", cell_sim.speed, "simulated seconds per second (1)")
             ->check(number_between(1e-3, 1e9, "a factor above 0"));
-        add_common(c, common);
+        add_common(c, common, [this] { common.command = cell_sim; });
     }
 
     void add_dispatch() {
@@ -141,32 +148,7 @@ struct Parser {
         c->add_option("--to", dispatch.to, "HOST:PORT of the cell (from the cell file)");
         c->add_option("--drop", dispatch.drop, "the folder where the cell fetches job files (from the cell file)");
         c->add_flag("--yes", dispatch.yes, "do not ask before a real cell is set in motion");
-        add_common(c, common);
-    }
-
-    Arguments result() {
-        const std::string name = app.get_subcommands().front()->get_name();
-        if (name == "sample")
-            common.command = sample;
-        else if (name == "inspect")
-            common.command = inspect;
-        else if (name == "repair")
-            common.command = repair;
-        else if (name == "prepare")
-            common.command = prepare;
-        else if (name == "segment")
-            common.command = segment;
-        else if (name == "explain")
-            common.command = explain;
-        else if (name == "export")
-            common.command = exported;
-        else if (name == "dry-run")
-            common.command = dry_run;
-        else if (name == "cell-sim")
-            common.command = cell_sim;
-        else
-            common.command = dispatch;
-        return common;
+        add_common(c, common, [this] { common.command = dispatch; });
     }
 };
 
@@ -176,7 +158,7 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
     Parser parser;
     try {
         parser.app.parse(argc, argv);
-        return parser.result();
+        return parser.common;
     } catch (const CLI::ParseError& e) {
         if (e.get_exit_code() == 0) {  // help, version
             parser.app.exit(e, std::cout, std::cerr);

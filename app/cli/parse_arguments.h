@@ -1,4 +1,4 @@
-// Reads the command line. The only files that know the option parser are parse_arguments.cpp and project_options.cpp.
+// Reads the command line. Only parse_arguments.cpp and project_options.cpp include the option parser.
 
 #pragma once
 
@@ -8,7 +8,8 @@
 
 namespace qchopper {
 
-// Nothing if help or version was asked for: it is on stdout then. Throws InputError (use).
+// Nothing if help or version was asked for, which is then printed on stdout. Throws InputError (use) for unknown
+// options and commands, missing ones, and wrong values; which options go together is not checked (check_arguments.h).
 std::optional<Arguments> parse_arguments(int argc, const char* const* argv);
 
 }  // namespace qchopper

@@ -1,9 +1,14 @@
+// Field by field, without an algorithm.
+
 #include "app/cli/project_arguments.h"
+
+#include <algorithm>
+#include <utility>
 
 #include "app/cli/option_values.h"
 #include "app/project/presets.h"
+#include "app/project/project_folder.h"
 #include "base/error.h"
-#include "segment/io/read_mesh.h"
 
 namespace qchopper {
 namespace {
@@ -20,10 +25,23 @@ SearchSettings settings_of(const ProjectArguments& a) {
     if (a.fragility) {
         settings.objectives.fragility_form = *a.fragility == "thesis" ? FragilityForm::thesis : FragilityForm::thinness;
     }
-    if (a.weights) settings.objectives.weights = weights_from(*a.weights)->over(settings.objectives.weights);
     if (a.beam) settings.beam = static_cast<std::size_t>(*a.beam);
     return settings;
 }
+
+RepairChoices repair_choices(const RepairChoiceArguments& a) {
+    return {a.weld_mm.value_or(0), a.fill ? *fill_named(*a.fill) : Fill::by_size, a.resolve_self_intersections,
+            a.smooth_pen_grooves, a.alpha_wrap_mm.value_or(0)};
+}
+
+// The steps of repair that may be skipped, by the names of --skip.
+constexpr std::pair<const char*, bool RepairOptions::*> skippable_steps[] = {
+    {"faces", &RepairOptions::drop_repeated},
+    {"split", &RepairOptions::split},
+    {"orient", &RepairOptions::orient},
+    {"stitch", &RepairOptions::stitch},
+    {"degenerate", &RepairOptions::remove_degenerate},
+    {"outwards", &RepairOptions::orient_outward}};
 
 }  // namespace
 
@@ -38,35 +56,19 @@ std::optional<StopRules> given_rules(const ProjectArguments& a) {
     return rules;
 }
 
-bool is_any_given(const RepairChoiceArguments& a) {
-    return a.weld_mm || a.fill || a.smooth_marks || a.wrap_mm || a.resolve_self_intersections;
-}
-
-RepairChoices repair_choices(const RepairChoiceArguments& a) {
-    RepairChoices choices;
-    choices.weld_mm = a.weld_mm.value_or(0);
-    if (a.fill) choices.fill = *fill_named(*a.fill);
-    choices.resolve_self_intersections = a.resolve_self_intersections;
-    choices.smooth_marks = a.smooth_marks;
-    choices.wrap_mm = a.wrap_mm.value_or(0);
-    return choices;
-}
-
-void check_unit(const std::filesystem::path& scan, const ProjectArguments& a) {
-    if (a.units || scan == "-" || read_mesh(scan).mm_per_unit) return;
-    throw InputError(InputFault::use, "the scan has no unit", "pass --units mm, cm, m or in");
-}
-
-ProjectChoices choices_of(const std::filesystem::path& scan, const ProjectArguments& a) {
+ProjectChoices choices_of(const ProjectArguments& a) {
     ProjectChoices choices;
-    choices.scan = scan;
+    choices.scan = a.input;
     if (a.units) choices.mm_per_unit = mm_per(unit_named(*a.units));
     choices.scale = a.scale.value_or(1);
     choices.repair = repair_choices(a);
     choices.preset = a.preset.value_or("");
     choices.settings = settings_of(a);
     choices.fragment_volume_mm3 = a.fragment_volume_mm3;
+    if (a.weights) choices.weights = *weights_from(*a.weights);
     if (a.fragments && *a.fragments == "drop") choices.fragments = FragmentChoice::drop;
+    if (a.out) choices.folder = without_slash(*a.out);
+    choices.cell_file = a.cell;
     return choices;
 }
 
@@ -89,9 +91,34 @@ ProjectRequest request_of(const SegmentArguments& a) {
         if (a.beam) request.search->beam = static_cast<std::size_t>(*a.beam);
     }
     request.plan = a.plan;
+    if (a.weights) request.weights = weights_from(*a.weights);
     request.piece = a.piece;
     request.top = a.top.value_or(request.top);
+    request.write_pieces = a.write_pieces;
     return request;
+}
+
+ImportOptions import_options_of(const RepairArguments& a) {
+    if ((a.groove_width || a.groove_depth) && !a.smooth_pen_grooves) {
+        throw InputError(InputFault::use, "--groove-width and --groove-depth limit what --smooth-pen-grooves looks for",
+                         "pass --smooth-pen-grooves too");
+    }
+    ImportOptions options;
+    if (a.units) options.mm_per_unit = mm_per(unit_named(*a.units));
+    options.scale = a.scale.value_or(1);
+    options.may_lack_unit = !a.weld_mm && !a.smooth_pen_grooves && !a.alpha_wrap_mm;  // no option has a length in mm
+    RepairChoices choices = repair_choices(a);
+    choices.resolve_self_intersections = !a.keep_self_intersections;
+    RepairOptions& repair = options.repair;
+    repair = options_of(choices);
+    repair.pen_grooves.most_width = a.groove_width.value_or(repair.pen_grooves.most_width);
+    repair.pen_grooves.most_depth = a.groove_depth.value_or(repair.pen_grooves.most_depth);
+    for (const auto& [name, step] : skippable_steps) {
+        repair.*step = std::find(a.skipped.begin(), a.skipped.end(), name) == a.skipped.end();
+    }
+    repair.drop_fragments = a.fragments && *a.fragments == "drop";
+    repair.measure_deviation = true;
+    return options;
 }
 
 }  // namespace qchopper

@@ -1,10 +1,10 @@
-// What was typed for a project, as the values that app/project takes.
+// Translates checked arguments into the values that app/project takes.
+//
+// Precondition: parse_arguments() has checked the values.
 
 #pragma once
 
-#include <filesystem>
 #include <optional>
-#include <string>
 
 #include "app/cli/arguments.h"
 #include "app/project/decide.h"
@@ -12,20 +12,15 @@
 
 namespace qchopper {
 
-// The stop rules that were given; they replace all that stood before. Nothing was given: nothing.
+// The stop rules that are given, which replace all earlier ones; nothing if none is given.
 std::optional<StopRules> given_rules(const ProjectArguments& arguments);
 
-// Whether anything is said about how the scan becomes a solid.
-bool is_any_given(const RepairChoiceArguments& arguments);
-RepairChoices repair_choices(const RepairChoiceArguments& arguments);
+// Of a new project, without a plan.
+ProjectChoices choices_of(const ProjectArguments& arguments);
 
-// Throws InputError (use) if neither the arguments nor the scan say what one unit of it is.
-void check_unit(const std::filesystem::path& scan, const ProjectArguments& arguments);
-
-// Of a new project.
-ProjectChoices choices_of(const std::filesystem::path& scan, const ProjectArguments& arguments);
-
-// The one thing that is asked of a project, without a change of its weights.
 ProjectRequest request_of(const SegmentArguments& arguments);
+
+// Throws InputError (use) for limits of pen grooves that are not looked for.
+ImportOptions import_options_of(const RepairArguments& arguments);
 
 }  // namespace qchopper

@@ -1,3 +1,5 @@
+// On the option parser CLI11; options that several commands have are added by one function.
+
 #include "app/cli/project_options.h"
 
 #include <CLI/CLI.hpp>
@@ -26,16 +28,20 @@ void add_repair_choices(CLI::App* c, RepairChoiceArguments& a) {
                   "close holes flat, fair (refined, bent like the surface around), auto (small ones flat, large ones "
                   "fair) or none (auto)")
         ->check(one_of({"auto", "flat", "fair", "none"}));
-    c->add_flag("--smooth-marks", a.smooth_marks, "lift the shallow lines that a marker pen leaves in a laser scan");
-    c->add_option("--wrap", a.wrap_mm,
+    c->add_flag("--smooth-pen-grooves", a.smooth_pen_grooves,
+                "lift the shallow grooves that a marker pen leaves in a laser scan");
+    c->add_flag("--smooth-marks", a.smooth_pen_grooves)->group("");
+    const OptionCheck is_length = number_between(0, many, "a length in mm");
+    c->add_option("--alpha-wrap", a.alpha_wrap_mm,
                   "last resort: wrap the scan with a ball of so many mm, which keeps no point of it (off)")
-        ->check(number_between(0, many, "a length in mm"));
+        ->check(is_length);
+    c->add_option("--wrap", a.alpha_wrap_mm)->check(is_length)->group("");
 }
 
 void add_project_options(CLI::App* c, ProjectArguments& a) {
     add_repair_choices(c, a);
     c->add_flag("--resolve-self-intersections", a.resolve_self_intersections,
-                "mend places where the scan runs through itself; the cut copes with them");
+                "repair places where the scan runs through itself; cutting does not need that");
     c->add_option("--units", a.units, "what one unit of the scan is: mm, cm, m, in")
         ->check(one_of({"mm", "cm", "m", "in"}));
     add_scale(c, a.scale);
@@ -47,9 +53,7 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
     c->add_option("--max-faces", a.max_faces, "stop rule: every piece has fewer than N faces")
         ->check(number_between(1, many, "a count of faces"));
     c->add_option("--max-obb", a.max_obb, "stop rule: every piece fits in a box of X,Y,Z mm, in some orientation")
-        ->check([](const std::string& text) {
-            return lengths_from(text) ? std::string() : "\"" + text + "\" is not X,Y,Z in mm";
-        });
+        ->check(read_by(lengths_from, "not X,Y,Z in mm"));
     c->add_flag("--fits-cell", a.fits_cell, "stop rule: every piece fits the cell (the default if no other is set)");
     c->add_option("--stop", a.stop, "stop when any or all of the rules hold (all)")->check(one_of({"any", "all"}));
     c->add_option("--fragility", a.fragility, "form of that objective: thinness or thesis (thinness)")
@@ -60,12 +64,8 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
         ->check(number_between(0, many, "a volume in mm3"));
     c->add_option("--weights", a.weights,
                   "of the four terms: face_ratio=10,fragility=5,piece_count=50,undercut=10 (any of them)")
-        ->check([](const std::string& text) {
-            return weights_from(text) ? std::string()
-                                      : "\"" + text +
-                                            "\" is not like face_ratio=10,fragility=5,piece_count=50,"
-                                            "undercut=10, nor four numbers";
-        });
+        ->check(
+            read_by(weights_from, "not like face_ratio=10,fragility=5,piece_count=50,undercut=10, nor four numbers"));
     c->add_option("--beam", a.beam, "how many segmentations the search keeps (1: greedy)")
         ->check(number_between(1, 1000, "a count from 1 to 1000"));
     c->add_option("--time-limit", a.time_limit_s, "stop after so many seconds, with the decision being made")
@@ -74,13 +74,14 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
 
 }  // namespace
 
-void add_common(CLI::App* command, Arguments& arguments) {
+void add_common(CLI::App* command, Arguments& arguments, const std::function<void()>& on_parsed) {
     command->add_flag("--json", arguments.json, "exactly one JSON document on stdout");
     command->add_flag("-q,--quiet", arguments.quiet, "no progress, only warnings and errors on stderr");
+    command->callback(on_parsed);
 }
 
 void add_repair(CLI::App& app, RepairArguments& repair, Arguments& common) {
-    CLI::App* c = app.add_subcommand("repair", "make a closed solid of a scan and say what that took");
+    CLI::App* c = app.add_subcommand("repair", "make a closed solid of a scan and report what was done");
     c->add_option("SCAN", repair.scan, std::string(scan_formats) + "; - is standard input")->required();
     c->add_option("-o,--out", repair.out, "the file to write: .ply, which keeps every bit, or .stl")->required();
     c->add_option("--units", repair.units, "what one unit of the file is: mm, cm, m, in")
@@ -90,25 +91,27 @@ void add_repair(CLI::App& app, RepairArguments& repair, Arguments& common) {
     add_fragments(c, repair.fragments);
     c->add_flag("--keep-self-intersections", repair.keep_self_intersections,
                 "leave places where the scan runs through itself");
-    c->add_option("--mark-width", repair.mark_width, "with --smooth-marks: the widest line, in mm (6)")
+    c->add_option("--groove-width", repair.groove_width, "with --smooth-pen-grooves: the widest, in mm (6)")
         ->check(CLI::PositiveNumber);
-    c->add_option("--mark-depth", repair.mark_depth, "with --smooth-marks: the deepest, in mm (1)")
+    c->add_option("--groove-depth", repair.groove_depth, "with --smooth-pen-grooves: the deepest, in mm (1)")
         ->check(CLI::PositiveNumber);
+    c->add_option("--mark-width", repair.groove_width)->check(CLI::PositiveNumber)->group("");
+    c->add_option("--mark-depth", repair.groove_depth)->check(CLI::PositiveNumber)->group("");
     c->add_option("--skip", repair.skipped, "leave steps out: faces, split, orient, stitch, degenerate, outwards")
         ->delimiter(',')
         ->transform([](const std::string& step) { return step == "no_area" ? "degenerate" : step; })
         ->check(one_of({"faces", "split", "orient", "stitch", "degenerate", "outwards"}));
-    add_common(c, common);
+    add_common(c, common, [&] { common.command = repair; });
 }
 
 void add_prepare(CLI::App& app, PrepareArguments& prepare, Arguments& common) {
-    CLI::App* c = app.add_subcommand("prepare", "the whole way: from a scan to job files");
+    CLI::App* c = app.add_subcommand("prepare", "make pieces and job files of a scan");
     c->add_option("SCAN", prepare.input,
                   std::string(scan_formats) + "; or the folder NAME.qch of a project to go on with")
         ->required();
     add_project_options(c, prepare);
     c->add_option("-o,--out", prepare.out, "the project folder to make: NAME.qch");
-    add_common(c, common);
+    add_common(c, common, [&] { common.command = prepare; });
 }
 
 void add_segment(CLI::App& app, SegmentArguments& segment, Arguments& common) {
@@ -122,18 +125,12 @@ void add_segment(CLI::App& app, SegmentArguments& segment, Arguments& common) {
         ->check(number_between(1, 1e6, "a count of planes"));
     c->add_option("--accept", segment.accept, "cut by the K-th plane of that ranking")
         ->check(number_between(1, 1e6, "a place in the ranking"));
-    const OptionCheck plane = [](const std::string& text) {
-        return plane_from(text) ? std::string() : "\"" + text + "\" is not nx,ny,nz,d";
-    };
     c->add_option("--plane", segment.plane,
                   "cut by nx,ny,nz,d: a direction of any length, and the distance along it in mm, as --step shows")
-        ->check(plane);
+        ->check(read_by(plane_from, "not nx,ny,nz,d"));
     c->add_option("--preview", segment.preview, "what K or nx,ny,nz,d would make; cuts nothing")
-        ->check([](const std::string& text) {
-            return plane_from(text) || place_from(text)
-                       ? std::string()
-                       : "\"" + text + "\" is neither a place in the ranking nor nx,ny,nz,d";
-        });
+        ->check(read_by([](const std::string& text) { return plane_from(text) || place_from(text); },
+                        "neither a place in the ranking nor nx,ny,nz,d"));
     c->add_option("--piece", segment.piece, "the piece to be cut next (the one that the rules choose)");
     c->add_option("--discard", segment.discard, "leave a piece out for good: head rest, debris, table; undone alike");
     c->add_flag("--write-pieces", segment.write_pieces, "write the pieces of the project folder after each decision");
@@ -144,7 +141,7 @@ void add_segment(CLI::App& app, SegmentArguments& segment, Arguments& common) {
     c->add_option("--plan", segment.plan, "write the cuts as a plan (docs/plan-file.md)");
     c->add_option("--replay", segment.replayed, "make the cuts of a plan on this scan");
     c->add_option("-o,--out", segment.out, "the project folder to make: NAME.qch");
-    add_common(c, common);
+    add_common(c, common, [&] { common.command = segment; });
 }
 
 }  // namespace qchopper

@@ -1,6 +1,9 @@
+// Parses the command line, runs the command, and turns every exception into one line and an exit code.
+
 #include "app/cli/run.h"
 
 #include <algorithm>
+#include <iterator>
 #include <new>
 #include <optional>
 #include <string_view>
@@ -9,58 +12,62 @@
 #include "app/cli/exit_code.h"
 #include "app/cli/parse_arguments.h"
 #include "app/report/notices.h"
+#include "devices/device_error.h"
 
 namespace qchopper {
 namespace {
 
-// Ends a sentence that may have its mark already.
+// The text with a full stop, unless it ends in a mark.
 std::string sentence(const std::string& text) {
     return text.empty() || std::string_view(".?!").find(text.back()) == std::string_view::npos ? text + "." : text;
 }
 
-// What helps where the fault was seen too deep down to know.
-const char* general_remedy(InputFault fault) {
-    constexpr const char* remedies[] = {
-        "see qchopper --help",
-        "see what is wrong with it by: qchopper inspect SCAN",
-        "check the name and the rights",
-        "choose another place",
-        "check the disk, then run the command again",
-        "wait until it is done, then run the command again",
-        "correct that file; docs/cell-file.md explains the keys of a cell"};  // in the order of InputFault
-    return remedies[static_cast<std::size_t>(fault)];
-}
+struct FaultRow {
+    ExitCode code;
+    const char* remedy;  // of an error that carries none of its own
+};
+constexpr FaultRow fault_rows[] = {
+    // in the order of InputFault
+    {exit_use, "see qchopper --help"},
+    {exit_mesh, "see what is wrong with it by: qchopper inspect SCAN"},
+    {exit_missing, "check the name and the rights"},
+    {exit_create, "choose another place"},
+    {exit_io, "check the disk, then run the command again"},
+    {exit_busy, "wait until it is done, then run the command again"},
+    {exit_config, "correct that file; docs/cell-file.md explains the keys of a cell"}};
+static_assert(static_cast<std::size_t>(InputFault::config) + 1 == std::size(fault_rows));
+constexpr ExitCode device_codes[] = {exit_unreachable, exit_protocol, exit_busy, exit_demand_broken};  // of DeviceFault
+static_assert(static_cast<std::size_t>(DeviceFault::refused) + 1 == std::size(device_codes));
 
 // One line: what failed and why; what is unchanged; what to do.
 int report(Terminal& terminal, const std::string& what, const std::string& to_do, int code) {
     std::string line = "qchopper: " + sentence(what) + " " + terminal.unchanged;
     if (!to_do.empty()) line += " To do: " + sentence(to_do);
     for (char& c : line) {
-        if (c == '\n' || c == '\r') c = ' ';  // a name out of a file may hold anything
+        if (c == '\n' || c == '\r') c = ' ';  // names from files may contain line breaks
     }
     terminal.error(line);
-    if (terminal.is_json()) {
-        terminal.json(error_document(what, terminal.unchanged, to_do, code));
-    }
+    terminal.json(error_document(what, terminal.unchanged, to_do, code));
     return code;
 }
 
 }  // namespace
 
 int run_program(int argc, const char* const* argv) {
-    // Known before the rest is understood, so that an error in the options comes as a document too.
+    // Found before the options are parsed, so that an error in them is reported as a document too.
     const bool is_json = std::any_of(argv, argv + argc, [](const char* a) { return std::string_view(a) == "--json"; });
     Terminal terminal(is_json);
     catch_signals();
     try {
         const std::optional<Arguments> arguments = parse_arguments(argc, argv);
         if (!arguments) return exit_done;  // help or version was asked for
-        if (arguments->quiet) terminal.be_quiet();
+        if (arguments->quiet) terminal.set_quiet();
         return std::visit([&](const auto& command) { return run(command, terminal); }, arguments->command);
     } catch (const InputError& e) {
-        return report(terminal, e.what(), e.to_do.empty() ? general_remedy(e.fault) : e.to_do, exit_code(e.fault));
+        const FaultRow& row = fault_rows[static_cast<std::size_t>(e.fault)];
+        return report(terminal, e.what(), e.to_do.empty() ? row.remedy : e.to_do, row.code);
     } catch (const DeviceError& e) {
-        return report(terminal, e.what(), e.to_do, exit_code(e.fault));
+        return report(terminal, e.what(), e.to_do, device_codes[static_cast<std::size_t>(e.fault)]);
     } catch (const Cancelled&) {
         return report(terminal, "stopped on request", "", Terminal::cancel_code());
     } catch (const std::bad_alloc&) {

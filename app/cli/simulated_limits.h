@@ -1,4 +1,4 @@
-// What a simulated cell can, taken from a cell file.
+// Limits of a simulated cell from a cell file: id, reach, stock and tool. Lengths in mm.
 
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace qchopper {
 
-// The reach counts from the base frame of the programs: the middle of the table's top.
+// The reach is in the base frame of the programs, whose origin is the middle of the table's top. O(blocks).
 inline CellLimits simulated_limits(const Cell& cell) {
     CellLimits limits;
     limits.cell_id = cell.id;
@@ -15,7 +15,8 @@ inline CellLimits simulated_limits(const Cell& cell) {
     limits.reach = {cell.reach.min - base, cell.reach.max - base};
     limits.max_stock = {};
     for (const Stock& stock : cell.stock) {
-        const double wide = stock.size.x > stock.size.y ? stock.size.x : stock.size.y;  // it may stand turned
+        const double wide =
+            stock.size.x > stock.size.y ? stock.size.x : stock.size.y;  // it may be turned by 90 degrees about z
         for (int axis = 0; axis < 3; ++axis) {
             const double size = axis == 2 ? stock.size.z : wide;
             if (size > limits.max_stock[axis]) limits.max_stock[axis] = size;

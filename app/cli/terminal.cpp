@@ -1,10 +1,13 @@
+// The signal handler sets atomics; the context's flag is one of them, so that long work polls it. Progress is drawn at
+// most ten times a second.
+
 #include "app/cli/terminal.h"
 
 #include <signal.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include <atomic>
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
@@ -48,7 +51,7 @@ void catch_signals() {
 
 Terminal::Terminal(bool json) : json_(json), shows_progress_(is_plain_terminal()) {}
 
-void Terminal::be_quiet() {
+void Terminal::set_quiet() {
     quiet_ = true;
     shows_progress_ = false;
 }
@@ -66,15 +69,12 @@ void Terminal::clear_line() {
     has_line_ = false;
 }
 
-void Terminal::say(const std::string& line) {
-    if (quiet_) return;
-    clear_line();
-    std::cerr << line << std::endl;
+void Terminal::message(const std::string& line) {
+    if (!quiet_) error(line);
 }
 
 void Terminal::warn(const std::string& line) {
-    clear_line();
-    std::cerr << "warning: " << line << std::endl;
+    error("warning: " + line);
 }
 
 void Terminal::warn(const std::vector<std::string>& lines) {
@@ -86,14 +86,10 @@ void Terminal::error(const std::string& line) {
     std::cerr << line << std::endl;
 }
 
-void Terminal::show(const std::string& text) {
-    if (json_) return;
+void Terminal::show(const std::vector<std::string>& lines, const std::string& document) {
+    if (json_) return json(document);
     clear_line();
-    std::cout << text << std::endl;
-}
-
-void Terminal::show(const std::vector<std::string>& lines) {
-    for (const std::string& line : lines) show(line);
+    for (const std::string& line : lines) std::cout << line << std::endl;
 }
 
 void Terminal::json(const std::string& document) {
@@ -123,11 +119,13 @@ void Terminal::progress(const Progress& progress) {
     if (is_last) clear_line();
 }
 
-Context Terminal::context() {
-    Context context;
+ProjectContext Terminal::context() {
+    ProjectContext context;
     context.cancelled = &cancelled;
     context.on_progress = [this](const Progress& p) { progress(p); };
-    context.on_message = [this](const std::string& line) { say(line); };
+    context.on_message = [this](const std::string& line) { message(line); };
+    context.on_warning = [this](const std::string& line) { warn(line); };
+    context.on_saved = [this](const std::string& sentence) { unchanged = sentence; };
     return context;
 }
 

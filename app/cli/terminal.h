@@ -1,43 +1,44 @@
-// How the program speaks: results on stdout, words on stderr, progress with counts on a terminal only.
+// Output of the program: results on stdout, messages on stderr, progress with counts on a terminal only.
+//
+// Not for several threads at once.
 
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <string>
 #include <vector>
 
-#include "base/context.h"
+#include "app/project/project_context.h"
 
 namespace qchopper {
 
 class Terminal {
  public:
+    // With `json`, stdout holds exactly one JSON document.
     explicit Terminal(bool json);
     Terminal(const Terminal&) = delete;
     Terminal& operator=(const Terminal&) = delete;
 
-    // A line for the operator, on stderr. Plain ones are left out when quiet.
-    void say(const std::string& line);
+    // A line for the operator, on stderr. Messages are left out when quiet, warnings and errors never.
+    void message(const std::string& line);
     void warn(const std::string& line);
     void warn(const std::vector<std::string>& lines);
     void error(const std::string& line);
-    // A result for the operator, on stdout; left out with --json.
-    void show(const std::string& text);
-    void show(const std::vector<std::string>& lines);
+    // The result of a command, on stdout: the document with --json, else the lines.
+    void show(const std::vector<std::string>& lines, const std::string& document);
     // The one JSON document, on stdout; left out without --json.
     void json(const std::string& document);
 
-    bool is_json() const { return json_; }
-    void be_quiet();
+    void set_quiet();
 
-    // For errors: what is unchanged. Commands set it as soon as there is something to keep.
+    // One sentence for the message of an error: what is unchanged or kept on disk.
     std::string unchanged = "Nothing was written.";
 
-    // Progress goes to the terminal's last line; cancelled by Ctrl-C and SIGTERM.
-    Context context();
+    // Shows progress in the terminal's last line, messages and warnings as above, and stores what is saved in
+    // `unchanged`. Cancelled by Ctrl-C and SIGTERM. Valid while this object lives.
+    ProjectContext context();
     static bool is_cancelled();
-    // The exit code for the signal that came: 130 or 143.
+    // The exit code for the last signal: 130, or 143 for SIGTERM.
     static int cancel_code();
 
  private:
@@ -53,7 +54,8 @@ class Terminal {
     std::chrono::steady_clock::time_point drawn_;
 };
 
-// Ctrl-C and SIGTERM ask long work to stop; a second Ctrl-C within 2 s ends at once.
+// From now on Ctrl-C and SIGTERM cancel long work, a second Ctrl-C within 2 s ends the program at once, and SIGPIPE is
+// ignored.
 void catch_signals();
 
 }  // namespace qchopper

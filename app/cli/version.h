@@ -1,4 +1,4 @@
-// The version of the program, as CMakeLists.txt has it.
+// The version of the program, set in CMakeLists.txt. Only for sources of qchopper_cli.
 
 #pragma once
 

@@ -1,9 +1,13 @@
+// Each request is a few calls of OpenProject; the cost is that of ranking a piece (segment/search) or of the search.
+
 #include "app/project/decide.h"
 
 #include <array>
 #include <cstdio>
 
-#include "app/project/replay_plan.h"
+#include "app/project/plan.h"
+#include "app/project/project_lines.h"
+#include "app/project/replay.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
@@ -15,25 +19,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Deciding {
+class RequestHandler {
  public:
-    Deciding(OpenProject& project, const ProjectRequest& request, const Context& context, SegmentAnswer answer)
-        : project_(project),
-          request_(request),
-          fits_cell_(project.fits_cell()),
-          context_(context),
-          answer_(std::move(answer)) {}
+    RequestHandler(OpenProject& project, const ProjectRequest& request, const ProjectContext& context)
+        : project_(project), request_(request), fits_cell_(project.fits_cell()), context_(context) {}
 
-    SegmentAnswer answer(const SearchListener& listener) {
+    SegmentAnswer answer() {
+        if (request_.weights) change_weights();
         if (request_.discard) discard_piece();
-        if (request_.undo || request_.redo) go_back_or_forth();
+        if (request_.undo || request_.redo) undo_or_redo();
         if (request_.reset) reset();
         if (request_.propose) answer_.proposal = propose();
         if (request_.accept) accept();
         if (request_.plane) cut_by_plane();
         if (request_.preview) preview();
         if (request_.plan) write_plan();
-        if (request_.search) search(*request_.search, listener);
+        if (request_.search) search(*request_.search);
         return std::move(answer_);
     }
 
@@ -43,10 +44,19 @@ class Deciding {
         answer_.is_demand_met = false;
     }
 
-    void go_back_or_forth() {
+    void change_weights() {
+        if (!project_.decide_weights(request_.weights->over(project_.project().settings.objectives.weights))) {
+            answer_.notes.emplace_back("These weights are in force already.");
+            return;
+        }
+        answer_.done = "The weights are changed.";
+        context_.saved("The weights are changed; the cuts are unchanged.");
+    }
+
+    void undo_or_redo() {
         const std::optional<Decision> decision = request_.undo ? project_.undo() : project_.redo();
         if (!decision) return refuse(request_.undo ? "There is nothing to undo." : "There is nothing to redo.");
-        answer_.done = (request_.undo ? "Undo " : "Redo ") + words(*decision) + ": done.";
+        answer_.done = (request_.undo ? "Undo " : "Redo ") + describe(*decision) + ": done.";
     }
 
     void reset() {
@@ -55,7 +65,7 @@ class Deciding {
     }
 
     void discard_piece() {
-        const std::size_t p = piece_named(*request_.discard);
+        const std::size_t p = index_of(*request_.discard);
         const std::string name = project_.segmentation().pieces[p].name;
         if (!project_.decide_discard(name)) {
             return refuse("Piece " + name + " is the only one, nothing would be left. Nothing was discarded.");
@@ -64,15 +74,15 @@ class Deciding {
         answer_.done = "Piece " + name + " is discarded; --undo brings it again.";
     }
 
-    std::size_t piece_named(const std::string& name) {
-        if (const auto named = project_.piece_named(name)) return *named;
+    std::size_t index_of(const std::string& name) {
+        if (const auto named = piece_named(project_.segmentation(), name)) return *named;
         std::string names;
         for (const Piece& p : project_.segmentation().pieces) names += (names.empty() ? "" : ", ") + p.name;
         throw InputError(InputFault::use, "there is no piece " + name + " now", "the pieces are " + names);
     }
 
     std::size_t piece() {
-        if (request_.piece) return piece_named(*request_.piece);
+        if (request_.piece) return index_of(*request_.piece);
         const OpenProject::Next next = project_.next(fits_cell_);
         if (!next.piece) {
             throw InputError(InputFault::mesh, "the scan holds nothing but fragments",
@@ -116,11 +126,11 @@ class Deciding {
         const std::size_t p = piece();
         const Plane plane = *request_.plane;
         const std::optional<Ranked> own = project_.own_plane(p, plane, context_);
-        if (!own) return tell_why_not(p, plane);
+        if (!own) return refuse_plane(p, plane);
         cut(p, {*own}, 0);
     }
 
-    void tell_why_not(std::size_t p, const Plane& plane) {
+    void refuse_plane(std::size_t p, const Plane& plane) {
         const Piece& target = project_.segmentation().pieces[p];
         const Extent range = extent(*target.mesh, plane.normal);
         const double limit = project_.project().settings.objectives.fragment_volume_mm3;
@@ -156,12 +166,12 @@ class Deciding {
         } else {
             const Plane plane = std::get<Plane>(*request_.preview);
             const auto own = project_.own_plane(p, plane, context_);
-            if (!own) return tell_why_not(p, plane);
+            if (!own) return refuse_plane(p, plane);
             preview.plane = *own;
         }
         const Ranked& r = preview.plane;
-        const Candidate candidate{r.plane, r.wanted_offset, r.normal, r.offset};
-        preview.solids = project_.book().evaluation_of(target, candidate, context_)->solids;
+        const Candidate candidate{r.plane, r.wanted_offset, r.normal_index, r.offset_index};
+        preview.solids = project_.cache().evaluation_of(target, candidate, context_)->solids;
         preview.outline = outline(*target.mesh, r.plane);
         preview.sections_cross = crossing_regions(*target.mesh, r.plane) > 0;
         answer_.preview = std::move(preview);
@@ -172,7 +182,7 @@ class Deciding {
         if (fs::exists(*request_.plan, error)) {
             const Bytes old =
                 fs::is_regular_file(*request_.plan, error) ? read_file(*request_.plan, record_limit) : Bytes{};
-            if (!looks_like_a_plan({reinterpret_cast<const char*>(old.data()), old.size()})) {
+            if (!has_plan_header({reinterpret_cast<const char*>(old.data()), old.size()})) {
                 throw InputError(InputFault::create, request_.plan->string() + " exists already and is no plan",
                                  "choose another name");
             }
@@ -190,18 +200,22 @@ class Deciding {
                              "pass --min-cuts N, --max-faces N or --max-obb X,Y,Z");
         }
         if (rules.fits_cell && !fits_cell_) {
-            throw InputError(InputFault::use, "the project knows no cell, so fits-cell cannot be a stop rule",
+            throw InputError(InputFault::use, "the project has no cell, so fits-cell cannot be a stop rule",
                              "name the cell: --cell FILE");
         }
         return rules;
     }
 
-    void search(const SearchRequest& request, const SearchListener& listener) {
+    void search(const SearchRequest& request) {
         project_.set_search(rules_of(request), request.beam.value_or(project_.project().settings.beam));
-        if (listener.on_kept) listener.on_kept(project_.project().cuts.size());
+        const bool is_beam = project_.project().settings.beam > 1;
+        const auto report_kept = [&](std::size_t cuts) {
+            context_.saved(kept_cuts(cuts, project_.folder(), is_beam) + "; go on by --auto.");
+        };
+        report_kept(project_.project().cuts.size());
         const auto on_round = [&](const Segmentation& best) {
-            if (listener.on_kept) listener.on_kept(best.cuts.size());
-            if (listener.on_round) listener.on_round(best);
+            report_kept(best.cuts.size());
+            context_.message((is_beam ? "best so far: " : "") + cut_line(best.cuts.back()));
         };
         const SearchEnd end = project_.search(fits_cell_, on_round, context_, request.time_limit_s);
         answer_.warnings = project_.segmentation().warnings;
@@ -213,57 +227,17 @@ class Deciding {
     OpenProject& project_;
     const ProjectRequest& request_;
     const FitsCell fits_cell_;
-    const Context& context_;
+    const ProjectContext& context_;
     SegmentAnswer answer_;
     bool rules_hold_ = false;
 };
 
 }  // namespace
 
-SegmentAnswer change_weights(OpenProject& project, const Weights& weights) {
-    SegmentAnswer answer;
-    if (project.decide_weights(weights)) {
-        answer.done = "The weights are changed.";
-    } else {
-        answer.notes.emplace_back("These weights stand already.");
-    }
-    return answer;
-}
-
-SegmentAnswer decide(OpenProject& project, const ProjectRequest& request, const SearchListener& listener,
-                     const Context& context, SegmentAnswer answer) {
-    return Deciding(project, request, context, std::move(answer)).answer(listener);
-}
-
-SegmentAnswer make_cuts_of(const Plan& plan, OpenProject& project,
-                           const std::function<void(const Segmentation&)>& on_decision, const Context& context) {
-    Segmentation segmentation = project.segmentation();
-    const auto keep = [&](const Segmentation& s) {
-        project.adopt(s);
-        on_decision(s);
-    };
-    const Project& p = project.project();
-    const PlanReplay replay = replay_plan(plan, p.scan, segmentation, p.settings, project.book(), keep, context);
-    SegmentAnswer answer;
-    answer.notes = replay.notes;
-    const std::string until = std::to_string(segmentation.cuts.size()) + " of " + std::to_string(plan.cuts.size());
-    const std::string left_out =
-        std::to_string(segmentation.discarded.size()) + " of " + std::to_string(plan.discards.size());
-    answer.done = until + " cuts of the plan are made" +
-                  (plan.discards.empty() ? "" : ", " + left_out + " pieces of it discarded") +
-                  "; the volumes of the pieces differ by at most " + significant(100 * replay.largest_volume_off, 3) +
-                  " %.";
-    if (!replay.applies) {
-        answer.is_demand_met = false;
-        answer.notes.push_back("The plan does not apply: " + replay.why + ". " +
-                               kept_cuts(segmentation.cuts.size(), project.folder()) + ".");
-    }
-    return answer;
-}
-
-std::string kept_cuts(std::size_t cuts, const fs::path& folder, bool is_beam) {
-    return "The " + std::to_string(cuts) + " cuts " + (is_beam ? "of the best segmentation so far" : "made so far") +
-           " are kept in " + folder.string();
+SegmentAnswer decide(OpenProject& project, const ProjectRequest& request, const ProjectContext& context) {
+    project.setups();  // a cell file that is wrong is refused before anything is decided
+    if (request.write_pieces) project.keep_pieces_written();
+    return RequestHandler(project, request, context).answer();
 }
 
 }  // namespace qchopper

@@ -1,10 +1,11 @@
-// What an operator asks of a project, and the answer: a command line and a page in a browser ask alike.
+// What an operator asks of a project, as a value, and the answer.
+//
+// Lengths in mm about the scan's centre. Decisions are saved before decide() returns (open_project.h).
 
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -12,11 +13,11 @@
 
 #include "app/project/open_project.h"
 #include "app/project/outline.h"
-#include "app/project/plan.h"
+#include "app/project/project_context.h"
 
 namespace qchopper {
 
-// How a search is to go on; what is not given stays as the project has it.
+// How a search goes on; what is not given stays as the project has it.
 struct SearchRequest {
     std::optional<StopRules> rules;
     std::optional<Stop> combine;
@@ -24,9 +25,9 @@ struct SearchRequest {
     std::optional<double> time_limit_s;
 };
 
-// One of these, or none to see how the project stands.
+// One decision or question, or none to see the state of the project.
 struct ProjectRequest {
-    bool propose = false;
+    bool propose = false;                                     // list the best planes
     std::optional<std::size_t> accept;                        // a place in the ranking, from 1
     std::optional<Plane> plane;                               // to cut by
     std::optional<std::variant<std::size_t, Plane>> preview;  // a place in the ranking, or a plane
@@ -36,9 +37,11 @@ struct ProjectRequest {
     bool reset = false;
     std::optional<SearchRequest> search;
     std::optional<std::filesystem::path> plan;  // to write
-    // How.
-    std::optional<std::string> piece;  // to be cut next; nothing: the one that the rules choose
-    std::size_t top = 10;              // so many planes are proposed
+    // Of any request.
+    std::optional<GivenWeights> weights;  // a decision that is made first
+    std::optional<std::string> piece;     // to be cut next; nothing: the one that the rules choose
+    std::size_t top = 10;                 // so many planes are proposed
+    bool write_pieces = false;            // the pieces, after each decision
 };
 
 // The ranking of one piece.
@@ -64,31 +67,20 @@ struct SegmentAnswer {
     std::string done;                   // the decision as a sentence; empty: none was made
     std::vector<std::string> notes;     // whole lines
     std::vector<std::string> warnings;  // whole lines; the project keeps them too
-    bool is_demand_met = true;          // false: the last note says why
+    bool is_demand_met = true;          // false: the last note states why
     std::optional<Proposal> proposal;
     std::optional<Preview> preview;
     std::optional<std::filesystem::path> plan;  // that was written
+    // The project afterwards (segment_project.h); decide() leaves these as they are.
+    bool is_project_made = true;  // false: a plan does not fit the scan, and nothing is on disk
+    std::filesystem::path folder;
+    Project project;
     bool pieces_written = false;
 };
 
-// What is told of a search while it goes on; each may be empty.
-struct SearchListener {
-    std::function<void(std::size_t)> on_kept;           // so many cuts are saved: at its start and after every round
-    std::function<void(const Segmentation&)> on_round;  // the best so far
-};
-
-SegmentAnswer change_weights(OpenProject& project, const Weights& weights);
-
-// Does what is asked, and adds to an answer. Throws InputError (use) for what this project does not have: a piece of
-// that name, a place in the ranking, a stop rule to go on to.
-SegmentAnswer decide(OpenProject& project, const ProjectRequest& request, const SearchListener& listener,
-                     const Context& context, SegmentAnswer answer = {});
-
-// Makes the cuts of a plan on a project that has none, until one does not apply. `on_decision`: replay_plan.h.
-SegmentAnswer make_cuts_of(const Plan& plan, OpenProject& project,
-                           const std::function<void(const Segmentation&)>& on_decision, const Context& context);
-
-// "The 3 cuts made so far are kept in NAME.qch", without an end.
-std::string kept_cuts(std::size_t cuts, const std::filesystem::path& folder, bool is_beam = false);
+// Does what is asked. Precondition: the caller holds the lock of the project. Throws InputError: (use) for what this
+// project does not have: a piece of that name, a place in the ranking, a stop rule; (config) for a wrong cell file,
+// before anything is decided; (create) for a plan in place of another file.
+SegmentAnswer decide(OpenProject& project, const ProjectRequest& request, const ProjectContext& context);
 
 }  // namespace qchopper

@@ -1,3 +1,5 @@
+// A history is one list; everything in force is derived by going through it from the start.
+
 #include "app/project/decisions.h"
 
 #include <algorithm>
@@ -8,7 +10,12 @@
 
 namespace qchopper {
 
-std::string words(const Decision& decision) {
+Weights GivenWeights::over(const Weights& weights) const {
+    return {face_ratio.value_or(weights.face_ratio), fragility.value_or(weights.fragility),
+            piece_count.value_or(weights.piece_count), undercut.value_or(weights.undercut)};
+}
+
+std::string describe(const Decision& decision) {
     if (const Cut* cut = std::get_if<Cut>(&decision)) {
         return "cut " + std::to_string(cut->number) + " on piece " + cut->piece;
     }
@@ -18,11 +25,11 @@ std::string words(const Decision& decision) {
 
 std::string cut_line(const Cut& cut) {
     const Terms& t = cut.chosen.terms;
-    // Another than the best may have been accepted; the best is then among those that were passed over. Of totals that
-    // differ by a tie none is better.
+    // If another than the best was accepted, the best is among the runners-up. Of totals that differ by a tie none is
+    // better.
     const bool is_best = std::all_of(cut.runners_up.begin(), cut.runners_up.end(),
                                      [&](const Ranked& r) { return r.terms.total + tie >= t.total; });
-    const std::string which = cut.chosen.normal < 0
+    const std::string which = cut.chosen.normal_index < 0
                                   ? "given plane"
                                   : (is_best ? "best of " : "one of ") + std::to_string(cut.candidates) + " planes";
     return "cut " + std::to_string(cut.number) + " on piece " + cut.piece + ": " + which + ", total " +
@@ -36,10 +43,10 @@ std::string makes(const Cut& cut) {
     return made + (cut.fragments > 0 ? " and " + std::to_string(cut.fragments) + " fragments" : "");
 }
 
-std::vector<Cut> standing_cuts(const History& history) {
-    assert(history.standing <= history.decisions.size());
+std::vector<Cut> committed_cuts(const History& history) {
+    assert(history.committed <= history.decisions.size());
     std::vector<Cut> cuts;
-    for (std::size_t i = 0; i < history.standing; ++i) {
+    for (std::size_t i = 0; i < history.committed; ++i) {
         const Decision& decision = history.decisions[i];
         if (std::holds_alternative<Reset>(decision)) cuts.clear();
         if (const Cut* cut = std::get_if<Cut>(&decision)) cuts.push_back(*cut);
@@ -47,10 +54,10 @@ std::vector<Cut> standing_cuts(const History& history) {
     return cuts;
 }
 
-std::vector<Discard> standing_discards(const History& history) {
+std::vector<Discard> committed_discards(const History& history) {
     std::vector<Discard> discards;
     std::size_t cuts = 0;
-    for (std::size_t i = 0; i < history.standing; ++i) {
+    for (std::size_t i = 0; i < history.committed; ++i) {
         const Decision& decision = history.decisions[i];
         if (std::holds_alternative<Cut>(decision)) ++cuts;
         if (const auto* discard = std::get_if<Discard>(&decision)) discards.push_back({discard->piece, cuts});
@@ -61,39 +68,39 @@ std::vector<Discard> standing_discards(const History& history) {
     return discards;
 }
 
-Weights standing_weights(const History& history) {
+Weights committed_weights(const History& history) {
     Weights weights = history.weights_at_start;
-    for (std::size_t i = 0; i < history.standing; ++i) {
+    for (std::size_t i = 0; i < history.committed; ++i) {
         if (const auto* change = std::get_if<WeightsChange>(&history.decisions[i])) weights = change->weights;
     }
     return weights;
 }
 
 void decide(History& history, Decision decision) {
-    assert(history.standing <= history.decisions.size());
-    history.decisions.resize(history.standing, Reset{});
+    assert(history.committed <= history.decisions.size());
+    history.decisions.resize(history.committed, Reset{});
     history.decisions.push_back(std::move(decision));
-    ++history.standing;
+    ++history.committed;
 }
 
 const Decision* to_undo(const History& history) {
-    return history.standing > 0 ? &history.decisions[history.standing - 1] : nullptr;
+    return history.committed > 0 ? &history.decisions[history.committed - 1] : nullptr;
 }
 
 const Decision* to_redo(const History& history) {
-    return history.standing < history.decisions.size() ? &history.decisions[history.standing] : nullptr;
+    return history.committed < history.decisions.size() ? &history.decisions[history.committed] : nullptr;
 }
 
 void follow(History& history, const std::vector<Cut>& cuts) {
-    const std::vector<Cut> before = standing_cuts(history);
+    const std::vector<Cut> before = committed_cuts(history);
     std::size_t same = 0;
     while (same < before.size() && same < cuts.size() && before[same] == cuts[same]) ++same;
     for (std::size_t given_up = before.size(); given_up > same; --given_up) {
-        assert(std::holds_alternative<Cut>(history.decisions[history.standing - 1]));
-        --history.standing;
+        assert(std::holds_alternative<Cut>(history.decisions[history.committed - 1]));
+        --history.committed;
     }
     for (std::size_t i = same; i < cuts.size(); ++i) decide(history, cuts[i]);
-    assert(standing_cuts(history) == cuts);
+    assert(committed_cuts(history) == cuts);
 }
 
 }  // namespace qchopper

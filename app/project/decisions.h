@@ -1,8 +1,10 @@
-// What was decided in a project, in order: cuts, discarded pieces, changes of weights, resets. Undo goes back in it,
+// The decisions of a project in order: cuts, discarded pieces, changes of weights, resets. Undo goes back in this list,
 // redo forward.
 //
-// Decisions that were undone are kept until something new is decided. Undo then redo is identity, and what stands
-// depends only on the decisions in force (tests/app/project/decisions_test.cpp).
+// The first `committed` decisions are in force; the others were undone and are kept until something new is decided.
+// Undo then redo is identity, and cuts, discards and weights depend only on the decisions in force
+// (tests/app/project/decisions_test.cpp). All functions are O(decisions). Precondition of all that take a history:
+// committed <= decisions.size().
 
 #pragma once
 
@@ -17,8 +19,17 @@
 namespace qchopper {
 
 struct WeightsChange {
-    Weights weights;  // from now on
+    Weights weights;  // from then on
     bool operator==(const WeightsChange&) const = default;
+};
+
+// Some of the weights; the others keep their values.
+struct GivenWeights {
+    std::optional<double> face_ratio;
+    std::optional<double> fragility;
+    std::optional<double> piece_count;
+    std::optional<double> undercut;
+    Weights over(const Weights& weights) const;
 };
 
 // Takes all cuts and discarded pieces back; the weights stay.
@@ -28,8 +39,8 @@ struct Reset {
 
 // A piece is left out: head rest, debris, table.
 struct Discard {
-    std::string piece;
-    std::size_t after = 0;  // so many cuts stood; follows from its place among the decisions
+    std::string piece;      // its name
+    std::size_t after = 0;  // number of cuts in force before; follows from its place among the decisions
     bool operator==(const Discard&) const = default;
 };
 
@@ -38,12 +49,12 @@ using Decision = std::variant<Cut, WeightsChange, Reset, Discard>;
 struct History {
     Weights weights_at_start;
     std::vector<Decision> decisions;
-    std::size_t standing = 0;  // so many are in force; the rest was undone and can be redone
+    std::size_t committed = 0;  // number of decisions in force; the others were undone and can be redone
     bool operator==(const History&) const = default;
 };
 
 // "cut 3 on piece B", "discard of piece C", "change of weights", "reset".
-std::string words(const Decision& decision);
+std::string describe(const Decision& decision);
 
 // "cut 2 on piece B: best of 120 planes, total 3.929 (...); makes D, E".
 std::string cut_line(const Cut& cut);
@@ -51,19 +62,21 @@ std::string cut_line(const Cut& cut);
 // "D, E and 2 fragments": what a cut made.
 std::string makes(const Cut& cut);
 
-std::vector<Cut> standing_cuts(const History& history);
-std::vector<Discard> standing_discards(const History& history);
-Weights standing_weights(const History& history);
+// Those in force: after the last reset, and the last change of weights.
+std::vector<Cut> committed_cuts(const History& history);
+std::vector<Discard> committed_discards(const History& history);
+Weights committed_weights(const History& history);
 
-// Adds a decision after those in force; those undone are gone.
+// Adds a decision after those in force and removes those that were undone.
 void decide(History& history, Decision decision);
 
-// The decision that undo would take back, and the one that redo would put in force again; nothing if there is none.
+// The decision that undo would take back, and the one that redo would put in force again; nullptr if there is none.
 const Decision* to_undo(const History& history);
 const Decision* to_redo(const History& history);
 
-// Makes the cuts in force end in `cuts`, where a search goes on or turns to another branch: cuts at the end that it
-// made and has given up are dropped, new ones are added.
+// Makes `cuts` the cuts in force, after a search has gone on or changed to another branch: cuts at the end that are not
+// in `cuts` are dropped, new ones are added. Precondition: nothing but cuts was decided after the last cut that both
+// have in common.
 void follow(History& history, const std::vector<Cut>& cuts);
 
 }  // namespace qchopper

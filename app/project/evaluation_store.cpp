@@ -1,5 +1,9 @@
+// A binary file per piece: the fields in the order of the structs, in the byte order of the machine, then a SHA-256.
+// O(triangles) for the name, O(candidates) for the content.
+
 #include "app/project/evaluation_store.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <type_traits>
@@ -13,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// To be raised whenever candidates or evaluations come out differently for the same piece.
+// To be raised whenever candidates or evaluations of the same piece change.
 constexpr std::uint32_t version_of_evaluations = 2;
 
 class Writer {
@@ -46,7 +50,7 @@ class Writer {
     Bytes bytes_;
 };
 
-// Never reads beyond the end; is_whole() tells afterwards.
+// Never reads beyond the end, but returns zeros; is_whole() is then false.
 class Reader {
  public:
     explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -61,7 +65,7 @@ class Reader {
         bytes_ = bytes_.subspan(sizeof value);
         return value;
     }
-    // A count of things that take at least a byte each.
+    // A count of elements of at least one byte each.
     std::size_t count() {
         const auto n = get<std::size_t>();
         if (n <= bytes_.size()) return n;
@@ -119,13 +123,13 @@ Bytes to_bytes(const PieceEvaluations& evaluations) {
         const Candidate& c = evaluations.candidates[i];
         out.put(c.plane);
         out.put(c.wanted_offset);
-        out.put(c.normal);
-        out.put(c.offset);
+        out.put(c.normal_index);
+        out.put(c.offset_index);
         out.put(static_cast<std::uint8_t>(evaluations.evaluations[i].has_value()));
         if (evaluations.evaluations[i]) put(out, *evaluations.evaluations[i]);
     }
     const Sha256 digest = sha256(out.bytes());
-    out.bytes().insert(out.bytes().end(), digest.begin(), digest.end());
+    out.bytes().insert(out.bytes().end(), digest.bytes.begin(), digest.bytes.end());
     return std::move(out.bytes());
 }
 
@@ -133,15 +137,17 @@ std::optional<PieceEvaluations> from_bytes(std::span<const std::uint8_t> bytes) 
     if (bytes.size() < sizeof(Sha256)) return std::nullopt;
     const auto body = bytes.first(bytes.size() - sizeof(Sha256));
     const Sha256 digest = sha256(body);
-    if (std::memcmp(digest.data(), bytes.data() + body.size(), digest.size()) != 0) return std::nullopt;
+    if (!std::equal(digest.bytes.begin(), digest.bytes.end(), bytes.last(sizeof(Sha256)).begin())) {
+        return std::nullopt;
+    }
     Reader in(body);
     PieceEvaluations evaluations;
     evaluations.candidates.resize(in.count());
     for (Candidate& c : evaluations.candidates) {
         for (double* x : {&c.plane.normal.x, &c.plane.normal.y, &c.plane.normal.z, &c.plane.offset, &c.wanted_offset})
             *x = in.get<double>();
-        c.normal = in.get<int>();
-        c.offset = in.get<int>();
+        c.normal_index = in.get<int>();
+        c.offset_index = in.get<int>();
         evaluations.evaluations.emplace_back();
         if (in.get<std::uint8_t>() != 0) evaluations.evaluations.back() = evaluation_from(in);
     }
@@ -155,10 +161,10 @@ std::string name_of_file(const std::string& settings, const Piece& piece) {
     out.put_all(piece.mesh->points);
     out.put_all(piece.mesh->triangles);
     out.put_all(piece.mesh->cap_of);
-    for (const Bound& bound : piece.bounds) {
-        out.put(bound.cut);
-        out.put(bound.plane);
-        out.put(static_cast<std::uint8_t>(bound.above));
+    for (const HalfSpace& half_space : piece.half_spaces) {
+        out.put(half_space.cut);
+        out.put(half_space.plane);
+        out.put(static_cast<std::uint8_t>(half_space.above));
     }
     return to_hex(sha256(out.bytes())) + ".evaluations";
 }

@@ -1,8 +1,8 @@
-// Evaluations kept on disk, so that another program need not evaluate a piece again. Deleting them is always safe.
+// Keeps evaluations on disk, so that a later run does not evaluate a piece again. The files may be deleted at any time.
 //
-// A file is named by a SHA-256 over the piece (points, triangles, caps, bounds) and every setting that a
-// evaluation depends on, and ends in a SHA-256 of itself: a file that does not belong or is not whole is as if it were
-// not there (tests/app/project/evaluation_store_test.cpp).
+// A file is named by a SHA-256 over the piece (points, triangles, caps, half-spaces) and every setting that an
+// evaluation depends on, and ends in a SHA-256 of its content: a file of another piece or a damaged one is ignored
+// (tests/app/project/evaluation_store_test.cpp).
 
 #pragma once
 
@@ -12,7 +12,8 @@
 
 namespace qchopper {
 
-// `folder` is made when needed; if it cannot be written, nothing is kept and nobody is troubled.
+// `folder` is made when needed; if it cannot be written, nothing is kept. Neither function of the store throws
+// InputError.
 EvaluationStore evaluation_store(const std::filesystem::path& folder, const Objectives& objectives,
                                  const CandidateOptions& options);
 

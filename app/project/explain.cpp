@@ -1,3 +1,6 @@
+// Cuts the scan again up to the cut, then ranks (segment/search/rank.h): O(cuts before) times the cost of a cut, and an
+// evaluation of the piece if the cache has none.
+
 #include "app/project/explain.h"
 
 #include <algorithm>
@@ -9,18 +12,13 @@
 namespace qchopper {
 namespace {
 
-// The settings as they stood when a cut that stands was decided: weights may have changed since.
+// The settings with the weights that were in force when the cut was decided.
 SearchSettings settings_at(const Project& project, const Cut& cut) {
+    History history = project.history;
+    // An equal cut may have been taken back by a reset; the last one counts.
+    while (history.committed > 0 && history.decisions[history.committed - 1] != Decision{cut}) --history.committed;
     SearchSettings settings = project.settings;
-    Weights weights = project.history.weights_at_start;
-    for (std::size_t i = 0; i < project.history.standing; ++i) {
-        const Decision& decision = project.history.decisions[i];
-        if (const auto* change = std::get_if<WeightsChange>(&decision)) weights = change->weights;
-        // A cut before a reset may be the same; the last one is meant.
-        if (const auto* made = std::get_if<Cut>(&decision); made != nullptr && *made == cut) {
-            settings.objectives.weights = weights;
-        }
-    }
+    settings.objectives.weights = committed_weights(history);
     return settings;
 }
 
@@ -32,26 +30,26 @@ struct Before {
 
 Before before(const Project& project, const Cut& cut, const TriangleMesh& scan) {
     const auto at = std::find(project.cuts.begin(), project.cuts.end(), cut);
-    Before b{replay(project, scan, static_cast<std::size_t>(at - project.cuts.begin())), 0};
-    const std::vector<Piece>& pieces = b.segmentation.pieces;
-    while (b.piece < pieces.size() && pieces[b.piece].name != cut.piece) ++b.piece;
-    if (b.piece == pieces.size()) {
+    Segmentation segmentation = replay(project, scan, static_cast<std::size_t>(at - project.cuts.begin()));
+    const std::optional<std::size_t> piece = piece_named(segmentation, cut.piece);
+    if (!piece) {
         throw InputError(InputFault::config,
                          "before cut " + std::to_string(cut.number) + " there is no piece " + cut.piece,
                          "restore project.json, or prepare the scan again");
     }
-    return b;
+    return {std::move(segmentation), *piece};
 }
 
 // The candidates along a normal of the operator's own.
-std::vector<Ranked> beside(const Before& b, const Plane& own, const SearchSettings& settings, EvaluationCache& book,
-                           const Context& context) {
+std::vector<Ranked> along_own_normal(const Before& b, const Plane& own, const SearchSettings& settings,
+                                     EvaluationCache& cache, const Context& context) {
     const Piece& piece = b.segmentation.pieces[b.piece];
     PieceEvaluations along{candidates_along(piece, own.normal, -1, settings.candidates.offsets_per_normal), {}};
     along.evaluations = evaluate_all(piece, along.candidates, settings.objectives, context);
-    const auto others = shares_of_others(b.segmentation, b.piece, settings.objectives, book);
+    const auto others = shares_of_others(b.segmentation, b.piece, settings.objectives, cache);
     std::vector<Ranked> planes = rank(along, others, settings.objectives);
-    std::sort(planes.begin(), planes.end(), [](const Ranked& x, const Ranked& y) { return x.offset < y.offset; });
+    std::sort(planes.begin(), planes.end(),
+              [](const Ranked& x, const Ranked& y) { return x.offset_index < y.offset_index; });
     return planes;
 }
 
@@ -59,7 +57,7 @@ std::vector<Ranked> beside(const Before& b, const Plane& own, const SearchSettin
 
 const Cut& cut_to_explain(const Project& project, std::optional<int> number) {
     if (project.cuts.empty()) {
-        throw InputError(InputFault::use, "the project has no cuts yet", "make one, then ask again");
+        throw InputError(InputFault::use, "the project has no cuts yet", "make one, then run explain again");
     }
     if (!number) return project.cuts.back();
     for (const Cut& cut : project.cuts) {
@@ -72,12 +70,12 @@ const Cut& cut_to_explain(const Project& project, std::optional<int> number) {
 Explanation explain(OpenProject& project, const Cut& cut, const Context& context) {
     const SearchSettings settings = settings_at(project.project(), cut);
     const Before b = before(project.project(), cut, project.scan());
-    EvaluationCache& book = project.book();
+    EvaluationCache& cache = project.cache();
     Explanation e;
     e.cut = cut;
     e.objectives = settings.objectives;
     e.chosen = cut.chosen;
-    e.ranked = rank(b.segmentation, b.piece, settings, book, context);
+    e.ranked = rank(b.segmentation, b.piece, settings, cache, context);
     for (std::size_t i = 0; i < e.ranked.size() && !e.place; ++i) {
         if (e.ranked[i].plane == cut.chosen.plane) e.place = i;
     }
@@ -85,10 +83,10 @@ Explanation explain(OpenProject& project, const Cut& cut, const Context& context
         e.chosen = e.ranked[*e.place];
         return e;
     }
-    const Candidate own{cut.chosen.plane, cut.chosen.wanted_offset, cut.chosen.normal, cut.chosen.offset};
-    const std::optional<Ranked> evaluated = rank_plane(b.segmentation, b.piece, own, settings, book, context);
+    const Candidate own{cut.chosen.plane, cut.chosen.wanted_offset, cut.chosen.normal_index, cut.chosen.offset_index};
+    const std::optional<Ranked> evaluated = rank_plane(b.segmentation, b.piece, own, settings, cache, context);
     if (evaluated) e.chosen = *evaluated;
-    e.beside = beside(b, own.plane, settings, book, context);
+    e.along_own_normal = along_own_normal(b, own.plane, settings, cache, context);
     return e;
 }
 

@@ -1,3 +1,6 @@
+// Reads the pieces that the project has written, or cuts the scan again; a folder of files is staged and renamed.
+// O(faces) beside simplification.
+
 #include "app/project/export_pieces.h"
 
 #include <algorithm>
@@ -19,8 +22,7 @@ constexpr double gap_in_row = 20;  // mm
 
 void check_options(const ExportRequest& a) {
     if (a.simplify_mm && a.max_faces) {
-        throw InputError(InputFault::use, "--simplify and --max-faces are two ways to say the same",
-                         "pass one of them");
+        throw InputError(InputFault::use, "--simplify and --max-faces exclude each other", "pass one of them");
     }
 }
 
@@ -28,7 +30,7 @@ bool is_one_file(const ExportRequest& a) {
     return a.piece || holds_many(export_format_named(a.format));
 }
 
-// What is named, or NAME.3mf, NAME-A.stl, NAME-stl beside the project; in the folder that is named if there is one.
+// The path of --out, or NAME.3mf, NAME-A.stl, NAME-stl in that folder if it exists, without --out beside the project.
 fs::path output_of(const ExportRequest& a, const fs::path& project) {
     const std::string name =
         project.stem().string() + (a.piece ? "-" + *a.piece : "") + (is_one_file(a) ? "." : "-") + a.format;
@@ -46,11 +48,11 @@ fs::path output_of(const ExportRequest& a, const fs::path& project) {
     return out;
 }
 
-// The pieces as the project's folder has them; else, while it is being cut, the scan is cut again. So it is, too, for
-// setups, which want to know the planes.
-std::vector<Piece> pieces_of(OpenProject& open, bool with_bounds) {
+// The pieces in the project's folder; while the project is being cut there are none, and the scan is cut again. So it
+// is for setups, which need the half-spaces.
+std::vector<Piece> pieces_of(OpenProject& open, bool with_half_spaces) {
     const Project& project = open.project();
-    if (project.stage == Stage::cutting || with_bounds) return open.segmentation().pieces;
+    if (project.stage == Stage::cutting || with_half_spaces) return open.segmentation().pieces;
     std::vector<Piece> pieces;
     for (const SolidRecord& solid : project.pieces) {
         const fs::path file = open.folder() / "pieces" / (solid.name + ".ply");
@@ -85,7 +87,7 @@ ExportPiece exported(const Piece& piece, std::size_t place, const Project& proje
     return made;
 }
 
-// In setup pose where `setups` is there.
+// In setup pose unless `setups` is nullptr.
 std::vector<ExportedPiece> rows_of(OpenProject& open, const ExportRequest& request, Setups* setups) {
     const std::vector<Piece> pieces = pieces_of(open, setups != nullptr);
     std::vector<ExportedPiece> rows;
@@ -164,7 +166,7 @@ ExportedProject export_pieces(OpenProject& project, const ExportRequest& request
     const bool in_setup = request.pose == "setup";
     if (in_setup && project.setups() == nullptr) {
         throw InputError(
-            InputFault::use, project.folder().string() + " knows no cell, so nobody knows how its pieces lie",
+            InputFault::use, project.folder().string() + " has no cell, so its pieces have no setup pose",
             "name one by: qchopper segment " + shell_word(project.folder()) + " --cell FILE; or leave --pose out");
     }
     exported.pieces = rows_of(project, request, in_setup ? project.setups() : nullptr);

@@ -1,5 +1,5 @@
-// Writes pieces of a project as files for other programs, in place or as they lie in their stock, simplified where
-// asked. docs/export.md tells it to operators.
+// Writes pieces of a project as files for other programs, in place or in setup pose, simplified on request
+// (docs/export.md, tests/app/cli/export_test.cpp). Lengths in mm.
 
 #pragma once
 
@@ -15,17 +15,17 @@
 namespace qchopper {
 
 struct ExportRequest {
-    std::string format;          // 3mf | stl | ply | glb
-    std::string pose = "place";  // place | setup
-    std::optional<std::string> piece;
-    std::optional<double> simplify_mm;
-    std::optional<std::size_t> max_faces;
-    std::optional<std::filesystem::path> out;
+    std::string format;                        // 3mf | stl | ply | glb
+    std::string pose = "place";                // place | setup
+    std::optional<std::string> piece;          // nothing: all
+    std::optional<double> simplify_mm;         // largest deviation, above 0; excludes max_faces
+    std::optional<std::size_t> max_faces;      // of a piece, at least 4
+    std::optional<std::filesystem::path> out;  // a file or a folder; nothing: beside the project
 };
 
 struct ExportedPiece {
     ExportPiece piece;
-    SimplifyReport simplified;
+    SimplifyReport simplified;  // default where nothing is simplified
     std::filesystem::path file;
 };
 
@@ -33,11 +33,13 @@ struct ExportedProject {
     std::filesystem::path out;  // the file, or the folder of the files
     bool is_simplified = false;
     std::vector<ExportedPiece> pieces;
-    bool is_demand_met() const;  // no piece keeps more faces than were asked for
+    bool is_demand_met() const;  // no piece keeps more faces than max_faces
 };
 
-// A file or folder appears whole or not at all. Throws InputError: (use) what does not go together or is not in the
-// project, (create) something is there already, (mesh) pieces that are not those of the project.
+// A file or folder appears whole or not at all. Precondition: format and pose are values of the lists above. Throws
+// InputError: (use) options that exclude each other, no such piece, setup pose without a cell, a name without the
+// ending of the format; (create) the output exists or cannot be made; (mesh) piece files that are not those of the
+// project. Throws Cancelled.
 ExportedProject export_pieces(OpenProject& project, const ExportRequest& request, const std::string& program_version,
                               const Context& context);
 

@@ -1,3 +1,5 @@
+// Every job file is read and hashed whole before the first one is sent. O(bytes), which are kept in memory.
+
 #include "app/project/hand_over.h"
 
 #include "app/project/ordered_job.h"
@@ -43,29 +45,29 @@ ProjectJobs jobs_of(const std::filesystem::path& folder, const std::optional<std
         const JobOrder order{project, record.name, found.cell, folder, folder / "jobs" / job_file_name(record.name)};
         if (std::optional<PieceJob> job = job_of(order)) {
             found.jobs.push_back(std::move(*job));
-        } else if (piece) {  // prepare said which pieces do not fit, and only one of them was asked for
+        } else if (piece) {  // without it the pieces that do not fit are left out
             throw InputError(InputFault::missing, "piece " + *piece + " has no job",
-                             "prepare told why: it does not fit");
+                             "it does not fit the cell; see the table that prepare printed");
         }
     }
     if (found.jobs.empty()) {
         throw InputError(piece ? InputFault::use : InputFault::missing,
                          piece ? "there is no piece " + *piece + " in " + folder.string()
                                : folder.string() + " holds no job that fits",
-                         "look at the table that prepare printed");
+                         "see the table that prepare printed");
     }
     return found;
 }
 
 std::vector<HandedOver> hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options,
-                                  const std::function<void(std::size_t)>& on_complete, const Context& context) {
+                                  const ProjectContext& context) {
     std::vector<HandedOver> handed;
     for (const PieceJob& job : jobs) {
         context.message("piece " + job.piece + ": " + job.ticket.file_name + ", " + with_commas(job.ticket.file_size) +
                         " bytes");
         handed.push_back({job.piece, dispatch_job(bus, job.ticket, job.file, options, context)});
         if (!handed.back().outcome.is_complete()) break;
-        on_complete(handed.size());
+        context.saved("The " + std::to_string(handed.size()) + " jobs before it ended complete; it was not started.");
     }
     return handed;
 }

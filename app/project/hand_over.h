@@ -1,14 +1,13 @@
-// What dry-run and dispatch share: which jobs of a project, and one after the other over a bus.
+// What dry-run and dispatch share: finds the jobs of a project and hands them to a cell one after the other.
 
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "base/context.h"
+#include "app/project/project_context.h"
 #include "base/file.h"
 #include "cam/cell/cell.h"
 #include "cam/job/ticket.h"
@@ -16,19 +15,21 @@
 
 namespace qchopper {
 
-// Read once: what was checked is what is sent.
+// Read once: the bytes that were checked are those that are sent.
 struct PieceJob {
     std::string piece;
     Bytes file;
     JobTicket ticket;
 };
+
 struct ProjectJobs {
     Cell cell;
-    std::vector<PieceJob> jobs;
+    std::vector<PieceJob> jobs;  // at least one
 };
-// The jobs that the project ordered for its cell, in the order of its pieces; only one piece if it is named.
-// Throws InputError: an unfinished project, no such piece, a job file that is missing, broken or another
-// (ordered_job.h).
+
+// The jobs that the project ordered for its cell, in the order of its pieces; only that of one piece if it is named.
+// Throws what load_project and read_cell throw, and InputError: (use) an unfinished project, no such piece; (missing)
+// no job; (mesh) a job file that is broken or not the one that was ordered (ordered_job.h).
 ProjectJobs jobs_of(const std::filesystem::path& project, const std::optional<std::string>& piece);
 
 struct HandedOver {
@@ -36,9 +37,9 @@ struct HandedOver {
     JobOutcome outcome;
 };
 
-// Stops at the first job that did not run to its end: what follows may need the block that it left. `on_complete` is
-// told after every job how many have ended complete.
+// Stops after the first job that did not run to its end: the next one may need the block that it left. Throws what
+// dispatch_job throws.
 std::vector<HandedOver> hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options,
-                                  const std::function<void(std::size_t)>& on_complete, const Context& context);
+                                  const ProjectContext& context);
 
 }  // namespace qchopper

@@ -1,3 +1,6 @@
+// Keeps scan, segmentation, evaluations and setups once they are made, and saves the project after every change. Saving
+// costs O(size of project.json); undo and redo cut the scan again, O(cuts) times the cost of a cut.
+
 #include "app/project/open_project.h"
 
 #include <algorithm>
@@ -49,14 +52,14 @@ const Segmentation& OpenProject::segmentation() {
     return *segmentation_;
 }
 
-EvaluationCache& OpenProject::book() {
-    if (!book_) {
+EvaluationCache& OpenProject::cache() {
+    if (!cache_) {
         const SearchSettings& settings = project_.settings;
-        book_ = std::make_unique<EvaluationCache>(
+        cache_ = std::make_unique<EvaluationCache>(
             settings.objectives, settings.candidates,
             evaluation_store(folder_ / "cache", settings.objectives, settings.candidates));
     }
-    return *book_;
+    return *cache_;
 }
 
 Setups* OpenProject::setups() {
@@ -67,7 +70,7 @@ Setups* OpenProject::setups() {
 
 void OpenProject::check_cell() {
     if (setups() != nullptr) return;
-    throw InputError(InputFault::use, folder_.string() + " knows no cell yet",
+    throw InputError(InputFault::use, folder_.string() + " has no cell yet",
                      "pass --cell FILE, for example cells/foam-1.toml");
 }
 
@@ -79,7 +82,7 @@ FitsCell OpenProject::fits_cell() {
 
 OpenProject::Next OpenProject::next(const FitsCell& fits_cell) {
     const StopRules& rules = project_.settings.stop;
-    StopJudge judge(rules, fits_cell, [this](const Piece& p) { return book().box(p).size(); });
+    StopJudge judge(rules, fits_cell, [this](const Piece& p) { return cache().box(p).size(); });
     const std::vector<Piece>& pieces = segmentation().pieces;
     const NextPiece by_rules = judge.next(segmentation(), {});
     Next next{by_rules.piece, by_rules.is_finished && rules.is_any_set()};
@@ -91,27 +94,20 @@ OpenProject::Next OpenProject::next(const FitsCell& fits_cell) {
     return next;
 }
 
-std::optional<std::size_t> OpenProject::piece_named(const std::string& name) {
-    const std::vector<Piece>& pieces = segmentation().pieces;
-    const auto found = std::find_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return p.name == name; });
-    if (found == pieces.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - pieces.begin());
-}
-
 std::vector<Ranked> OpenProject::ranking(std::size_t piece, const Context& context) {
-    return rank(segmentation(), piece, project_.settings, book(), context);
+    return rank(segmentation(), piece, project_.settings, cache(), context);
 }
 
 std::optional<Ranked> OpenProject::own_plane(std::size_t piece, const Plane& plane, const Context& context) {
     const std::optional<Candidate> candidate = nudged_off(segmentation().pieces[piece], plane);
     if (!candidate) return std::nullopt;
-    return rank_plane(segmentation(), piece, *candidate, project_.settings, book(), context);
+    return rank_plane(segmentation(), piece, *candidate, project_.settings, cache(), context);
 }
 
 bool OpenProject::misses(std::size_t piece, const Plane& plane) {
     const Piece& target = segmentation().pieces[piece];
     const std::optional<Candidate> candidate = nudged_off(target, plane);
-    return !candidate || !book().evaluation_of(target, *candidate, {});
+    return !candidate || !cache().evaluation_of(target, *candidate, {});
 }
 
 bool OpenProject::decide_cut(Cut cut) {
@@ -156,33 +152,32 @@ bool OpenProject::decide_reset() {
     if (project_.cuts.empty() && project_.discards.empty()) return false;
     remove_outputs(folder_, project_);
     decide(project_.history, Reset{});
-    stand_at(project_.history.standing);
+    commit_first(project_.history.committed);
     return true;
 }
 
 std::optional<Decision> OpenProject::undo() {
-    const Decision* last = to_undo(project_.history);
-    if (last == nullptr) return std::nullopt;
-    if (!std::holds_alternative<WeightsChange>(*last)) remove_outputs(folder_, project_);
-    stand_at(project_.history.standing - 1);
-    return project_.history.decisions[project_.history.standing];
+    return change_committed(to_undo(project_.history), project_.history.committed - 1);
 }
 
 std::optional<Decision> OpenProject::redo() {
-    const Decision* next = to_redo(project_.history);
-    if (next == nullptr) return std::nullopt;
-    if (!std::holds_alternative<WeightsChange>(*next)) remove_outputs(folder_, project_);
-    stand_at(project_.history.standing + 1);
-    return project_.history.decisions[project_.history.standing - 1];
+    return change_committed(to_redo(project_.history), project_.history.committed + 1);
 }
 
-// Whatever follows from the decisions in force is made anew, as a program would that has just loaded them.
-void OpenProject::stand_at(std::size_t standing) {
-    project_.history.standing = standing;
-    project_.settings.objectives.weights = standing_weights(project_.history);
+std::optional<Decision> OpenProject::change_committed(const Decision* changed, std::size_t committed) {
+    if (changed == nullptr) return std::nullopt;
+    if (!std::holds_alternative<WeightsChange>(*changed)) remove_outputs(folder_, project_);
+    commit_first(committed);
+    return *changed;  // the list of decisions stays as it is
+}
+
+// Everything that follows from the decisions in force is made anew, as after loading them.
+void OpenProject::commit_first(std::size_t committed) {
+    project_.history.committed = committed;
+    project_.settings.objectives.weights = committed_weights(project_.history);
     project_.beam.reset();
-    std::vector<Cut> cuts = standing_cuts(project_.history);
-    std::vector<Discard> discards = standing_discards(project_.history);
+    std::vector<Cut> cuts = committed_cuts(project_.history);
+    std::vector<Discard> discards = committed_discards(project_.history);
     if (cuts != project_.cuts || discards != project_.discards) {
         project_.cuts = std::move(cuts);
         project_.discards = std::move(discards);
@@ -210,7 +205,7 @@ SearchEnd OpenProject::search(const FitsCell& fits_cell, const std::function<voi
         on_round(best);
     };
     SearchEnd end =
-        qchopper::search(working, project_.settings, book(), fits_cell, keep, context, time_limit_s, &progress);
+        qchopper::search(working, project_.settings, cache(), fits_cell, keep, context, time_limit_s, &progress);
     adopt(working, end.is_out_of_time() ? progress.saved() : std::nullopt);
     end_ = end;
     if (end.is_out_of_time()) return end;
@@ -232,7 +227,7 @@ PreparedProject OpenProject::prepare(const std::string& program_version, const C
     const bool is_out_of_time = end_ && end_->is_out_of_time();
     if (is_out_of_time) record_end(*end_);
     if (!end_ || is_out_of_time) write_pieces(folder_, segmentation(), project_.fragments);
-    PreparedProject prepared{folder_, {}, {}};
+    PreparedProject prepared{folder_, {}, setups()->cell(), {}};
     prepared.pieces = write_jobs(folder_, project_, segmentation(), *setups(), program_version, context);
     write_pictures(folder_, segmentation().pieces, context);
     project_.stage = is_out_of_time ? Stage::cutting : Stage::done;

@@ -1,9 +1,9 @@
 // The engine that makes a project advance: cut by cut with undo, redo and reset, or by the search, to pieces and jobs.
 //
-// Every decision is saved before the next is thought about, and what was evaluated is kept in the folder's cache.
-// Memory and project.json never differ, and killing the program at any moment leaves the decisions before or after the
-// last one. Undo gives back the exact project of before but for its history; redo returns
-// (tests/app/project/open_project_test.cpp). The scan is taken in, and cut again, only when something asks for it.
+// Lengths in mm about the scan's centre. Every decision is saved before the next one is evaluated, and evaluations are
+// kept in the folder's cache. Memory and project.json never differ, and killing the program at any moment leaves the
+// decisions before or after the last one. Undo restores the project of before exactly but for its history; redo
+// reverses that (tests/app/project/open_project_test.cpp). The scan is imported, and cut again, only when it is needed.
 
 #pragma once
 
@@ -20,24 +20,26 @@
 
 namespace qchopper {
 
-// A project at the end of its way: how each of its pieces is carved.
+// A finished project, and how each of its pieces is carved.
 struct PreparedProject {
     std::filesystem::path folder;
     Project project;
-    std::vector<PieceReport> pieces;
+    Cell cell;
+    std::vector<PieceReport> pieces;  // in the order of the project's
     bool all_fit() const;
 };
 
-// "the stop rules do not hold: ...", as it stands in a project whose search ended too early.
+// "the stop rules do not hold: ...", the warning of a project whose search ended too early.
 std::string early_end(const std::string& sentence);
 
 class OpenProject {
  public:
-    // The caller holds the lock of the folder. `import_project_scan` gives the scan as ScanSource says.
+    // `import_project_scan` returns the scan of project.scan; it is called once at most. Precondition of all functions
+    // that change something: the caller holds the lock of the folder (project_folder.h).
     OpenProject(std::filesystem::path folder, Project project, std::function<TriangleMesh()> import_project_scan);
 
-    // The project of a folder, whose scan is taken in with the context when it is needed. Only who holds the lock may
-    // decide. Throws what load_project throws.
+    // The project of a folder, whose scan is imported with the context when it is needed; every function that needs it
+    // then throws what import_project_scan throws. Throws what load_project throws.
     OpenProject(const std::filesystem::path& folder, const Context& context);
 
     OpenProject(const OpenProject&) = delete;
@@ -47,67 +49,66 @@ class OpenProject {
     const Project& project() const { return project_; }
     const TriangleMesh& scan();
     const Segmentation& segmentation();
-    EvaluationCache& book();
+    EvaluationCache& cache();
 
-    // How pieces are carved in the project's cell; nothing: it knows none. Throws InputError (config) for a cell file
+    // How pieces are carved in the project's cell; nullptr without a cell. Throws InputError (config) for a cell file
     // that is wrong.
     Setups* setups();
-    // Throws InputError (use) for a project that knows no cell.
+    // Throws InputError (use) for a project without a cell.
     void check_cell();
-    // What the stop rule asks; empty without a cell.
+    // For the stop rule of that name; empty without a cell. Valid while this object lives.
     FitsCell fits_cell();
 
     // The piece to be cut next: by the rules, or the one with most faces if they hold already or none is set.
     struct Next {
-        std::optional<std::size_t> piece;  // nothing: there is none
+        std::optional<std::size_t> piece;  // an index; nothing: there is no piece
         bool rules_hold = false;           // rules are set, and they hold
     };
     Next next(const FitsCell& fits_cell);
-    // Nothing if no piece has that name.
-    std::optional<std::size_t> piece_named(const std::string& name);
 
-    // Rankings evaluate what is not evaluated yet, and neither cut nor change anything but the cache.
+    // In the following, `piece` is an index in segmentation().pieces. All candidates of the piece, best first.
+    // Evaluates those that are not evaluated yet; changes nothing but the cache.
     std::vector<Ranked> ranking(std::size_t piece, const Context& context);
     // The operator's own plane, nudged once. Nothing if it misses, or leaves fewer than two pieces that are no
-    // fragments. Its normal and offset have the number -1.
+    // fragments. The numbers of its normal and offset are -1.
     std::optional<Ranked> own_plane(std::size_t piece, const Plane& plane, const Context& context);
 
-    // Why not: true if it misses the piece, or runs so near to its end or to a cut that bounds it that it parts
-    // nothing.
+    // Whether a plane misses the piece, or runs so near to its end or to a cut that bounds it that it parts nothing.
     bool misses(std::size_t piece, const Plane& plane);
 
-    // Decisions. False, and nothing changes: the plane misses, the weights are those that stand, no cut stands.
-    bool decide_cut(Cut cut);
-    bool decide_weights(const Weights& weights);
-    bool decide_discard(const std::string& piece);  // no such piece, or the only one
-    bool decide_reset();
-    // Gives the decision that was taken back or put in force again; nothing if there is none.
+    // Decisions. They return false and change nothing where there is nothing to decide:
+    bool decide_cut(Cut cut);                       // the plane misses
+    bool decide_weights(const Weights& weights);    // they are the current ones
+    bool decide_discard(const std::string& piece);  // there is no such piece, or it is the only one
+    bool decide_reset();                            // no cut and no discarded piece is in force
+    // The decision that was taken back or put in force again; nothing if there is none.
     std::optional<Decision> undo();
     std::optional<Decision> redo();
 
-    // From now on the pieces are written whenever the project is saved, not only at the end of a search.
+    // Writes the pieces now, and from now on whenever the project is saved, not only at the end of a search.
     void keep_pieces_written();
     bool are_pieces_written() const { return pieces_are_written_; }
 
-    // How the search is to go on; no decision, so undo does not take it back.
+    // Sets how the search goes on. This is no decision: undo does not take it back.
     void set_search(const StopRules& stop, std::size_t beam);
 
-    // Lets the search go on by itself to the stop rules, saves the best of every round, and writes the pieces at its
-    // end, unless time ran out.
+    // Runs the search to the stop rules, saves the best segmentation of every round, then calls `on_round` with it, and
+    // writes the pieces at its end, unless time ran out. Throws Cancelled; the last round stays saved.
     SearchEnd search(const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
                      const Context& context, std::optional<double> time_limit_s);
 
-    // Writes pieces, jobs and pictures once the cutting is over. After a search that ran out of time they are written
-    // too, and the project says so and can go on. Throws as check_cell does.
+    // Writes pieces, jobs and pictures. Of a project whose last search ran out of time too; its stage stays
+    // Stage::cutting, so that it can go on. Throws what check_cell throws, and Cancelled.
     PreparedProject prepare(const std::string& program_version, const Context& context);
 
-    // Makes the next cut or discarded piece of a segmentation that grows outside of here (replay_plan.h) a decision.
+    // Makes the newest cut or discarded piece of a segmentation that is extended by others (replay_plan.h) a decision.
     void adopt(const Segmentation& segmentation);
 
  private:
     void adopt(const Segmentation& segmentation, std::optional<BeamState> beam);
     void record_end(const SearchEnd& end);
-    void stand_at(std::size_t standing);
+    std::optional<Decision> change_committed(const Decision* changed, std::size_t committed);
+    void commit_first(std::size_t committed);
     void save();
 
     std::filesystem::path folder_;
@@ -115,7 +116,7 @@ class OpenProject {
     std::function<TriangleMesh()> import_scan_;
     std::optional<TriangleMesh> scan_;
     std::optional<Segmentation> segmentation_;
-    std::unique_ptr<EvaluationCache> book_;
+    std::unique_ptr<EvaluationCache> cache_;
     std::optional<Setups> setups_;
     std::optional<SearchEnd> end_;  // of the last search, until something else is decided
     bool pieces_are_written_ = false;

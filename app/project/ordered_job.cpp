@@ -1,3 +1,5 @@
+// Comparisons, most specific difference first; the project id is a SHA-256 over a text of exact hexadecimal numbers.
+
 #include "app/project/ordered_job.h"
 
 #include <algorithm>
@@ -17,7 +19,7 @@ namespace {
 }  // namespace
 
 Uuid project_id(const Project& project) {
-    std::string text = project.scan.sha256;
+    std::string text = to_hex(project.scan.sha256);
     char line[128];
     for (const Cut& cut : project.cuts) {
         const Plane& p = cut.chosen.plane;
@@ -32,12 +34,12 @@ Uuid project_id(const Project& project) {
     text += line;
     const Sha256 digest = sha256({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     Uuid id{};
-    std::copy_n(digest.begin(), id.size(), id.begin());
+    std::copy_n(digest.bytes.begin(), id.size(), id.begin());
     return id;
 }
 
 WrittenJob written_job(const std::string& piece, const Bytes& file, const Uuid& project_id) {
-    return {piece, to_hex(sha256(file)), to_hex(project_id)};
+    return {piece, sha256(file), to_hex(project_id)};
 }
 
 const WrittenJob* written_job_of(const Project& project, const std::string& piece) {
@@ -50,29 +52,25 @@ void check_ordered(const ReadJob& job, const JobOrder& order) {
     const std::string file = order.file.string();
     const WrittenJob* written = written_job_of(order.project, order.piece);
     if (written == nullptr) refuse_unrecorded(order.folder, order.file);
-    if (job.piece != order.piece) {
-        refuse(order.folder, file + " is the job of piece " + job.piece + ", not of piece " + order.piece);
-    }
-    // The decisions are asked too: a record that came with the jobs of another project would agree with them.
-    const std::string id = to_hex(job.project_id);
-    if (id != written->project_id || job.project_id != project_id(order.project)) {
-        refuse(order.folder, file + " is a job of another project, or of other cuts");
-    }
-    if (job.cell_id != order.cell.id) {
-        refuse(order.folder, file + " is made for cell " + std::to_string(job.cell_id) + ", and the cell here is " +
-                                 std::to_string(order.cell.id) + " (" + order.cell.name + ")");
-    }
-    if (!job.envelope.fits()) {
-        refuse(order.folder, file + " says that its piece does not fit the cell");
-    }
-    if (to_hex(job.file_sha256) != written->sha256) {
-        refuse(order.folder, file + " is not the file that prepare wrote: its SHA-256 is not the one in project.json");
+    // Compared with the decisions too: a record that was copied with the jobs of another project would agree with them.
+    const bool is_of_project =
+        to_hex(job.project_id) == written->project_id && job.project_id == project_id(order.project);
+    const std::pair<bool, std::string> faults[] = {
+        {job.piece != order.piece, " is the job of piece " + job.piece + ", not of piece " + order.piece},
+        {!is_of_project, " is a job of another project, or of other cuts"},
+        {job.cell_id != order.cell.id, " is made for cell " + std::to_string(job.cell_id) + ", and the cell here is " +
+                                           std::to_string(order.cell.id) + " (" + order.cell.name + ")"},
+        {!job.envelope.fits(), " states that its piece does not fit the cell"},
+        {job.file_sha256 != written->sha256,
+         " is not the file that prepare wrote: its SHA-256 is not the one in project.json"}};
+    for (const auto& [is_wrong, what] : faults) {
+        if (is_wrong) refuse(order.folder, file + what);
     }
 }
 
 void refuse_unrecorded(const std::filesystem::path& folder, const std::filesystem::path& file) {
     refuse(folder, "project.json keeps no record of " + file.string() +
-                       " (older programs kept none), so nobody can tell whether it is the job that was ordered");
+                       " (older programs kept none), so it cannot be checked whether it is the job that was ordered");
 }
 
 }  // namespace qchopper

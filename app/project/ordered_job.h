@@ -1,7 +1,7 @@
-// Whether a job file is the one that the project ordered: what dry-run and dispatch ask before anything is sent.
+// Checks that a job file is the one that the project ordered, before it is sent.
 //
-// prepare writes each job's SHA-256, piece and project id into project.json (written_job); check_ordered holds the file
-// that is about to be sent against them, against the decisions and against the cell (tests/app/cli/hand_over_test.cpp).
+// prepare writes each job's SHA-256, piece and project id into project.json (written_job); check_ordered compares the
+// file with them, with the decisions and with the cell (tests/app/cli/ordered_job_test.cpp).
 
 #pragma once
 
@@ -14,15 +14,16 @@
 
 namespace qchopper {
 
-// First 16 bytes of a SHA-256 over the scan and the decisions: the same cuts of the same scan, the same id.
+// First 16 bytes of a SHA-256 over the scan and the decisions: the same cuts of the same scan have the same id.
 Uuid project_id(const Project& project);
 
-// What the project keeps of a job file.
+// The record of a job file for project.json. O(bytes).
 WrittenJob written_job(const std::string& piece, const Bytes& file, const Uuid& project_id);
 
-// Nothing if the project has no record of a job for that piece.
+// nullptr if the project has no record of a job for that piece.
 const WrittenJob* written_job_of(const Project& project, const std::string& piece);
 
+// The references must outlive the order.
 struct JobOrder {
     const Project& project;
     const std::string& piece;
@@ -31,10 +32,10 @@ struct JobOrder {
     std::filesystem::path file;
 };
 
-// Throws InputError (mesh) that says in which way the job is not the one that was ordered.
+// Throws InputError (mesh) with the first difference, if the job is not the one that was ordered.
 void check_ordered(const ReadJob& job, const JobOrder& order);
 
-// Throws InputError (mesh): there is a job file, but nothing to hold it against.
+// Throws InputError (mesh): there is a job file, but no record to compare it with.
 [[noreturn]] void refuse_unrecorded(const std::filesystem::path& folder, const std::filesystem::path& file);
 
 }  // namespace qchopper

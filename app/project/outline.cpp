@@ -1,3 +1,5 @@
+// The loops of the plane section, each begun where the cut begins it.
+
 #include "app/project/outline.h"
 
 #include <algorithm>

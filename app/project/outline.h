@@ -1,7 +1,7 @@
-// The outline that a plane would cut out of a piece, without cutting it.
+// The outline of the section of a piece by a plane, without cutting it.
 //
-// Closed polylines in mm, counter-clockwise around material seen against the normal; their points are those that the
-// caps of the cut get, to the last bit (tests/app/project/outline_test.cpp).
+// Closed polylines in mm, counter-clockwise around material seen against the normal. Their points are those of the caps
+// that a cut would make, to the last bit (tests/app/project/outline_test.cpp).
 
 #pragma once
 
@@ -15,10 +15,10 @@ namespace qchopper {
 struct Outline {
     std::vector<std::vector<Vec3>> loops;  // the first point is not repeated at the end
     double length_mm = 0;                  // of all loops
-    Box box;
+    Box box;                               // of all points; default without loops
 };
 
-// No loops: the plane misses. The mesh must be closed where the plane passes.
+// No loops if the plane misses. Precondition: the mesh is closed where the plane passes. O(triangles).
 Outline outline(const TriangleMesh& mesh, const Plane& plane);
 
 }  // namespace qchopper

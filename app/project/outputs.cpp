@@ -1,3 +1,5 @@
+// Every file is written aside and renamed. O(triangles) for pieces and jobs; pictures cost a ray per pixel.
+
 #include "app/project/outputs.h"
 
 #include <cassert>
@@ -6,7 +8,6 @@
 #include "app/project/ordered_job.h"
 #include "app/project/project_folder.h"
 #include "base/file.h"
-#include "base/hex.h"
 #include "cam/job/job_file.h"
 #include "segment/io/write_ply.h"
 #include "segment/mesh/measure.h"
@@ -33,7 +34,7 @@ TriangleMesh together(const std::vector<Fragment>& fragments) {
     return all;
 }
 
-// Files of a folder that are not named; the folder may be missing.
+// Removes the files of a folder that are not in `keep`; the folder may be missing.
 void remove_but(const fs::path& folder, const std::set<std::string>& keep) {
     std::error_code error;
     std::vector<fs::path> old;
@@ -69,7 +70,7 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
     input.piece_count = static_cast<std::uint16_t>(segmentation.pieces.size());
     input.program_version = program_version;
     input.project_id = project_id(project);
-    input.scan_sha256 = from_hex<std::tuple_size_v<Sha256>>(project.scan.sha256).value_or(Sha256{});
+    input.scan_sha256 = project.scan.sha256;
     input.cell = setups.cell();
     input.warnings = project.warnings;
     std::vector<PieceReport> reports;
@@ -79,7 +80,7 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
         ++input.piece_no;
         const Carving& carving = setups.of(piece);
         PieceReport report{piece.name, piece.mesh->triangles.size(), volume_mm3(*piece.mesh), carving, {}};
-        report.carving.keeps_alive.reset();
+        report.carving.mesh.reset();
         const fs::path file = folder / "jobs" / job_file_name(piece.name);
         if (carving.envelope.fits()) {
             input.piece = piece;
@@ -90,7 +91,7 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
             project.jobs.push_back(written_job(piece.name, bytes, input.project_id));
             report.job = file;
         } else {
-            fs::remove(file);  // a job that cannot be carved must not lie around
+            fs::remove(file);  // an earlier job of a piece that cannot be carved must not stay
         }
         reports.push_back(std::move(report));
     }
@@ -111,7 +112,7 @@ void remove_outputs(const fs::path& folder, Project& project) {
         project.ended_because.clear();
         save_project(folder, project);
     }
-    for (const char* room : {"pieces", "jobs", "pictures"}) remove_but(folder / room, {});
+    for (const char* name : {"pieces", "jobs", "pictures"}) remove_but(folder / name, {});
 }
 
 }  // namespace qchopper

@@ -1,7 +1,8 @@
-// What is made of a segmentation and lies in the project folder: pieces, jobs, pictures.
+// Writes and removes the outputs of a segmentation in the project folder: pieces, jobs, pictures.
 //
-// Never stale: whoever is about to change a decision takes them away first, whoever ends the cutting writes them. The
-// stage in project.json says which (project.h).
+// They are never stale: they are removed before a decision changes and written when the cutting is over; the stage in
+// project.json states which exist (project.h, tests/app/project/open_project_test.cpp). Lengths in mm. All throw what
+// write_file throws.
 
 #pragma once
 
@@ -15,28 +16,30 @@
 
 namespace qchopper {
 
-// Writes pieces/<name>.ply, and pieces/fragments.ply if fragments are kept; takes away other files there.
+// Writes pieces/<name>.ply, and pieces/fragments.ply if fragments are kept; removes other files there. Precondition:
+// the names of the pieces are different and not empty.
 void write_pieces(const std::filesystem::path& folder, const Segmentation& segmentation, FragmentChoice fragments);
 
-// A piece as it was prepared.
+// The result of prepare for one piece.
 struct PieceReport {
     std::string name;
     std::size_t faces = 0;
     double volume_mm3 = 0;
     Carving carving;
-    std::filesystem::path job;  // empty: it does not fit and has none
+    std::filesystem::path job;  // empty: it does not fit the cell and has no job
 };
 
-// Writes jobs/<name>.qjob of every piece that fits the cell, and records them in the project, which is not saved.
+// Writes jobs/<name>.qjob of every piece that fits the cell, removes those of the others, and records the jobs in the
+// project, which is not saved. One report per piece. Throws Cancelled.
 std::vector<PieceReport> write_jobs(const std::filesystem::path& folder, Project& project,
                                     const Segmentation& segmentation, Setups& setups,
                                     const std::string& program_version, const Context& context);
 
-// Writes pictures/segmentation.png and pictures/exploded.png.
+// Writes pictures/segmentation.png and pictures/exploded.png. Throws Cancelled.
 void write_pictures(const std::filesystem::path& folder, const std::vector<Piece>& pieces, const Context& context);
 
-// If anything was made already: first saves the project as being cut, then takes away pieces, jobs and pictures. Killed
-// at any moment it leaves a project that is still right.
+// Saves the project with Stage::cutting, if it has another stage or jobs, then removes pieces, jobs and pictures. A
+// program that is killed at any moment leaves a consistent project (tests/app/project/killed_test.cpp).
 void remove_outputs(const std::filesystem::path& folder, Project& project);
 
 }  // namespace qchopper

@@ -1,8 +1,11 @@
+// Cuts the scan again and describes every piece before its cut. O(cuts) times the cost of a cut.
+
 #include "app/project/plan.h"
 
 #include <algorithm>
 #include <cassert>
 
+#include "app/project/replay.h"
 #include "base/error.h"
 #include "segment/mesh/containment.h"
 
@@ -11,15 +14,14 @@ namespace {
 
 std::vector<PathSide> path_of(const Piece& piece) {
     std::vector<PathSide> path;
-    for (const Bound& bound : piece.bounds) path.push_back({bound.cut, bound.above});
+    for (const HalfSpace& half_space : piece.half_spaces) path.push_back({half_space.cut, half_space.above});
     return path;
 }
 
-const Piece& piece_named(const Segmentation& segmentation, const std::string& name) {
-    const auto found = std::find_if(segmentation.pieces.begin(), segmentation.pieces.end(),
-                                    [&](const Piece& p) { return p.name == name; });
-    assert(found != segmentation.pieces.end());
-    return *found;
+const Piece& existing_piece(const Segmentation& segmentation, const std::string& name) {
+    const std::optional<std::size_t> p = piece_named(segmentation, name);
+    assert(p);
+    return segmentation.pieces[*p];
 }
 
 PlanPiece plan_piece(const Piece& piece, Vec3 centre) {
@@ -39,7 +41,7 @@ void add_discards(Plan& plan, Segmentation& segmentation, const std::vector<Disc
     for (const Discard& d : discards) {
         if (d.after != segmentation.cuts.size()) continue;
         plan.discards.push_back(
-            {plan_piece(piece_named(segmentation, d.piece), plan.scan.centre), static_cast<std::int32_t>(d.after)});
+            {plan_piece(existing_piece(segmentation, d.piece), plan.scan.centre), static_cast<std::int32_t>(d.after)});
         discard(segmentation, d.piece);
     }
 }
@@ -51,7 +53,7 @@ Plan make_plan(const Project& project, const TriangleMesh& scan) {
     const Box box = bounds(scan);
     Plan plan;
     plan.scan = {s.path.filename().string(),
-                 s.sha256,
+                 to_hex(s.sha256),
                  s.unit,
                  s.scale,
                  s.centre,
@@ -63,10 +65,10 @@ Plan make_plan(const Project& project, const TriangleMesh& scan) {
     Segmentation segmentation = uncut(scan, fragment_volume);
     add_discards(plan, segmentation, project.discards);
     for (const Cut& cut : project.cuts) {
-        PlanCut p = plan_cut(cut, piece_named(segmentation, cut.piece), s.centre);
+        PlanCut p = plan_cut(cut, existing_piece(segmentation, cut.piece), s.centre);
         apply(segmentation, cut, fragment_volume);
         for (const std::string& name : segmentation.cuts.back().pieces) {
-            p.makes_mm3.push_back(volume_mm3(*piece_named(segmentation, name).mesh));
+            p.makes_mm3.push_back(volume_mm3(*existing_piece(segmentation, name).mesh));
         }
         std::sort(p.makes_mm3.rbegin(), p.makes_mm3.rend());
         plan.cuts.push_back(std::move(p));

@@ -1,11 +1,12 @@
 // The plan: the cuts of a project as a small text file, to be made again on another version of the same specimen.
 //
-// Lengths are millimetres in the scan's own frame: the coordinates of its file, times unit and scale, not moved to any
-// centre. Written and read again a plan is the same plan (tests/app/project/plan_test.cpp). docs/plan-file.md is the
+// Lengths are millimetres in the scan's own frame: the coordinates of its file times unit and scale, not shifted. A
+// plan that is written and read again is the same plan (tests/app/project/plan_test.cpp). docs/plan-file.md is the
 // grammar.
 
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,7 +23,7 @@ struct PathSide {
     bool operator==(const PathSide&) const = default;
 };
 
-// By what a piece is found again.
+// What identifies a piece on another version of the scan.
 struct PlanPiece {
     std::string piece;           // its name where the plan was made
     std::vector<PathSide> path;  // where it lies in the BSP
@@ -61,21 +62,26 @@ struct PlanScan {
 
 struct Plan {
     PlanScan scan;
-    Weights weights;  // that stood when it was written
+    Weights weights;  // in force when it was written
     std::vector<PlanCut> cuts;
     std::vector<PlanDiscard> discards;  // in their order
     bool operator==(const Plan&) const = default;
 };
 
-// The cuts that stand, and what is discarded. Throws InputError (mesh) if a piece has no inside.
+// The cuts and discards in force. `scan` is the imported scan of the project. Throws InputError (mesh) if a piece has
+// no interior point.
 Plan make_plan(const Project& project, const TriangleMesh& scan);
 
+// Control characters of texts are replaced by "?".
 std::string to_text(const Plan& plan);
 
-// Throws InputError (config) naming file, line, key and why.
+// `file` is the name in messages. Throws InputError (config) naming file, line, key and why.
 Plan plan_from_text(std::string_view text, const std::string& file);
 
-// Does a file begin as a plan does?
-bool looks_like_a_plan(std::string_view text);
+// Throws what read_file and plan_from_text throw.
+Plan read_plan(const std::filesystem::path& file);
+
+// Whether a text begins with the first line that to_text writes.
+bool has_plan_header(std::string_view text);
 
 }  // namespace qchopper

@@ -1,21 +1,31 @@
-// Writes and reads the text of a plan: TOML, by toml++.
-
-#include <toml++/toml.h>
+// Writes and reads the text of a plan, key by key in the order of docs/plan-file.md. O(cuts).
 
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <sstream>
 
 #include "app/project/plan.h"
-#include "base/error.h"
+#include "base/file.h"
+#include "base/toml_reader.h"
 
 namespace qchopper {
 namespace {
 
 constexpr const char* first_line = "# QChopper plan";
-constexpr std::int64_t schema = 1;
-constexpr double most = 1e15;
+constexpr std::uint32_t schema = 1;
+constexpr double most = 1e15;  // of any number but a count
+constexpr std::uint32_t most_count = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t longest_text = 1000;  // bytes; the name of a file has at most 255
+
+constexpr std::array<std::string_view, 5> plan_keys{"schema", "scan", "weights", "cut", "discard"};
+constexpr std::array<std::string_view, 9> scan_keys{"name",  "sha256",     "units",      "scale",     "centre_mm",
+                                                    "faces", "volume_mm3", "box_min_mm", "box_max_mm"};
+constexpr std::array<std::string_view, 4> weight_keys{"face_ratio", "fragility", "piece_count", "undercut"};
+constexpr std::array<std::string_view, 9> cut_keys{
+    "number", "piece", "path", "normal", "offset_mm", "offset_from_centre_mm", "inside_mm", "volume_mm3", "makes_mm3"};
+constexpr std::array<std::string_view, 5> discard_keys{"after", "piece", "path", "inside_mm", "volume_mm3"};
 
 // As many digits as give the same bits again; always with a point or an exponent, so that it stays a float.
 std::string in_digits(double value) {
@@ -39,109 +49,43 @@ std::string quoted(const std::string& text) {
     return out + "\"";
 }
 
-std::string word(const PathSide& side) {
+std::string describe(const PathSide& side) {
     return std::to_string(side.cut) + (side.above ? " above" : " below");
 }
 
-std::string in_words(const std::vector<PathSide>& path) {
+std::string describe(const std::vector<PathSide>& path) {
     std::string text;
-    for (const PathSide& side : path) text += (text.empty() ? "" : ", ") + quoted(word(side));
+    for (const PathSide& side : path) text += (text.empty() ? "" : ", ") + quoted(describe(side));
     return "[" + text + "]";
 }
 
-// One table, read key by key; every fault names file, line and key.
-class Table {
- public:
-    Table(const toml::table& table, const std::string& file, std::initializer_list<std::string_view> known)
-        : table_(table), file_(file) {
-        for (const auto& [key, value] : table_) {
-            const bool is_known = std::find(known.begin(), known.end(), key.str()) != known.end();
-            if (!is_known) refuse(std::string(key.str()), "no such key");
-        }
-    }
+double positive(const TomlReader& t, std::string_view key) {
+    const double value = t.number(key, -most, most);
+    if (!(value > 0)) t.refuse(key, "must be greater than 0");
+    return value;
+}
 
-    [[noreturn]] void refuse(const std::string& key, const std::string& why) const {
-        const toml::node* node = table_.get(key);
-        const auto line = (node != nullptr ? node->source() : table_.source()).begin.line;
-        throw InputError(InputFault::config, file_ + ":" + std::to_string(line) + ": " + key + ": " + why,
-                         "mend the plan; docs/plan-file.md explains its keys");
-    }
-
-    bool has(const std::string& key) const { return table_.contains(key); }
-
-    double number(const std::string& key) const { return number_in(key, table_.get(key)); }
-    double positive(const std::string& key) const {
-        const double value = number(key);
-        if (!(value > 0)) refuse(key, "must be greater than 0");
-        return value;
-    }
-    std::int64_t whole(const std::string& key, std::int64_t least) const {
-        const toml::node* node = table_.get(key);
-        const auto value = node != nullptr ? node->value_exact<std::int64_t>() : std::nullopt;
-        if (!value || *value < least) refuse(key, "must be a whole number of at least " + std::to_string(least));
-        return *value;
-    }
-    std::string text(const std::string& key) const {
-        const toml::node* node = table_.get(key);
-        const auto value = node != nullptr ? node->value_exact<std::string>() : std::nullopt;
-        if (!value) refuse(key, "must be a text");
-        return *value;
-    }
-    std::vector<double> numbers(const std::string& key) const {
-        std::vector<double> values;
-        for (const toml::node& node : array(key)) values.push_back(number_in(key, &node));
-        return values;
-    }
-    Vec3 vector(const std::string& key) const {
-        const std::vector<double> v = numbers(key);
-        if (v.size() != 3) refuse(key, "must be three numbers");
-        return {v[0], v[1], v[2]};
-    }
-    const toml::array& array(const std::string& key) const {
-        const toml::node* node = table_.get(key);
-        if (node == nullptr || !node->is_array()) refuse(key, "must be a list");
-        return *node->as_array();
-    }
-    const toml::table& table(const std::string& key) const {
-        const toml::node* node = table_.get(key);
-        if (node == nullptr || !node->is_table()) refuse(key, "must be a table");
-        return *node->as_table();
-    }
-
- private:
-    double number_in(const std::string& key, const toml::node* node) const {
-        std::optional<double> value;
-        if (node != nullptr && node->is_number()) value = node->value<double>();
-        if (!value || !(std::abs(*value) <= most)) refuse(key, "must be a number");
-        return *value;
-    }
-
-    const toml::table& table_;
-    const std::string& file_;
-};
-
-PlanScan scan_from(const Table& t) {
+PlanScan scan_from(const TomlReader& t) {
     PlanScan scan;
-    scan.name = t.text("name");
-    scan.sha256 = t.text("sha256");
+    scan.name = t.text("name", longest_text);
+    scan.sha256 = t.text("sha256", longest_text);
     try {
         scan.unit = unit_named(t.text("units"));
     } catch (const InputError& e) {
         t.refuse("units", e.what());
     }
-    scan.scale = t.positive("scale");
-    scan.centre = t.vector("centre_mm");
-    scan.faces = static_cast<std::size_t>(t.whole("faces", 1));
-    scan.volume_mm3 = t.positive("volume_mm3");
-    scan.box = {t.vector("box_min_mm"), t.vector("box_max_mm")};
+    scan.scale = positive(t, "scale");
+    scan.centre = t.vector("centre_mm", -most, most);
+    scan.faces = t.whole("faces", 1, most_count);
+    scan.volume_mm3 = positive(t, "volume_mm3");
+    scan.box = {t.vector("box_min_mm", -most, most), t.vector("box_max_mm", -most, most)};
     return scan;
 }
 
 // Names cuts before the cut `number`.
-std::vector<PathSide> path_from(const Table& t, std::int32_t number) {
+std::vector<PathSide> path_from(const TomlReader& t, std::int32_t number) {
     std::vector<PathSide> path;
-    for (const toml::node& node : t.array("path")) {
-        const std::string text = node.value_exact<std::string>().value_or("");
+    for (const std::string& text : t.texts("path")) {
         std::istringstream in(text);
         PathSide side;
         std::string where;
@@ -156,68 +100,63 @@ std::vector<PathSide> path_from(const Table& t, std::int32_t number) {
 }
 
 // As it was before the cut `number`.
-PlanPiece piece_from(const Table& t, std::int32_t number) {
-    return {t.text("piece"), path_from(t, number), t.vector("inside_mm"), t.positive("volume_mm3")};
+PlanPiece piece_from(const TomlReader& t, std::int32_t number) {
+    return {t.text("piece", longest_text), path_from(t, number), t.vector("inside_mm", -most, most),
+            positive(t, "volume_mm3")};
 }
 
-PlanCut cut_from(const Table& t, std::int32_t expected, Vec3 centre) {
-    if (t.whole("number", 1) != expected) t.refuse("number", "must count 1, 2, ... in the order of the cuts");
+PlanCut cut_from(const TomlReader& t, std::int32_t expected, Vec3 centre) {
+    if (t.whole("number", 1, most_count) != static_cast<std::uint32_t>(expected)) {
+        t.refuse("number", "must count 1, 2, ... in the order of the cuts");
+    }
     PlanCut cut{piece_from(t, expected), expected, {}, 0, {}};
-    const Vec3 normal = t.vector("normal");
+    const Vec3 normal = t.vector("normal", -most, most);
     if (!(norm(normal) > 0)) t.refuse("normal", "must not be zero");
     const Plane direction = canonical({normal, 0});
     const double turned = dot(direction.normal, normal) < 0 ? -1 : 1;
-    cut.plane = {direction.normal, turned * t.number("offset_mm")};
+    cut.plane = {direction.normal, turned * t.number("offset_mm", -most, most)};
     cut.from_centre = cut.plane.offset - height(cut.plane.normal, centre);
     if (t.has("offset_from_centre_mm")) {
-        const double exact = turned * t.number("offset_from_centre_mm");
+        const double exact = turned * t.number("offset_from_centre_mm", -most, most);
         if (std::abs(exact - cut.from_centre) > 1e-6) {
-            t.refuse("offset_from_centre_mm", "says another plane than offset_mm; delete the line to move the plane");
+            t.refuse("offset_from_centre_mm", "is of another plane than offset_mm; delete the line to move the plane");
         }
         cut.from_centre = exact;
     }
-    cut.makes_mm3 = t.numbers("makes_mm3");
+    cut.makes_mm3 = t.numbers("makes_mm3", -most, most);
     return cut;
 }
 
-std::vector<PlanCut> cuts_from(const Table& top, const std::string& file, Vec3 centre) {
+std::vector<PlanCut> cuts_from(const TomlReader& plan, Vec3 centre) {
     std::vector<PlanCut> cuts;
-    if (!top.has("cut")) return cuts;
-    for (const toml::node& node : top.array("cut")) {
-        if (!node.is_table()) top.refuse("cut", "must be tables: [[cut]]");
-        const Table t(*node.as_table(), file,
-                      {"number", "piece", "path", "normal", "offset_mm", "offset_from_centre_mm", "inside_mm",
-                       "volume_mm3", "makes_mm3"});
+    if (!plan.has("cut")) return cuts;
+    for (const TomlReader& t : plan.tables("cut", cut_keys)) {
         cuts.push_back(cut_from(t, static_cast<std::int32_t>(cuts.size()) + 1, centre));
     }
     return cuts;
 }
 
-std::vector<PlanDiscard> discards_from(const Table& top, const std::string& file, std::size_t cuts) {
+std::vector<PlanDiscard> discards_from(const TomlReader& plan, std::size_t cuts) {
     std::vector<PlanDiscard> discards;
-    if (!top.has("discard")) return discards;
-    for (const toml::node& node : top.array("discard")) {
-        if (!node.is_table()) top.refuse("discard", "must be tables: [[discard]]");
-        const Table t(*node.as_table(), file, {"after", "piece", "path", "inside_mm", "volume_mm3"});
-        const std::int64_t after = t.whole("after", discards.empty() ? 0 : discards.back().after);
-        if (after > static_cast<std::int64_t>(cuts)) t.refuse("after", "there is no such cut");
+    if (!plan.has("discard")) return discards;
+    std::uint32_t after = 0;
+    for (const TomlReader& t : plan.tables("discard", discard_keys)) {
+        after = t.whole("after", after, static_cast<std::uint32_t>(cuts));
         const auto number = static_cast<std::int32_t>(after);
         discards.push_back({piece_from(t, number + 1), number});
     }
     return discards;
 }
 
-Plan plan_from(const toml::table& root, const std::string& file) {
-    const Table top(root, file, {"schema", "scan", "weights", "cut", "discard"});
-    if (top.whole("schema", 1) != schema) top.refuse("schema", "this version reads schema 1");
+Plan plan_from(const TomlReader& top) {
+    if (top.whole("schema", 1, most_count) != schema) top.refuse("schema", "this version reads schema 1");
     Plan plan;
-    plan.scan = scan_from(
-        Table(top.table("scan"), file,
-              {"name", "sha256", "units", "scale", "centre_mm", "faces", "volume_mm3", "box_min_mm", "box_max_mm"}));
-    const Table w(top.table("weights"), file, {"face_ratio", "fragility", "piece_count", "undercut"});
-    plan.weights = {w.number("face_ratio"), w.number("fragility"), w.number("piece_count"), w.number("undercut")};
-    plan.cuts = cuts_from(top, file, plan.scan.centre);
-    plan.discards = discards_from(top, file, plan.cuts.size());
+    plan.scan = scan_from(top.table("scan", scan_keys));
+    const TomlReader w = top.table("weights", weight_keys);
+    plan.weights = {w.number("face_ratio", -most, most), w.number("fragility", -most, most),
+                    w.number("piece_count", -most, most), w.number("undercut", -most, most)};
+    plan.cuts = cuts_from(top, plan.scan.centre);
+    plan.discards = discards_from(top, plan.cuts.size());
     return plan;
 }
 
@@ -240,7 +179,7 @@ std::string to_text(const Plan& plan) {
         << "\nundercut = " << in_digits(plan.weights.undercut) << "\n";
     for (const PlanCut& cut : plan.cuts) {
         out << "\n[[cut]]\nnumber = " << cut.number << "\npiece = " << quoted(cut.piece)
-            << "\npath = " << in_words(cut.path) << "\nnormal = " << in_digits(cut.plane.normal)
+            << "\npath = " << describe(cut.path) << "\nnormal = " << in_digits(cut.plane.normal)
             << "\noffset_mm = " << in_digits(cut.plane.offset)
             << "\noffset_from_centre_mm = " << in_digits(cut.from_centre) << "\ninside_mm = " << in_digits(cut.inside)
             << "\nvolume_mm3 = " << in_digits(cut.volume_mm3) << "\nmakes_mm3 = [";
@@ -251,7 +190,7 @@ std::string to_text(const Plan& plan) {
     }
     for (const PlanDiscard& discard : plan.discards) {
         out << "\n[[discard]]\nafter = " << discard.after << "\npiece = " << quoted(discard.piece)
-            << "\npath = " << in_words(discard.path) << "\ninside_mm = " << in_digits(discard.inside)
+            << "\npath = " << describe(discard.path) << "\ninside_mm = " << in_digits(discard.inside)
             << "\nvolume_mm3 = " << in_digits(discard.volume_mm3) << "\n";
     }
     return out.str();
@@ -259,17 +198,18 @@ std::string to_text(const Plan& plan) {
 
 Plan plan_from_text(std::string_view text, const std::string& file) {
     try {
-        return plan_from(toml::parse(text, file), file);
-    } catch (const toml::parse_error& e) {
-        throw InputError(InputFault::config,
-                         file + ":" + std::to_string(e.source().begin.line) + ": not TOML from column " +
-                             std::to_string(e.source().begin.column) +
-                             " on: a value, bracket, comma or quotation mark is missing or too many",
-                         "mend the plan; docs/plan-file.md explains its keys");
+        return plan_from(TomlReader::parse(text, file, plan_keys));
+    } catch (const InputError& e) {  // the remedies of TomlReader are those of a cell file
+        throw InputError(InputFault::config, e.what(), "correct the plan; docs/plan-file.md explains its keys");
     }
 }
 
-bool looks_like_a_plan(std::string_view text) {
+Plan read_plan(const std::filesystem::path& file) {
+    const Bytes text = read_file(file, record_limit);
+    return plan_from_text({reinterpret_cast<const char*>(text.data()), text.size()}, file.string());
+}
+
+bool has_plan_header(std::string_view text) {
     return text.starts_with(first_line);
 }
 

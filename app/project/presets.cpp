@@ -1,3 +1,5 @@
+// One table.
+
 #include "app/project/presets.h"
 
 #include <array>

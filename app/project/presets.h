@@ -1,4 +1,5 @@
-// Settings by name: the four cases of the thesis (Nicholson 2016, chapter 5; stop rules of the last two are ours).
+// Settings by name: the four cases of the thesis (Nicholson 2016, chapter 5; stop rules of the last two are ours,
+// tests/app/project/presets_test.cpp).
 
 #pragma once
 
@@ -9,6 +10,7 @@
 
 namespace qchopper {
 
+// "bunny", "femur", "vertebrae" or "skull"; nothing for any other name.
 std::optional<SearchSettings> preset(std::string_view name);
 
 }  // namespace qchopper

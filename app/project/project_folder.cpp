@@ -1,3 +1,5 @@
+// Folders are staged and renamed (base/staged_folder.h); the lock is flock(2) on a file that stays.
+
 #include "app/project/project_folder.h"
 
 #include <fcntl.h>
@@ -64,7 +66,7 @@ void create_project(const fs::path& folder, const Project& project, const std::o
 }
 
 void take_cell(const fs::path& folder, const fs::path& cell_file, const Context& context) {
-    read_cell(cell_file);  // an impossible one is refused before it is taken
+    read_cell(cell_file);  // an impossible one is refused before it is copied
     write_file(folder / "cell.toml", read_file(cell_file, settings_limit));
     context.message(folder.string() + ": its cell is now that of " + cell_file.string());
 }

@@ -1,16 +1,17 @@
-// The project folder NAME.qch: made whole, locked, saved after every decision.
+// Makes, locks, reads and writes the project folder NAME.qch.
 //
 //   NAME.qch/
 //     project.json      scan, settings, decisions with their terms and runners-up, pieces, fragments
-//     cell.toml         the cell file as it was when it was named; none: the project knows no cell yet
+//     cell.toml         a copy of the cell file; missing while the project has no cell
 //     pieces/A.ply ...  the pieces (binary PLY, double, face property cap = number of the cut)
 //     jobs/A.qjob ...   one job file per piece
 //     pictures/*.png
-//     cache/            evaluations that are known already; may be deleted at any time
+//     cache/            evaluations (evaluation_store.h); may be deleted at any time
 //     lock              held while a program writes
 //
-// project.json alone decides. Pieces, jobs and pictures are never stale: they are taken away before a decision changes
-// and written when the cutting is over (products.h). docs/project-folder.md is the grammar.
+// Everything but cell.toml follows from project.json and the scan. Pieces, jobs and pictures are never stale: they are
+// removed before a decision changes and written when the cutting is over (outputs.h). docs/project-folder.md is the
+// grammar.
 
 #pragma once
 
@@ -23,35 +24,39 @@
 
 namespace qchopper {
 
-// NAME.qch/ is NAME.qch.
+// The path without a slash at its end.
 std::filesystem::path without_slash(const std::filesystem::path& folder);
 
-// Is it a folder? Throws InputError (missing) for a folder that holds no project.
+// Whether the path is a folder. Throws InputError (missing) for a folder that holds no project.
 bool is_project_folder(const std::filesystem::path& path);
 
-// For a file or a folder to be made. Throws InputError (create) if there is something already, or nothing can be made
-// there.
+// Checks that a file or folder can be made. Throws InputError (create) if it exists, or its folder does not exist or
+// cannot be written.
 void check_output(const std::filesystem::path& out);
 
-// The folder appears whole or not at all. `cell_file`: the bytes of the cell file, if a cell is known.
+// Makes the folder, which appears whole or not at all. `cell_file`: the bytes of the cell file; nothing: no cell yet.
+// Throws InputError (create, io).
 void create_project(const std::filesystem::path& folder, const Project& project, const std::optional<Bytes>& cell_file);
 
-// Gives a project that knows no cell yet the one of a file. Throws InputError (config) if that is impossible.
+// Checks a cell file and copies it into a project folder, with a message. Throws what read_cell, read_file and
+// write_file throw.
 void take_cell(const std::filesystem::path& folder, const std::filesystem::path& cell_file, const Context& context);
 
-// Written aside and renamed: a crash leaves the decisions before or after, never half of them.
+// Written aside and renamed: after a crash the file is the old or the new one. Throws what write_file throws.
 void save_project(const std::filesystem::path& folder, const Project& project);
 
-// Throws InputError: (missing) no project there, (config) a project file that this version cannot read.
+// Throws InputError: (missing) there is no project, (config) a project file that this version cannot read.
 Project load_project(const std::filesystem::path& folder);
 
-// A program that was killed while it wrote may have left files with names like A.ply.tmp.4711. Whoever holds the lock
-// knows that nobody writes them any more.
+// Removes files such as A.ply.tmp.4711, which a program leaves behind if it is killed while it writes. Precondition:
+// the caller holds the lock, so that no other program is writing them (tests/app/project/killed_test.cpp).
 void clear_leftovers(const std::filesystem::path& folder);
 
-// Keeps a second writer out while it lives. Throws InputError (busy) if somebody else holds it.
+// Holds the lock file of a project while it lives, so that one program writes at a time. The system releases it when
+// the program ends in any way.
 class ProjectLock {
  public:
+    // Throws InputError: (busy) another program holds the lock, (create) the folder cannot be written.
     explicit ProjectLock(const std::filesystem::path& folder);
     ~ProjectLock();
     ProjectLock(const ProjectLock&) = delete;

@@ -1,9 +1,11 @@
+// By nlohmann/json, with keys in a fixed order. Everything that the history determines is derived from it.
+
 #include "app/project/project_json.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/project/enum_words.h"
+#include "app/project/enum_names.h"
 #include "app/project/value_json.h"
 #include "base/error.h"
 
@@ -15,8 +17,8 @@ using Json = nlohmann::ordered_json;
 constexpr const char* schema = "qchopper-project-3";
 
 // Names of the enumerations, as they stand in the file.
-constexpr EnumWord<Stage> stage_words[] = {{Stage::cutting, "cutting"}, {Stage::cut, "cut"}, {Stage::done, "done"}};
-constexpr EnumWord<FragmentChoice> fragment_words[] = {{FragmentChoice::keep, "keep"}, {FragmentChoice::drop, "drop"}};
+constexpr EnumName<Stage> stage_names[] = {{Stage::cutting, "cutting"}, {Stage::cut, "cut"}, {Stage::done, "done"}};
+constexpr EnumName<FragmentChoice> fragment_names[] = {{FragmentChoice::keep, "keep"}, {FragmentChoice::drop, "drop"}};
 
 std::vector<SolidRecord> solids_from(const Json& json) {
     std::vector<SolidRecord> solids;
@@ -24,16 +26,12 @@ std::vector<SolidRecord> solids_from(const Json& json) {
     return solids;
 }
 
-Json to_json(const SolidRecord& solid) {
-    return json_of(solid);
-}
-
-Json to_json(const RepairChoices& repair) {
+Json json_of(const RepairChoices& repair) {
     return {{"weld_mm", repair.weld_mm},
             {"fill", name_of(repair.fill)},
             {"resolve_self_intersections", repair.resolve_self_intersections},
-            {"smooth_marks", repair.smooth_marks},
-            {"wrap_mm", repair.wrap_mm}};
+            {"smooth_pen_grooves", repair.smooth_pen_grooves},
+            {"alpha_wrap_mm", repair.alpha_wrap_mm}};
 }
 
 RepairChoices repair_from(const Json& json) {
@@ -43,23 +41,27 @@ RepairChoices repair_from(const Json& json) {
     if (!fill) throw InputError(InputFault::config, "\"" + json.at("fill").get<std::string>() + "\" fills no hole");
     repair.fill = *fill;
     repair.resolve_self_intersections = json.at("resolve_self_intersections").get<bool>();
-    repair.smooth_marks = json.at("smooth_marks").get<bool>();
-    repair.wrap_mm = json.at("wrap_mm").get<double>();
+    repair.smooth_pen_grooves = json.at("smooth_pen_grooves").get<bool>();
+    repair.alpha_wrap_mm = json.at("alpha_wrap_mm").get<double>();
     return repair;
 }
 
-Json to_json(const ScanSource& scan) {
-    return {{"path", scan.path.string()},        {"sha256", scan.sha256},
-            {"units", name_of(scan.unit)},       {"scale", scan.scale},
-            {"centre_mm", json_of(scan.centre)}, {"faces", scan.faces},
-            {"volume_mm3", scan.volume_mm3},     {"warnings", scan.warnings},
-            {"repair", to_json(scan.repair)}};
+Sha256 sha256_from(const Json& json) {
+    const std::optional<Sha256> digest = sha256_from_hex(json.get<std::string>());
+    if (!digest) throw InputError(InputFault::config, "a SHA-256 in it is not 64 hexadecimal digits");
+    return *digest;
+}
+
+Json json_of(const ScanSource& scan) {
+    return {{"path", scan.path.string()},    {"sha256", to_hex(scan.sha256)},     {"units", name_of(scan.unit)},
+            {"scale", scan.scale},           {"centre_mm", json_of(scan.centre)}, {"faces", scan.faces},
+            {"volume_mm3", scan.volume_mm3}, {"warnings", scan.warnings},         {"repair", json_of(scan.repair)}};
 }
 
 ScanSource scan_from(const Json& json) {
     ScanSource scan;
     scan.path = json.at("path").get<std::string>();
-    scan.sha256 = json.at("sha256").get<std::string>();
+    scan.sha256 = sha256_from(json.at("sha256"));
     scan.unit = unit_named(json.at("units").get<std::string>());
     scan.scale = json.at("scale").get<double>();
     scan.centre = vec3_from(json.at("centre_mm"));
@@ -70,20 +72,20 @@ ScanSource scan_from(const Json& json) {
     return scan;
 }
 
-Json to_json(const WrittenJob& job) {
-    return {{"piece", job.piece}, {"sha256", job.sha256}, {"project_id", job.project_id}};
+Json json_of(const WrittenJob& job) {
+    return {{"piece", job.piece}, {"sha256", to_hex(job.sha256)}, {"project_id", job.project_id}};
 }
 
 std::vector<WrittenJob> jobs_from(const Json& json) {
     std::vector<WrittenJob> jobs;
     for (const Json& j : json) {
-        jobs.push_back({j.at("piece").get<std::string>(), j.at("sha256").get<std::string>(),
-                        j.at("project_id").get<std::string>()});
+        jobs.push_back(
+            {j.at("piece").get<std::string>(), sha256_from(j.at("sha256")), j.at("project_id").get<std::string>()});
     }
     return jobs;
 }
 
-Json to_json(const Decision& decision) {
+Json json_of(const Decision& decision) {
     if (const Cut* cut = std::get_if<Cut>(&decision)) return {{"cut", json_of(*cut)}};
     if (const auto* change = std::get_if<WeightsChange>(&decision)) return {{"weights", json_of(change->weights)}};
     if (const auto* discard = std::get_if<Discard>(&decision)) {
@@ -103,11 +105,11 @@ Decision decision_from(const Json& json) {
     throw InputError(InputFault::config, "a decision is neither a cut nor a discarded piece nor weights nor a reset");
 }
 
-Json to_json(const BeamState::Branch& branch) {
+Json json_of(const BeamState::Branch& branch) {
     return {{"last", branch.last}, {"passed_over", branch.passed_over}};
 }
 
-// The root, or one of the cuts before it.
+// 0 for the root, else the number of a cut. Throws InputError (config) for a cut that is not there.
 std::size_t place_from(const Json& json, std::size_t cuts) {
     const auto place = json.get<std::size_t>();
     if (place > cuts) throw InputError(InputFault::config, "a cut of its beam follows one that is not there");
@@ -118,28 +120,29 @@ BeamState::Branch branch_from(const Json& json, std::size_t cuts) {
     return {place_from(json.at("last"), cuts), json.at("passed_over").get<std::vector<std::string>>()};
 }
 
-// The search may give up only cuts that it made itself: after the root nothing but cuts was decided.
+// Whether a search may go on with the beam: after its root nothing but cuts was decided, and they are those of its
+// first branch.
 bool belongs_to(const BeamState& beam, const History& history) {
-    const std::vector<Cut> standing = standing_cuts(history);
-    if (beam.branches.empty() || beam.from > standing.size()) return false;
-    for (std::size_t i = 0; i < standing.size() - beam.from; ++i) {
-        if (!std::holds_alternative<Cut>(history.decisions[history.standing - 1 - i])) return false;
+    const std::vector<Cut> committed = committed_cuts(history);
+    if (beam.branches.empty() || beam.from > committed.size()) return false;
+    for (std::size_t i = 0; i < committed.size() - beam.from; ++i) {
+        if (!std::holds_alternative<Cut>(history.decisions[history.committed - 1 - i])) return false;
     }
     const std::vector<Cut> best = cuts_of(beam, beam.branches.front());
-    return std::equal(best.begin(), best.end(), standing.begin() + static_cast<std::ptrdiff_t>(beam.from),
-                      standing.end());
+    return std::equal(best.begin(), best.end(), committed.begin() + static_cast<std::ptrdiff_t>(beam.from),
+                      committed.end());
 }
 
 template <typename Value>
 Json list_of(const std::vector<Value>& values) {
     Json list = Json::array();
-    for (const Value& value : values) list.push_back(to_json(value));
+    for (const Value& value : values) list.push_back(json_of(value));
     return list;
 }
 
-Json to_json(const History& history) {
+Json json_of(const History& history) {
     return {{"weights_at_start", json_of(history.weights_at_start)},
-            {"standing", history.standing},
+            {"committed", history.committed},
             {"decisions", list_of(history.decisions)}};
 }
 
@@ -147,18 +150,18 @@ History history_from(const Json& json) {
     History history;
     history.weights_at_start = weights_from(json.at("weights_at_start"));
     for (const Json& decision : json.at("decisions")) history.decisions.push_back(decision_from(decision));
-    history.standing = json.at("standing").get<std::size_t>();
-    if (history.standing > history.decisions.size()) {
-        throw InputError(InputFault::config, "more decisions stand than there are");
+    history.committed = json.at("committed").get<std::size_t>();
+    if (history.committed > history.decisions.size()) {
+        throw InputError(InputFault::config, "more decisions are in force than there are");
     }
     return history;
 }
 
-Json to_json(const BeamState& beam) {
+Json json_of(const BeamState& beam) {
     Json cuts = Json::array();
     for (const BeamState::Node& node : beam.cuts) cuts.push_back({{"after", node.after}, {"cut", json_of(node.cut)}});
     Json json{{"from", beam.from}, {"cuts", cuts}, {"branches", list_of(beam.branches)}};
-    if (beam.stuck) json["stuck"] = to_json(*beam.stuck);
+    if (beam.stuck) json["stuck"] = json_of(*beam.stuck);
     return json;
 }
 
@@ -170,7 +173,7 @@ BeamState beam_from(const Json& json, const History& history) {
     }
     for (const Json& branch : json.at("branches")) beam.branches.push_back(branch_from(branch, beam.cuts.size()));
     if (json.contains("stuck")) beam.stuck = branch_from(json.at("stuck"), beam.cuts.size());
-    if (!belongs_to(beam, history)) throw InputError(InputFault::config, "its beam is not of the cuts that stand");
+    if (!belongs_to(beam, history)) throw InputError(InputFault::config, "its beam is not of the cuts in force");
     return beam;
 }
 
@@ -182,13 +185,13 @@ Project from_json(const Json& json) {
     project.scan = scan_from(json.at("scan"));
     project.preset = json.at("preset").get<std::string>();
     project.settings = settings_from(json.at("settings"));
-    project.fragments = value_of(fragment_words, json.at("fragment_choice"));
-    project.stage = value_of(stage_words, json.at("stage"));
+    project.fragments = value_of_name(fragment_names, json.at("fragment_choice"));
+    project.stage = value_of_name(stage_names, json.at("stage"));
     project.ended_because = json.at("ended_because").get<std::string>();
     project.end_reason = end_reason_of(project.ended_because);
     project.history = history_from(json.at("history"));
-    project.cuts = standing_cuts(project.history);
-    project.discards = standing_discards(project.history);
+    project.cuts = committed_cuts(project.history);
+    project.discards = committed_discards(project.history);
     if (json.contains("discarded")) project.discarded = solids_from(json.at("discarded"));
     if (project.discarded.size() != project.discards.size()) {
         throw InputError(InputFault::config, "its list of discarded pieces is not that of its decisions");
@@ -205,19 +208,19 @@ Project from_json(const Json& json) {
 
 std::string to_json(const Project& project) {
     Json json{{"schema", schema},
-              {"scan", to_json(project.scan)},
+              {"scan", json_of(project.scan)},
               {"preset", project.preset},
               {"settings", json_of(project.settings)},
-              {"fragment_choice", word_of(fragment_words, project.fragments)},
-              {"stage", word_of(stage_words, project.stage)},
+              {"fragment_choice", name_of_value(fragment_names, project.fragments)},
+              {"stage", name_of_value(stage_names, project.stage)},
               {"ended_because", project.ended_because},
-              {"history", to_json(project.history)},
+              {"history", json_of(project.history)},
               {"pieces", list_of(project.pieces)},
               {"fragments", list_of(project.fragment_list)},
               {"discarded", list_of(project.discarded)},
               {"warnings", project.warnings},
               {"jobs", list_of(project.jobs)}};
-    if (project.beam) json["beam"] = to_json(*project.beam);
+    if (project.beam) json["beam"] = json_of(*project.beam);
     return text_of(json) + "\n";
 }
 
@@ -227,7 +230,7 @@ Project project_from_json(std::string_view text, const std::string& name) {
     } catch (const Json::parse_error& e) {
         throw InputError(InputFault::config, name + " is not JSON from byte " + std::to_string(e.byte) + " on",
                          "restore the file, or prepare the scan again");
-    } catch (const Json::exception&) {  // its own words speak of the library
+    } catch (const Json::exception&) {  // its message is about the library
         throw InputError(InputFault::config,
                          name + " is not a project of this version: a value is missing, or is not of the right kind",
                          "restore the file, or prepare the scan again");

@@ -1,4 +1,6 @@
-// The text of project.json, schema qchopper-project-3; others are refused.
+// Writes and reads the text of project.json, schema qchopper-project-3 (docs/project-folder.md); others are refused.
+//
+// A project that is written and read again is the same project (tests/app/project/project_test.cpp). O(cuts + pieces).
 
 #pragma once
 
@@ -11,7 +13,8 @@ namespace qchopper {
 
 std::string to_json(const Project& project);
 
-// Throws InputError (config); `name` is how messages call the file.
+// `name` is the name of the file in messages. Throws InputError (config) for text that is not JSON, a missing or wrong
+// value, and values that contradict each other.
 Project project_from_json(std::string_view text, const std::string& name);
 
 }  // namespace qchopper

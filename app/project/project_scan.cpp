@@ -1,3 +1,5 @@
+// The import is that of segment/import; the new project is filled field by field.
+
 #include "app/project/project_scan.h"
 
 #include "base/error.h"
@@ -14,7 +16,7 @@ namespace fs = std::filesystem;
 void report_import(const fs::path& scan, const ImportedScan& imported, const Context& context) {
     const RepairReport& r = imported.report.repair;
     std::string line = scan.filename().string() + ": " + with_commas(imported.mesh.triangles.size()) + " faces, " +
-                       size_in_words(bounds(imported.mesh).size()) + ".";
+                       describe_size(bounds(imported.mesh).size()) + ".";
     if (r.holes_filled > 0) line += " " + with_commas(r.holes_filled) + " holes closed.";
     if (r.collapsed > 0) line += " " + with_commas(r.collapsed) + " collapsed faces dropped.";
     if (r.points_copied > 0) line += " " + with_commas(r.points_copied) + " non-manifold vertices split.";
@@ -46,7 +48,7 @@ ImportedScan import_project_scan(const Project& project, const Context& context)
     const ScanSource& s = project.scan;
     ImportedScan imported =
         import_scan(s.path, options_of(ProjectChoices{s.path, mm_per(s.unit), s.scale, s.repair}), context);
-    if (to_hex(imported.sha256) != s.sha256) {
+    if (imported.sha256 != s.sha256) {
         throw InputError(InputFault::mesh, s.path.string() + " is not the scan that the project was made from",
                          "put that scan back, or prepare this one as a new project");
     }
@@ -61,13 +63,14 @@ Project new_project(const ProjectChoices& choices, const ImportedScan& imported)
     scan.unit = unit_of(imported.mm_per_unit);
     scan.repair = choices.repair;
     scan.scale = choices.scale;
-    scan.sha256 = to_hex(imported.sha256);
+    scan.sha256 = imported.sha256;
     scan.centre = imported.centre;
     scan.faces = imported.mesh.triangles.size();
     scan.volume_mm3 = volume_mm3(imported.mesh);
     scan.warnings = imported.report.warnings;
     project.preset = choices.preset;
     project.settings = choices.settings;
+    project.settings.objectives.weights = choices.weights.over(choices.settings.objectives.weights);
     project.settings.objectives.fragment_volume_mm3 =
         choices.fragment_volume_mm3.value_or(fragment_share * scan.volume_mm3);
     project.history.weights_at_start = project.settings.objectives.weights;

@@ -1,4 +1,4 @@
-// The scan of a project: taken in for a new one, and taken in again exactly as the project says.
+// Imports the scan of a project: for a new one, or again with the unit, scale and repair that the project records.
 
 #pragma once
 
@@ -11,25 +11,33 @@
 
 namespace qchopper {
 
-// What a new project is told.
+// What an operator chooses for a new project.
 struct ProjectChoices {
     std::filesystem::path scan;
-    std::optional<double> mm_per_unit;  // of the scan; nothing: what its file says
+    std::optional<double> mm_per_unit;  // of the scan; nothing: as in its file
     double scale = 1;
     RepairChoices repair = {};
-    std::string preset = {};                         // the name of the settings; empty: none
-    SearchSettings settings = {};                    // all but the volume below which solids are no pieces
-    std::optional<double> fragment_volume_mm3 = {};  // that one; nothing: a share of the scan's volume
+    std::string preset = {};       // the name of the settings; empty: none
+    SearchSettings settings = {};  // all but the volume below which solids are no pieces
+    GivenWeights weights = {};     // in place of those of the settings
+    std::optional<double> fragment_volume_mm3 =
+        {};  // solids below are no pieces; nothing: a share of the scan's volume
     FragmentChoice fragments = FragmentChoice::keep;
+    // Of the folder (make_project.h).
+    std::filesystem::path folder = {};                    // NAME.qch, to be made
+    std::optional<std::filesystem::path> cell_file = {};  // to be copied; nothing: no cell yet
+    std::optional<std::filesystem::path> plan = {};       // whose cuts are to be made
 };
 
-// A message says what was done to the scan. Throws what import_scan throws, and InputError (use) for standard input.
+// Reports in a message what was done to the scan. Throws what import_scan throws, and InputError (use) for standard
+// input.
 ImportedScan import_project_scan(const ProjectChoices& choices, const Context& context);
 
-// The project of a scan before its first cut.
-Project new_project(const ProjectChoices& choices, const ImportedScan& imported);
-
-// Likewise; throws InputError (mesh) if the file is another scan by now.
+// Imports the scan of an existing project. Throws in addition InputError (mesh) if the file's SHA-256 is not the one in
+// the project.
 ImportedScan import_project_scan(const Project& project, const Context& context);
+
+// The project of an imported scan without a decision; its pieces are not listed yet (replay.h, record). O(faces).
+Project new_project(const ProjectChoices& choices, const ImportedScan& imported);
 
 }  // namespace qchopper

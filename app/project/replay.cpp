@@ -1,3 +1,5 @@
+// Planes are exact and applied as they stand, never nudged, which gives the same bits.
+
 #include "app/project/replay.h"
 
 #include <cassert>
@@ -10,7 +12,7 @@ namespace qchopper {
 namespace {
 
 std::int32_t made_by(const Piece& piece) {
-    return piece.bounds.empty() ? 0 : piece.bounds.back().cut;
+    return piece.half_spaces.empty() ? 0 : piece.half_spaces.back().cut;
 }
 
 SolidRecord record_of(const Piece& piece) {
@@ -32,12 +34,12 @@ void discard_now(Segmentation& segmentation, const std::vector<Discard>& discard
 
 void record(Project& project, const Segmentation& segmentation) {
     follow(project.history, segmentation.cuts);
-    for (std::size_t i = standing_discards(project.history).size(); i < segmentation.discarded.size(); ++i) {
+    for (std::size_t i = committed_discards(project.history).size(); i < segmentation.discarded.size(); ++i) {
         assert(segmentation.discarded[i].after == segmentation.cuts.size());
         decide(project.history, Discard{segmentation.discarded[i].piece.name, segmentation.cuts.size()});
     }
     project.cuts = segmentation.cuts;
-    project.discards = standing_discards(project.history);
+    project.discards = committed_discards(project.history);
     project.pieces.clear();
     for (const Piece& piece : segmentation.pieces) project.pieces.push_back(record_of(piece));
     project.discarded.clear();
@@ -70,13 +72,20 @@ Segmentation replay(const Project& project, const TriangleMesh& scan, std::size_
     return segmentation;
 }
 
-BeamProgress beam_progress(const Project& project, const Segmentation& standing,
+std::optional<std::size_t> piece_named(const Segmentation& segmentation, const std::string& name) {
+    for (std::size_t p = 0; p < segmentation.pieces.size(); ++p) {
+        if (segmentation.pieces[p].name == name) return p;
+    }
+    return std::nullopt;
+}
+
+BeamProgress beam_progress(const Project& project, const Segmentation& committed,
                            const std::function<const TriangleMesh&()>& scan) {
     BeamProgress progress;
     if (!project.beam || project.settings.beam <= 1) return progress;
     progress.state = *project.beam;
-    const bool has_root = progress.state.from == standing.cuts.size();
-    progress.root = has_root ? standing : replay(project, scan(), progress.state.from);
+    const bool has_root = progress.state.from == committed.cuts.size();
+    progress.root = has_root ? committed : replay(project, scan(), progress.state.from);
     return progress;
 }
 

@@ -1,28 +1,37 @@
-// Between a project and the segmentation that its decisions make.
+// Converts between a project and the segmentation that its decisions make.
 //
-// Scan and decisions give the same pieces again, bit for bit (tests/app/project/project_test.cpp).
+// Scan and decisions give the same pieces again, bit for bit (tests/app/project/project_test.cpp). `scan` is always the
+// imported scan of the project; lengths in mm about its centre.
 
 #pragma once
 
 #include <cstddef>
 #include <functional>
+#include <optional>
+#include <string>
 
 #include "app/project/project.h"
 
 namespace qchopper {
 
-// Copies what the segmentation says now into the project: cuts, then discarded pieces, that the history does not have
-// yet are decided, cuts at its end that the segmentation has no more are given up (decisions.h, follow).
+// Copies the state of the segmentation into the project. Cuts, then discarded pieces, that the history does not have
+// are added to it; cuts at its end that the segmentation does not have are dropped (decisions.h, follow). Precondition:
+// discarded pieces that are new to the history were discarded after the last cut. O(faces).
 void record(Project& project, const Segmentation& segmentation);
 
-// Applies the first `cuts` of the cuts that stand to the scan exactly as they were made, and takes out what was
-// discarded before the next. Throws InputError (config) if a cut misses or a piece is not there.
+// Applies the first `cuts` of the cuts in force to the scan exactly as they were made, and discards what was discarded
+// before the next cut. Precondition: cuts <= project.cuts.size(). Throws InputError (config) if a cut misses or a piece
+// does not exist. O(cuts) times the cost of a cut.
 Segmentation replay(const Project& project, const TriangleMesh& scan, std::size_t cuts);
 // All of them.
 Segmentation replay(const Project& project, const TriangleMesh& scan);
 
-// Where the search of a project goes on: at its beam if it has one. `standing` is what its cuts make.
-BeamProgress beam_progress(const Project& project, const Segmentation& standing,
+// The index of a piece in segmentation.pieces; nothing if no piece has that name. O(pieces).
+std::optional<std::size_t> piece_named(const Segmentation& segmentation, const std::string& name);
+
+// Where the search of a project goes on: at its beam if it has one and is wider than 1. `committed` is the segmentation
+// of its cuts; `scan` is called only if the root of the beam has fewer.
+BeamProgress beam_progress(const Project& project, const Segmentation& committed,
                            const std::function<const TriangleMesh&()>& scan);
 
 }  // namespace qchopper

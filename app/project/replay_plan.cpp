@@ -1,3 +1,6 @@
+// For each cut: find the leaf, make the cut on a copy, compare the pieces, then keep the copy. O(cuts) times the cost
+// of a cut and of one evaluation of its plane.
+
 #include "app/project/replay_plan.h"
 
 #include <algorithm>
@@ -6,6 +9,7 @@
 #include <limits>
 #include <numeric>
 
+#include "app/project/replay.h"
 #include "base/text.h"
 #include "segment/cut/nudge.h"
 #include "segment/mesh/containment.h"
@@ -25,8 +29,8 @@ double relative(double a, double b) {
     return std::abs(a - b) / std::max(std::abs(b), std::numeric_limits<double>::min());
 }
 
-// Does a vertex lie numerically on the plane, so that it has to be nudged? An offset that was nudged once keeps 32 ulp
-// from every vertex.
+// Whether a vertex lies numerically on the plane, so that it has to be nudged. An offset that was nudged once is 32 ulp
+// away from every vertex.
 bool touches_vertex(const TriangleMesh& mesh, const Plane& plane) {
     const Extent range = extent(mesh, plane.normal);
     const double largest = std::max(std::abs(range.low), std::abs(range.high));
@@ -37,9 +41,9 @@ bool touches_vertex(const TriangleMesh& mesh, const Plane& plane) {
 
 class Replay {
  public:
-    Replay(const Plan& plan, const ScanSource& source, const SearchSettings& settings, EvaluationCache& book,
+    Replay(const Plan& plan, const ScanSource& source, const SearchSettings& settings, EvaluationCache& cache,
            const Context& context, const PlanFit& fit)
-        : plan_(plan), source_(source), settings_(settings), book_(book), context_(context), fit_(fit) {}
+        : plan_(plan), source_(source), settings_(settings), cache_(cache), context_(context), fit_(fit) {}
 
     PlanReplay run(Segmentation& segmentation, const std::function<void(const Segmentation&)>& on_decision) {
         result_.applies = discard_here(segmentation, on_decision);
@@ -75,7 +79,7 @@ class Replay {
         return true;
     }
 
-    // Makes one cut; what hinders it, in words.
+    // Makes one cut. Returns why it cannot be made; empty: it is made.
     std::string make(const PlanCut& planned, Segmentation& segmentation) {
         std::string why;
         const std::optional<std::size_t> found = find(planned, segmentation, why);
@@ -84,9 +88,9 @@ class Replay {
         const std::optional<Plane> plane = plane_for(planned, piece);
         if (!plane) return "its plane misses the piece";
         const Candidate candidate{*plane, wanted_offset(planned), -1, -1};
-        const std::optional<Ranked> ranked = rank_plane(segmentation, *found, candidate, settings_, book_, context_);
+        const std::optional<Ranked> ranked = rank_plane(segmentation, *found, candidate, settings_, cache_, context_);
         if (!ranked) {
-            return book_.evaluation_of(piece, candidate, context_)
+            return cache_.evaluation_of(piece, candidate, context_)
                        ? "its plane leaves only fragments of the piece on one side"
                        : "its plane misses the piece";
         }
@@ -99,7 +103,7 @@ class Replay {
         return why;
     }
 
-    // On the plan's own scan the centres are one, and the offset keeps its bits.
+    // On the plan's own scan the centres are equal, and the offset keeps its bits.
     double wanted_offset(const PlanCut& planned) const {
         return planned.from_centre + height(planned.plane.normal, plan_.scan.centre - source_.centre);
     }
@@ -122,8 +126,8 @@ class Replay {
         for (std::size_t p = 0; p < segmentation.pieces.size(); ++p) {
             const Piece& piece = segmentation.pieces[p];
             const bool is_there =
-                std::equal(piece.bounds.begin(), piece.bounds.end(), planned.path.begin(), planned.path.end(),
-                           [](const Bound& b, const PathSide& s) { return b.cut == s.cut && b.above == s.above; });
+                std::equal(piece.half_spaces.begin(), piece.half_spaces.end(), planned.path.begin(), planned.path.end(),
+                           [](const HalfSpace& b, const PathSide& s) { return b.cut == s.cut && b.above == s.above; });
             if (!is_there || !is_inside(*piece.mesh, inside)) continue;
             const double off = share_off(volume_mm3(*piece.mesh), planned.volume_mm3);
             if (off <= fit_.most_volume_off) return p;
@@ -134,18 +138,18 @@ class Replay {
         return std::nullopt;
     }
 
-    // How far a piece's share of the whole is from that in the plan.
+    // Relative difference of a piece's share of the whole from that in the plan.
     double share_off(double volume, double planned_volume) const {
         return relative(volume / source_.volume_mm3, planned_volume / plan_.scan.volume_mm3);
     }
 
+    // Compares the pieces of the last cut with those in the plan. Returns what differs; empty: nothing.
     std::string compare(const PlanCut& planned, const Segmentation& after) {
         std::vector<double> made;
         for (const std::string& name : after.cuts.back().pieces) {
-            const auto piece =
-                std::find_if(after.pieces.begin(), after.pieces.end(), [&](const Piece& p) { return p.name == name; });
-            assert(piece != after.pieces.end());
-            made.push_back(volume_mm3(*piece->mesh));
+            const std::optional<std::size_t> piece = piece_named(after, name);
+            assert(piece);
+            made.push_back(volume_mm3(*after.pieces[*piece].mesh));
         }
         std::sort(made.rbegin(), made.rend());
         if (made.empty()) return "it leaves only fragments";
@@ -167,7 +171,7 @@ class Replay {
     const Plan& plan_;
     const ScanSource& source_;
     const SearchSettings& settings_;
-    EvaluationCache& book_;
+    EvaluationCache& cache_;
     const Context& context_;
     const PlanFit& fit_;
     PlanReplay result_;
@@ -196,10 +200,10 @@ std::string misfit(const Plan& plan, const ScanSource& source, const TriangleMes
 }
 
 PlanReplay replay_plan(const Plan& plan, const ScanSource& source, Segmentation& segmentation,
-                       const SearchSettings& settings, EvaluationCache& book,
+                       const SearchSettings& settings, EvaluationCache& cache,
                        const std::function<void(const Segmentation&)>& on_decision, const Context& context,
                        const PlanFit& fit) {
-    return Replay(plan, source, settings, book, context, fit).run(segmentation, on_decision);
+    return Replay(plan, source, settings, cache, context, fit).run(segmentation, on_decision);
 }
 
 }  // namespace qchopper

@@ -1,4 +1,6 @@
-// How pieces would be carved in a cell, each found out once; asked by the stop rule and again for the jobs.
+// How pieces are carved in a cell. Each piece is computed once, for the stop rule and again for the jobs.
+//
+// Lengths in mm. Not for several threads at once.
 
 #pragma once
 
@@ -12,11 +14,10 @@
 
 namespace qchopper {
 
-// How a piece is carved.
 struct Carving {
     Setup setup;
     EnvelopeReport envelope;
-    std::shared_ptr<const TriangleMesh> keeps_alive;
+    std::shared_ptr<const TriangleMesh> mesh;  // of the piece; while it is held, its address is not used again
 };
 
 class Setups {
@@ -25,19 +26,20 @@ class Setups {
 
     const Cell& cell() const { return cell_; }
 
+    // Valid while this object lives. Pieces are identified by their mesh.
     const Carving& of(const Piece& piece) {
-        const auto [it, is_new] = known_.try_emplace(piece.mesh.get());
+        const auto [it, is_new] = carvings_.try_emplace(piece.mesh.get());
         if (is_new) {
             it->second.setup = choose_setup(piece, cell_);
             it->second.envelope = check_envelope(it->second.setup, cell_);
-            it->second.keeps_alive = piece.mesh;
+            it->second.mesh = piece.mesh;
         }
         return it->second;
     }
 
  private:
     Cell cell_;
-    std::map<const TriangleMesh*, Carving> known_;
+    std::map<const TriangleMesh*, Carving> carvings_;
 };
 
 }  // namespace qchopper

@@ -1,3 +1,5 @@
+// Quoting by the rules of POSIX: nothing is special in single quotes, and a single quote is written outside of them.
+
 #include "app/project/shell_word.h"
 
 #include <algorithm>
@@ -15,7 +17,7 @@ bool is_plain(char c) {
 
 std::string shell_word(const std::filesystem::path& path) {
     const std::string name = path.string();
-    std::string text = name.starts_with('-') ? "./" + name : name;  // else it would be taken for an option
+    std::string text = name.starts_with('-') ? "./" + name : name;  // else it would be read as an option
     if (!text.empty() && std::all_of(text.begin(), text.end(), is_plain)) return text;
     std::string quoted = "'";
     for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);

@@ -1,4 +1,4 @@
-// A name as it is typed in a shell, for the commands that are printed for the operator.
+// Quotes a path for a POSIX shell, for the commands that are printed for the operator.
 
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace qchopper {
 
-// The text itself where no shell would read it otherwise, else quoted. Typed in a POSIX shell it is one word again, and
-// no option (tests/app/project/shell_word_test.cpp).
+// The path itself if it has letters, digits and harmless marks only, else in single quotes. The shell reads it as one
+// word, and no program as an option (tests/app/project/shell_word_test.cpp). O(characters).
 std::string shell_word(const std::filesystem::path& path);
 
 }  // namespace qchopper

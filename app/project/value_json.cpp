@@ -1,16 +1,18 @@
+// Field by field, in the order of the structs.
+
 #include "app/project/value_json.h"
 
 #include <nlohmann/json.hpp>
 
-#include "app/project/enum_words.h"
+#include "app/project/enum_names.h"
 
 namespace qchopper {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr EnumWord<Stop> stop_words[] = {{Stop::any, "any"}, {Stop::all, "all"}};
-constexpr EnumWord<FragilityForm> fragility_words[] = {{FragilityForm::thinness, "thinness"},
+constexpr EnumName<Stop> stop_names[] = {{Stop::any, "any"}, {Stop::all, "all"}};
+constexpr EnumName<FragilityForm> fragility_names[] = {{FragilityForm::thinness, "thinness"},
                                                        {FragilityForm::thesis, "thesis"}};
 
 }  // namespace
@@ -65,7 +67,7 @@ SolidRecord solid_from(const Json& json) {
 
 Json json_of(const SearchSettings& s) {
     const Objectives& o = s.objectives;
-    Json stop{{"combine", word_of(stop_words, s.stop.combine)},
+    Json stop{{"combine", name_of_value(stop_names, s.stop.combine)},
               {"fits_cell", s.stop.fits_cell},
               {"max_cuts", s.stop.max_cuts}};
     if (s.stop.max_faces) stop["max_faces"] = *s.stop.max_faces;
@@ -73,7 +75,7 @@ Json json_of(const SearchSettings& s) {
     if (s.stop.max_obb) stop["max_obb_mm"] = json_of(*s.stop.max_obb);
     return {{"weights", json_of(o.weights)},
             {"face_ratio_threshold", o.face_ratio_threshold},
-            {"fragility_form", word_of(fragility_words, o.fragility_form)},
+            {"fragility_form", name_of_value(fragility_names, o.fragility_form)},
             {"fragility_distance_mm", o.fragility_distance},
             {"undercut_by_area", o.undercut_by_area},
             {"fragment_volume_mm3", o.fragment_volume_mm3},
@@ -88,7 +90,7 @@ SearchSettings settings_from(const Json& json) {
     SearchSettings s;
     s.objectives.weights = weights_from(json.at("weights"));
     s.objectives.face_ratio_threshold = json.at("face_ratio_threshold").get<double>();
-    s.objectives.fragility_form = value_of(fragility_words, json.at("fragility_form"));
+    s.objectives.fragility_form = value_of_name(fragility_names, json.at("fragility_form"));
     s.objectives.fragility_distance = json.at("fragility_distance_mm").get<double>();
     s.objectives.undercut_by_area = json.at("undercut_by_area").get<bool>();
     s.objectives.fragment_volume_mm3 = json.at("fragment_volume_mm3").get<double>();
@@ -97,7 +99,7 @@ SearchSettings settings_from(const Json& json) {
     s.beam = json.at("beam").get<std::size_t>();
     s.near = json.at("near").get<double>();
     const Json& stop = json.at("stop");
-    s.stop.combine = value_of(stop_words, stop.at("combine"));
+    s.stop.combine = value_of_name(stop_names, stop.at("combine"));
     s.stop.fits_cell = stop.at("fits_cell").get<bool>();
     s.stop.max_cuts = stop.at("max_cuts").get<int>();
     if (stop.contains("max_faces")) s.stop.max_faces = stop.at("max_faces").get<std::size_t>();
@@ -107,15 +109,16 @@ SearchSettings settings_from(const Json& json) {
 }
 
 Json json_of(const Ranked& r) {
-    return {{"normal", json_of(r.plane.normal)}, {"offset_mm", r.plane.offset}, {"wanted_offset_mm", r.wanted_offset},
-            {"normal_number", r.normal},         {"offset_number", r.offset},   {"terms", json_of(r.terms)}};
+    return {{"normal", json_of(r.plane.normal)},   {"offset_mm", r.plane.offset},
+            {"wanted_offset_mm", r.wanted_offset}, {"normal_index", r.normal_index},
+            {"offset_index", r.offset_index},      {"terms", json_of(r.terms)}};
 }
 
 Ranked ranked_from(const Json& json) {
     return {{vec3_from(json.at("normal")), json.at("offset_mm").get<double>()},
             json.at("wanted_offset_mm").get<double>(),
-            json.at("normal_number").get<int>(),
-            json.at("offset_number").get<int>(),
+            json.at("normal_index").get<int>(),
+            json.at("offset_index").get<int>(),
             terms_from(json.at("terms"))};
 }
 

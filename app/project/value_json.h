@@ -1,7 +1,8 @@
-// The JSON of the values that project.json and the documents of the commands have in common.
+// Converts values to JSON and back, for project.json and the documents of the commands.
 //
-// Keys are those of docs/project-folder.md (VECTOR, WEIGHTS, TERMS, SOLID, SETTINGS, CUT). The readers
-// throw nlohmann's exceptions, and InputError (config) for a word that is not known.
+// Keys are those of docs/project-folder.md (VECTOR, WEIGHTS, TERMS, SOLID, SETTINGS, CUT). The readers throw
+// nlohmann::json::exception for a missing or wrong value, and InputError (config) for an unknown name of an
+// enumeration.
 
 #pragma once
 
@@ -26,7 +27,7 @@ SolidRecord solid_from(const nlohmann::ordered_json& json);
 SearchSettings settings_from(const nlohmann::ordered_json& json);
 Cut cut_from(const nlohmann::ordered_json& json);
 
-// A document as it is written: one space a level, bytes that are no UTF-8 replaced.
+// The text of a document, indented by one space a level; bytes that are not UTF-8 are replaced. No line end.
 std::string text_of(const nlohmann::ordered_json& document);
 
 }  // namespace qchopper

@@ -1,6 +1,10 @@
+// Two passes: the width of each column, then the lines.
+
 #include "app/report/columns.h"
 
 #include <algorithm>
+
+#include "base/text.h"
 
 namespace qchopper {
 
@@ -20,6 +24,10 @@ std::vector<std::string> columns(const std::vector<std::vector<std::string>>& ro
         lines.push_back(line);
     }
     return lines;
+}
+
+std::string in_brackets(Vec3 v, int decimals) {
+    return "(" + fixed(v.x, decimals) + ", " + fixed(v.y, decimals) + ", " + fixed(v.z, decimals) + ")";
 }
 
 }  // namespace qchopper

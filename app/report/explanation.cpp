@@ -1,12 +1,15 @@
+// Text and JSON from a value; the planes are ranked already. O(candidates).
+
 #include "app/report/explanation.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/project/project_lines.h"
 #include "app/project/value_json.h"
 #include "app/report/columns.h"
+#include "app/report/objective_terms.h"
 #include "app/report/segment_report.h"
 #include "base/text.h"
 
@@ -17,32 +20,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t shown = 10;
 
-struct Term {
-    const char* name;
-    double Terms::*value;
-    double Weights::*weight;
-};
-constexpr std::array<Term, 4> all_terms{{{"face ratio", &Terms::face_ratio, &Weights::face_ratio},
-                                         {"fragility", &Terms::fragility, &Weights::fragility},
-                                         {"piece count", &Terms::piece_count, &Weights::piece_count},
-                                         {"undercut", &Terms::undercut, &Weights::undercut}}};
-
-// "10", "0.5"
-std::string short_number(double value) {
-    std::string text = fixed(value, 3);
-    while (text.back() == '0') text.pop_back();
-    if (text.back() == '.') text.pop_back();
-    return text;
-}
-
-std::string of_normal(Vec3 n) {
-    return "(" + fixed(n.x, 3) + ", " + fixed(n.y, 3) + ", " + fixed(n.z, 3) + ")";
-}
-
 // Where one plane is better or worse than another, in what is added to the total.
 std::string differences(const Terms& a, const Terms& b, const Weights& weights) {
     std::string text;
-    for (const Term& term : all_terms) {
+    for (const ObjectiveTerm& term : objective_terms) {
         const double more = weights.*term.weight * (b.*term.value - a.*term.value);
         if (std::abs(more) < 0.0005) continue;
         text += (text.empty() ? "" : ", ") + std::string(term.name) + " " + (more > 0 ? "+" : "") + fixed(more, 3);
@@ -53,8 +34,8 @@ std::string differences(const Terms& a, const Terms& b, const Weights& weights) 
 Json to_json(const Ranked& r) {
     return {{"normal", json_of(r.plane.normal)},
             {"offset_mm", r.plane.offset},
-            {"normal_number", r.normal},
-            {"offset_number", r.offset},
+            {"normal_index", r.normal_index},
+            {"offset_index", r.offset_index},
             {"terms", json_of(r.terms)}};
 }
 
@@ -62,13 +43,13 @@ Json to_json(const Ranked& r) {
 std::vector<std::vector<std::string>> table(const Explanation& e) {
     const Weights& w = e.objectives.weights;
     std::vector<std::vector<std::string>> rows{{"", "place", "normal", "offset mm", "total"}};
-    for (const Term& term : all_terms) {
-        rows[0].push_back(std::string(term.name) + " x " + short_number(w.*term.weight));
+    for (const ObjectiveTerm& term : objective_terms) {
+        rows[0].push_back(std::string(term.name) + " x " + describe_weight(w.*term.weight));
     }
     const auto add = [&](const std::string& place, const Ranked& r, bool is_chosen) {
-        std::vector<std::string> row{is_chosen ? "->" : "", place, of_normal(r.plane.normal), fixed(r.plane.offset, 3),
-                                     fixed(r.terms.total, 4)};
-        for (const Term& term : all_terms) row.push_back(fixed(r.terms.*term.value, 4));
+        std::vector<std::string> row{is_chosen ? "->" : "", place, in_brackets(r.plane.normal, 3),
+                                     fixed(r.plane.offset, 3), fixed(r.terms.total, 4)};
+        for (const ObjectiveTerm& term : objective_terms) row.push_back(fixed(r.terms.*term.value, 4));
         rows.push_back(row);
     };
     for (std::size_t i = 0; i < std::min(e.ranked.size(), shown); ++i) {

@@ -1,4 +1,4 @@
-// Why a cut lies where it lies, as sentences, a table, a plot and a document.
+// Explains a cut by the candidates that were ranked for it: sentences, a table, a plot and a document. Offsets in mm.
 
 #pragma once
 
@@ -10,18 +10,19 @@
 
 namespace qchopper {
 
-// In words, ending in a full stop: how the chosen plane compares with the next or with the best.
+// A sentence that compares the chosen plane with the next or with the best.
 std::string verdict(const Explanation& explanation);
 
 // What the cut made, the verdict, and a table of the ten best planes, with the chosen one if it is not among them.
 std::vector<std::string> lines(const Explanation& explanation, const Project& project, const std::string& picture);
 
-// Of a cut whose objective values come out otherwise than when it was decided.
+// One if the total of the chosen plane differs from that at the decision by more than 1e-6, relative.
 std::vector<std::string> warnings(const Explanation& explanation);
 
+// `project` is its name in the title.
 Plot plot(const Explanation& explanation, const std::string& project);
 
-// The one JSON document, with what is discarded in the project; `picture` is where the plot was written.
+// The document qchopper-explain-2, with the discarded pieces of the project; `picture` is the path of the plot.
 std::string document(const Explanation& explanation, const Project& project, const std::string& picture);
 
 }  // namespace qchopper

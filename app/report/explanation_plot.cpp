@@ -1,9 +1,13 @@
+// Plots every objective value of every candidate over its offset: one column per normal, one row per value.
+// O(candidates) beside sorting them.
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
+#include "app/report/columns.h"
 #include "app/report/explanation.h"
+#include "app/report/objective_terms.h"
 #include "base/text.h"
 
 namespace qchopper {
@@ -11,19 +15,7 @@ namespace {
 
 constexpr double gap = std::numeric_limits<double>::quiet_NaN();
 
-struct TermRow {
-    const char* name;
-    double Terms::*value;
-    double Weights::*weight;
-    std::size_t colour;  // of the pieces' palette: those that are dark enough on white
-    bool is_bounded;     // else it is drawn for the better third, because the worst are thousands of times worse
-    double step;         // the least that its axis spans
-};
-constexpr std::array<TermRow, 4> term_rows{{{"Face ratio", &Terms::face_ratio, &Weights::face_ratio, 0, false, 0.01},
-                                            {"Fragility", &Terms::fragility, &Weights::fragility, 6, true, 0.01},
-                                            {"Piece count", &Terms::piece_count, &Weights::piece_count, 9, false, 1},
-                                            {"Undercut", &Terms::undercut, &Weights::undercut, 3, true, 0.01}}};
-constexpr std::size_t contest = 12;  // planes that make up the contest for the first place
+constexpr std::size_t best_count = 12;  // planes whose totals set the range of the second row
 constexpr std::size_t total_colour = 5;
 
 // The candidates of one normal, by offset.
@@ -33,20 +25,16 @@ struct Line {
     std::vector<Ranked> planes;
 };
 
-std::string of_normal(Vec3 n) {
-    return "(" + fixed(n.x, 3) + ", " + fixed(n.y, 3) + ", " + fixed(n.z, 3) + ")";
-}
-
 std::vector<Line> lines_of(const Explanation& e) {
     std::vector<Ranked> planes = e.ranked;
     std::sort(planes.begin(), planes.end(), [](const Ranked& a, const Ranked& b) {
-        return std::pair(a.normal, a.offset) < std::pair(b.normal, b.offset);
+        return std::pair(a.normal_index, a.offset_index) < std::pair(b.normal_index, b.offset_index);
     });
     std::vector<Line> lines;
     for (const Ranked& r : planes) {
-        if (lines.empty() || lines.back().planes.back().normal != r.normal) {
-            lines.push_back(
-                {"Normal " + std::to_string(r.normal + 1) + "  " + of_normal(r.plane.normal), r.plane.normal, {}});
+        if (lines.empty() || lines.back().planes.back().normal_index != r.normal_index) {
+            const std::string name = "Normal " + std::to_string(r.normal_index + 1) + "  ";
+            lines.push_back({name + in_brackets(r.plane.normal, 3), r.plane.normal, {}});
         }
         lines.back().planes.push_back(r);
     }
@@ -54,17 +42,17 @@ std::vector<Line> lines_of(const Explanation& e) {
         std::any_of(lines.begin(), lines.end(), [&](const Line& l) { return l.normal == e.chosen.plane.normal; });
     if (!has_line) {
         const Vec3 n = e.chosen.plane.normal;
-        lines.push_back({"Own normal  " + of_normal(n), n, e.beside});
+        lines.push_back({"Own normal  " + in_brackets(n, 3), n, e.along_own_normal});
     }
     return lines;
 }
 
-// Offsets that are no candidates leave gaps.
+// A gap stands for offsets between that are no candidates.
 std::vector<PlotPoint> curve(const Line& line, double Terms::*value, double factor) {
     std::vector<PlotPoint> points;
     for (std::size_t i = 0; i < line.planes.size(); ++i) {
         const Ranked& r = line.planes[i];
-        if (i > 0 && r.offset > line.planes[i - 1].offset + 1) {
+        if (i > 0 && r.offset_index > line.planes[i - 1].offset_index + 1) {
             points.push_back({(points.back().x + r.plane.offset) / 2, gap});
         }
         points.push_back({r.plane.offset, factor * r.terms.*value});
@@ -72,7 +60,7 @@ std::vector<PlotPoint> curve(const Line& line, double Terms::*value, double fact
     return points;
 }
 
-// The range of a value over the best of the planes and the chosen one, at least so wide.
+// The range of a value over the `best` first planes and the chosen one, at least `least` wide, with a margin.
 PlotRange range_of(const Explanation& e, std::size_t best, double Terms::*value, double factor, double least) {
     PlotRange range{factor * e.chosen.terms.*value, factor * e.chosen.terms.*value};
     for (std::size_t i = 0; i < std::min(best, e.ranked.size()); ++i) {
@@ -80,8 +68,8 @@ PlotRange range_of(const Explanation& e, std::size_t best, double Terms::*value,
         range.high = std::max(range.high, factor * e.ranked[i].terms.*value);
     }
     range.high = std::max(range.high, range.low + least);
-    const double room = 0.08 * (range.high - range.low);
-    return {range.low - room, range.high + room};
+    const double margin = 0.08 * (range.high - range.low);
+    return {range.low - margin, range.high + margin};
 }
 
 PlotRow row_of(const std::vector<Line>& lines, const std::string& title, std::size_t colour, double Terms::*value,
@@ -93,23 +81,16 @@ PlotRow row_of(const std::vector<Line>& lines, const std::string& title, std::si
     return row;
 }
 
-// Most planes cost many times the best: all of them on a logarithmic axis, then the contest for the first place.
+// Most planes cost many times the best: all of them on a logarithmic axis, then the best on a linear one.
 void add_totals(Plot& plot, const Explanation& e, const std::vector<Line>& lines) {
     PlotRow all = row_of(lines, "Total of all, logarithmic", total_colour, &Terms::total, 1);
     all.is_logarithmic = true;
     all.line = 2;
     plot.rows.push_back(all);
     PlotRow best = row_of(lines, "Total of the best", total_colour, &Terms::total, 1);
-    best.range = range_of(e, contest, &Terms::total, 1, 1e-3);
+    best.range = range_of(e, best_count, &Terms::total, 1, 1e-3);
     best.line = 2;
     plot.rows.push_back(best);
-}
-
-std::string weight_words(double weight) {
-    std::string text = fixed(weight, 3);
-    while (text.back() == '0') text.pop_back();
-    if (text.back() == '.') text.pop_back();
-    return text;
 }
 
 }  // namespace
@@ -123,25 +104,21 @@ Plot plot(const Explanation& e, const std::string& project) {
         "Below the totals: what each objective adds (value times weight). Lower is better. Arrows: beyond the frame."};
     for (const Line& line : lines) {
         PlotColumn column{line.title, "offset along the normal, mm", {}};
-        if (line.normal == e.chosen.plane.normal) {
-            column.marks.push_back(
-                {e.chosen.plane.offset,
-                 "chosen: " + fixed(e.chosen.plane.offset, 2) + " mm, total " + fixed(e.chosen.terms.total, 3), false});
-        }
-        if (!e.is_best() && !e.ranked.empty() && line.normal == e.ranked.front().plane.normal) {
-            const Ranked& best = e.ranked.front();
-            column.marks.push_back({best.plane.offset,
-                                    "best: " + fixed(best.plane.offset, 2) + " mm, total " + fixed(best.terms.total, 3),
-                                    true});
-        }
+        const auto mark = [&](const std::string& name, const Ranked& r, bool is_best) {
+            if (line.normal != r.plane.normal) return;
+            const std::string text = name + fixed(r.plane.offset, 2) + " mm, total " + fixed(r.terms.total, 3);
+            column.marks.push_back({r.plane.offset, text, is_best});
+        };
+        mark("chosen: ", e.chosen, false);
+        if (!e.is_best() && !e.ranked.empty()) mark("best: ", e.ranked.front(), true);
         plot.columns.push_back(std::move(column));
     }
     add_totals(plot, e, lines);
-    for (const TermRow& term : term_rows) {
+    for (const ObjectiveTerm& term : objective_terms) {
         const double weight = e.objectives.weights.*term.weight;
         const double factor = weight != 0 ? weight : 1;
         const std::string title =
-            std::string(term.name) + (weight != 0 ? " \u00d7 " : ", weight ") + weight_words(weight);
+            term.title + std::string(weight != 0 ? " \u00d7 " : ", weight ") + describe_weight(weight);
         PlotRow row = row_of(lines, title, term.colour, term.value, factor);
         const std::size_t best = term.is_bounded ? e.ranked.size() : e.ranked.size() / 3;
         row.range = range_of(e, best, term.value, factor, std::abs(factor) * term.step);

@@ -1,7 +1,10 @@
+// Text and JSON from a value.
+
 #include "app/report/export_report.h"
 
 #include <nlohmann/json.hpp>
 
+#include "app/project/project_lines.h"
 #include "app/project/value_json.h"
 #include "app/report/columns.h"
 #include "app/report/segment_report.h"

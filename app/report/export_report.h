@@ -1,4 +1,4 @@
-// What export tells at its end: warnings and a table for people, one JSON document for programs.
+// The result of export: warnings and a table for people, one JSON document for programs. O(pieces).
 
 #pragma once
 
@@ -10,10 +10,10 @@
 
 namespace qchopper {
 
-// Of pieces that keep more faces than were asked for.
+// One per piece that keeps more faces than request.max_faces.
 std::vector<std::string> warnings(const ExportedProject& exported, const ExportRequest& request);
 std::vector<std::string> lines(const ExportedProject& exported, const Project& project);
-// `folder`: the project as it was named.
+// The document qchopper-export-1 (docs/export.md); `folder` is the project folder as it was typed.
 std::string document(const ExportedProject& exported, const ExportRequest& request, const Project& project,
                      const std::filesystem::path& folder);
 

@@ -1,3 +1,5 @@
+// Text and JSON from a value.
+
 #include "app/report/hand_over_report.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What dry-run and dispatch tell at their end: a table for people, one JSON document for programs.
+// The result of dry-run and dispatch: a table for people, one JSON document for programs. O(jobs).
 
 #pragma once
 
@@ -11,13 +11,14 @@ namespace qchopper {
 
 struct HandOverReport {
     std::vector<HandedOver> handed;
-    std::size_t wanted = 0;  // so many jobs were to be handed over
-    bool is_simulated = false;
-    bool is_complete() const;
+    std::size_t wanted = 0;     // jobs to be handed over; handed has at most as many
+    bool is_simulated = false;  // the cell
+    bool is_complete() const;   // all jobs were handed over and ended complete
     bool is_cancelled() const;
 };
 
 std::vector<std::string> lines(const HandOverReport& report);
+// `schema`: "qchopper-dry-run-1" or "qchopper-dispatch-1".
 std::string document(const HandOverReport& report, const std::string& schema);
 
 }  // namespace qchopper

@@ -1,3 +1,5 @@
+// Text and JSON from a value. Lengths are in the unit of the file.
+
 #include "app/report/inspect_report.h"
 
 #include <nlohmann/json.hpp>
@@ -6,6 +8,7 @@
 #include <utility>
 
 #include "app/project/value_json.h"
+#include "app/report/columns.h"
 #include "base/text.h"
 #include "segment/import/import_scan.h"
 
@@ -14,14 +17,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* word_of(Verdict verdict) {
-    constexpr const char* words[] = {"ready", "to repair", "unrepairable"};  // in the order of Verdict
-    return words[static_cast<std::size_t>(verdict)];
-}
-
-// "(1.2, 0.5, -3)"
-std::string place(Vec3 p) {
-    return "(" + fixed(p.x, 4) + ", " + fixed(p.y, 4) + ", " + fixed(p.z, 4) + ")";
+const char* name_of_value(Verdict verdict) {
+    constexpr const char* names[] = {"ready", "to repair", "unrepairable"};  // in the order of Verdict
+    return names[static_cast<std::size_t>(verdict)];
 }
 
 std::string percent(double share) {
@@ -30,7 +28,7 @@ std::string percent(double share) {
 
 std::string size_line(const InspectedFile& file) {
     const Vec3 size = file.inspection.box.size();
-    if (file.units) return size_in_words(mm_per(unit_named(*file.units)) * size);
+    if (file.units) return describe_size(mm_per(unit_named(*file.units)) * size);
     return fixed(size.x, 4) + " x " + fixed(size.y, 4) + " x " + fixed(size.z, 4) +
            " (the file has no unit: pass --units)";
 }
@@ -39,7 +37,7 @@ std::string volume_line(const InspectedFile& file) {
     const double volume = file.inspection.volume;
     if (!file.units) return fixed(volume, 6) + " unit^3";
     const double unit = mm_per(unit_named(*file.units));
-    return fixed(volume, 6) + " " + *file.units + "^3, " + volume_in_words(unit * unit * unit * volume);
+    return fixed(volume, 6) + " " + *file.units + "^3, " + describe_volume(unit * unit * unit * volume);
 }
 
 void add_faults(std::vector<std::string>& text, const Inspection& i) {
@@ -50,7 +48,7 @@ void add_faults(std::vector<std::string>& text, const Inspection& i) {
         {"faces collapsed to a line or point", i.collapsed},
         {"faces without area", i.degenerate},
         {"faces that lie on another one", i.repeated},
-        {"open sheets, with more missing than there is", i.sheets},
+        {"open components, with more missing than there is", i.open_components},
         {"points in no face", i.unreferenced}};
     for (const auto& [what, count] : faults) {
         if (count > 0) text.push_back("             " + with_commas(count) + " " + what);
@@ -63,7 +61,7 @@ void add_holes(std::vector<std::string>& text, const Inspection& i, const std::s
     const BorderLoop* const longest = i.longest_hole();
     if (longest == nullptr) return;
     text.push_back("             the longest: " + with_commas(longest->edges) + " edges, " + fixed(longest->length, 4) +
-                   " " + unit + ", around " + place(longest->centre));
+                   " " + unit + ", around " + in_brackets(longest->centre, 4));
 }
 
 void add_self_intersections(std::vector<std::string>& text, const Inspection& i) {
@@ -75,7 +73,7 @@ void add_self_intersections(std::vector<std::string>& text, const Inspection& i)
     }
     text.push_back("runs through itself at " + std::string(found.is_complete ? "" : "more than ") +
                    with_commas(found.pairs) + (found.pairs == 1 ? " pair of faces" : " pairs of faces"));
-    for (const Vec3& at : found.places) text.push_back("             around " + place(at));
+    for (const Vec3& at : found.places) text.push_back("             around " + in_brackets(at, 4));
 }
 
 Json hole_document(const BorderLoop& hole) {
@@ -111,7 +109,7 @@ std::vector<std::string> lines(const InspectedFile& file) {
     add_self_intersections(text, i);
     for (const std::string& warning : i.warnings) text.push_back("note         " + warning);
     const Judgement judgement = judge(i);
-    text.push_back("verdict      " + std::string(word_of(judgement.verdict)) +
+    text.push_back("verdict      " + std::string(name_of_value(judgement.verdict)) +
                    (judgement.verdict == Verdict::to_repair ? ": prepare or repair does it" : ""));
     for (const std::string& reason : judgement.reasons) text.push_back("             " + reason);
     return text;
@@ -135,7 +133,7 @@ std::string document(const InspectedFile& file) {
                     {"units", file.units ? Json(*file.units) : Json()},
                     {"units_in_file", i.mm_per_unit ? Json(*i.mm_per_unit) : Json()},
                     {"size", json_of(i.box.size())},
-                    {"size_in_words", file.units ? Json(size_line(file)) : Json()},
+                    {"size_text", file.units ? Json(size_line(file)) : Json()},
                     {"min", json_of(i.box.min)},
                     {"max", json_of(i.box.max)},
                     {"closed", i.is_closed()},
@@ -145,7 +143,7 @@ std::string document(const InspectedFile& file) {
                     {"cavities", i.cavities},
                     {"inside_out", i.inside_out},
                     {"fragments", {{"count", i.fragments}, {"area_share", i.fragment_area_share}}},
-                    {"sheets", {{"count", i.sheets}, {"area_share", i.sheet_area_share}}},
+                    {"open_components", {{"count", i.open_components}, {"area_share", i.open_component_area_share}}},
                     {"open_edges", i.open_edges},
                     {"holes", holes},
                     {"longest_hole", longest == nullptr ? Json() : hole_document(*longest)},
@@ -159,7 +157,7 @@ std::string document(const InspectedFile& file) {
                     {"faces_without_corners", i.faces_without_area},
                     {"unreferenced_vertices", i.unreferenced},
                     {"self_intersections", self_intersections_document(i.self_intersected)},
-                    {"verdict", word_of(judgement.verdict)},
+                    {"verdict", name_of_value(judgement.verdict)},
                     {"reasons", judgement.reasons}};
     return text_of(json);
 }

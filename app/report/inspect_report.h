@@ -1,4 +1,4 @@
-// What inspect has found, as lines for the operator and as the document of docs/inspect.md.
+// The result of inspect: lines for people and the document of docs/inspect.md for programs. O(holes).
 
 #pragma once
 
@@ -12,8 +12,8 @@ namespace qchopper {
 
 struct InspectedFile {
     std::string name;
-    std::optional<std::string> units;  // what the operator said, or else the file; nothing: nobody did
-    const Inspection& inspection;
+    std::optional<std::string> units;  // as given by the operator, or else by the file; nothing: by neither
+    const Inspection& inspection;      // outlives this object
 };
 
 std::vector<std::string> lines(const InspectedFile& file);

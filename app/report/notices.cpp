@@ -1,3 +1,5 @@
+// Text and JSON from values.
+
 #include "app/report/notices.h"
 
 #include <nlohmann/json.hpp>
@@ -21,10 +23,11 @@ std::string error_document(const std::string& error, const std::string& unchange
 std::vector<std::string> lines(const WrittenSample& sample) {
     std::vector<std::string> text{sample.file + ": " + sample.specimen + ", " +
                                   with_commas(sample.mesh.triangles.size()) + " faces, " +
-                                  size_in_words(bounds(sample.mesh).size()) + ", in mm"};
-    if (!sample.marks.lines.empty()) {
-        text.push_back(std::to_string(sample.marks.lines.size()) + " marks, " + fixed(sample.marks.width, 1) +
-                       " mm wide and " + fixed(sample.marks.depth, 2) + " mm deep");
+                                  describe_size(bounds(sample.mesh).size()) + ", in mm"};
+    if (!sample.pen_grooves.lines.empty()) {
+        text.push_back(std::to_string(sample.pen_grooves.lines.size()) + " pen grooves, " +
+                       fixed(sample.pen_grooves.width, 1) + " mm wide and " + fixed(sample.pen_grooves.depth, 2) +
+                       " mm deep");
     }
     return text;
 }
@@ -36,11 +39,11 @@ std::string document(const WrittenSample& sample) {
                     {"faces", sample.mesh.triangles.size()},
                     {"vertices", sample.mesh.points.size()},
                     {"holes", sample.holes},
-                    {"marks", sample.marks.lines.size()},
-                    {"mark_width_mm", sample.marks.width},
-                    {"mark_depth_mm", sample.marks.depth},
+                    {"pen_grooves", sample.pen_grooves.lines.size()},
+                    {"groove_width_mm", sample.pen_grooves.width},
+                    {"groove_depth_mm", sample.pen_grooves.depth},
                     {"units", "mm"},
-                    {"size", size_in_words(bounds(sample.mesh).size())}});
+                    {"size", describe_size(bounds(sample.mesh).size())}});
 }
 
 std::string listening_document(const std::string& address) {

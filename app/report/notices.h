@@ -1,4 +1,4 @@
-// The small JSON documents: an error, a sample that was made, a simulated cell that listens.
+// Small JSON documents: an error (docs/errors.md), a specimen that was made, a simulated cell that listens.
 
 #pragma once
 
@@ -18,11 +18,12 @@ struct WrittenSample {
     std::string file;
     int holes = 0;
     TriangleMesh mesh;  // mm
-    DrawnMarks marks;
+    DrawnPenGrooves pen_grooves;
 };
 std::vector<std::string> lines(const WrittenSample& sample);
 std::string document(const WrittenSample& sample);
 
+// `address`: HOST:PORT.
 std::string listening_document(const std::string& address);
 
 }  // namespace qchopper

@@ -1,8 +1,11 @@
+// Text and JSON from a value; nothing is computed but sums.
+
 #include "app/report/prepare_report.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/project/project_lines.h"
 #include "app/project/shell_word.h"
 #include "app/project/value_json.h"
 #include "app/report/columns.h"
@@ -39,7 +42,7 @@ Json piece_json(const PieceReport& piece, const Cell& cell) {
             {"block", cell.stock[s.stock].name},
             {"block_mm", json_of(s.block)},
             {"base_cut", s.base ? Json(*s.base) : Json()},
-            {"base", s.base_words},
+            {"base", s.base_description},
             {"undercut", s.undercut},
             {"fits", piece.carving.envelope.fits()},
             {"margins_mm", margins},
@@ -51,27 +54,27 @@ Json piece_json(const PieceReport& piece, const Cell& cell) {
 std::vector<std::string> warnings(const PreparedProject& prepared) {
     std::vector<std::string> text;
     for (const PieceReport& p : prepared.pieces) {
-        if (p.job.empty()) text.push_back(envelope_words(p.name, p.carving.envelope) + "; it gets no job");
+        if (p.job.empty()) text.push_back(describe_envelope(p.name, p.carving.envelope) + "; it gets no job");
     }
     return text;
 }
 
-std::vector<std::string> table(const PreparedProject& prepared, const Cell& cell) {
+std::vector<std::string> table(const PreparedProject& prepared) {
     std::vector<std::vector<std::string>> rows{
         {"piece", "faces", "volume", "box mm", "block", "base", "undercut", "fits"}};
     for (const PieceReport& p : prepared.pieces) {
         const Setup& s = p.carving.setup;
-        rows.push_back({p.name, with_commas(p.faces), volume_in_words(p.volume_mm3), lengths(s.box.size()),
-                        cell.stock[s.stock].name, s.base ? "cut " + std::to_string(*s.base) : "none",
+        rows.push_back({p.name, with_commas(p.faces), describe_volume(p.volume_mm3), lengths(s.box.size()),
+                        prepared.cell.stock[s.stock].name, s.base ? "cut " + std::to_string(*s.base) : "none",
                         fixed(s.undercut, 3), p.job.empty() ? "no" : "yes"});
     }
     std::vector<std::string> lines = columns(rows);
     const std::size_t fragments = prepared.project.fragment_list.size();
     if (fragments > 0) {
         double volume = 0;
-        for (const SolidRecord& c : prepared.project.fragment_list) volume += c.volume_mm3;
+        for (const SolidRecord& fragment : prepared.project.fragment_list) volume += fragment.volume_mm3;
         lines.push_back(
-            counted(fragments, "fragment") + " (" + volume_in_words(volume) + " in all), listed in project.json" +
+            counted(fragments, "fragment") + " (" + describe_volume(volume) + " in all), listed in project.json" +
             (prepared.project.fragments == FragmentChoice::keep ? " and kept in pieces/fragments.ply" : ", dropped"));
     }
     for (const std::string& line : discarded_lines(prepared.project)) lines.push_back(line);
@@ -86,19 +89,19 @@ std::vector<std::string> table(const PreparedProject& prepared, const Cell& cell
     return lines;
 }
 
-std::string document(const PreparedProject& prepared, const Cell& cell) {
+std::string document(const PreparedProject& prepared) {
     const Project& p = prepared.project;
     Json cuts = Json::array();
     for (const Cut& cut : p.cuts) cuts.push_back(cut_json(cut));
     Json pieces = Json::array();
-    for (const PieceReport& piece : prepared.pieces) pieces.push_back(piece_json(piece, cell));
+    for (const PieceReport& piece : prepared.pieces) pieces.push_back(piece_json(piece, prepared.cell));
     Json fragments = Json::array();
-    for (const SolidRecord& c : p.fragment_list) fragments.push_back(json_of(c));
+    for (const SolidRecord& fragment : p.fragment_list) fragments.push_back(json_of(fragment));
     const Json json{{"schema", "qchopper-prepare-2"},
                     {"project", prepared.folder.string()},
                     {"scan",
                      {{"path", p.scan.path.string()},
-                      {"sha256", p.scan.sha256},
+                      {"sha256", to_hex(p.scan.sha256)},
                       {"units", name_of(p.scan.unit)},
                       {"scale", p.scan.scale},
                       {"faces", p.scan.faces},

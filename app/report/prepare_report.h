@@ -1,4 +1,4 @@
-// What prepare tells at its end: warnings and a table for people, one JSON document for programs.
+// The result of prepare: warnings and a table for people, one JSON document for programs. O(cuts + pieces).
 
 #pragma once
 
@@ -9,9 +9,11 @@
 
 namespace qchopper {
 
-// Of pieces that do not fit.
+// One per piece that does not fit.
 std::vector<std::string> warnings(const PreparedProject& prepared);
-std::vector<std::string> table(const PreparedProject& prepared, const Cell& cell);
-std::string document(const PreparedProject& prepared, const Cell& cell);
+// A row per piece, then the fragments, the discarded pieces and the next command.
+std::vector<std::string> table(const PreparedProject& prepared);
+// The document qchopper-prepare-2 (tests/app/cli/json_test.cpp).
+std::string document(const PreparedProject& prepared);
 
 }  // namespace qchopper

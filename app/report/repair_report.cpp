@@ -1,3 +1,5 @@
+// Text and JSON from a value.
+
 #include "app/report/repair_report.h"
 
 #include <nlohmann/json.hpp>
@@ -13,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 std::string verdict(const RepairReport& r) {
     if (r.is_solid()) return "closed: a solid";
-    if (r.sheets > 0) return "no solid: more is missing than there is";
+    if (r.open_components_left > 0) return "no solid: more is missing than there is";
     if (r.open_edges > 0) return "open at " + with_commas(r.open_edges) + " edges";
     return "no solid: it has no volume";
 }
@@ -27,8 +29,7 @@ std::string distance_line(const RepairedScan& scan) {
     const Farthest& f = scan.report.deviation->largest();
     if (f.triangles == 0) return "nothing that was scanned has changed its place";
     return fixed(f.mm, 6) + " " + unit_of_lengths(scan) + ", at most " + fixed(f.at_most, 6) +
-           ", from the scan to the "
-           "result over what changed";
+           ", from the scan to the result over what changed";
 }
 
 Json farthest(const Farthest& f) {
@@ -58,7 +59,7 @@ Json counts(const RepairReport& r) {
             {"border_points_welded", r.borders_snapped},
             {"border_moved_mm", r.border_moved_mm},
             {"faces_repeated", r.repeated},
-            {"faces_of_double_sheets", r.of_double_sheets},
+            {"faces_of_doubled_components", r.of_doubled_components},
             {"edges_split", r.edges_split},
             {"edges_cut", r.edges_cut},
             {"points_copied", r.points_copied},
@@ -71,7 +72,7 @@ Json counts(const RepairReport& r) {
             {"faces_added", r.faces_added},
             {"points_added", r.points_added},
             {"added_area_share", r.added_area_share},
-            {"open_components", r.open_components},
+            {"open_components", r.open_components_dropped},
             {"open_component_faces", r.open_component_faces},
             {"shells", r.shells},
             {"cavities", r.cavities},
@@ -93,22 +94,22 @@ Json resolved(const RepairReport& r) {
             {"where_left", where}};
 }
 
-Json marks(const RepairReport& r) {
-    if (!r.marks) return {};
-    return {{"marks", r.marks->marks},
-            {"points_moved", r.marks->points_moved},
-            {"area_mm2", r.marks->area_mm2},
-            {"length_mm", r.marks->length_mm},
-            {"most_depth_mm", r.marks->most_depth},
-            {"mean_depth_mm", r.marks->mean_depth}};
+Json pen_grooves(const RepairReport& r) {
+    if (!r.pen_grooves) return {};
+    return {{"count", r.pen_grooves->count},
+            {"points_moved", r.pen_grooves->points_moved},
+            {"area_mm2", r.pen_grooves->area_mm2},
+            {"length_mm", r.pen_grooves->length_mm},
+            {"most_depth_mm", r.pen_grooves->most_depth},
+            {"mean_depth_mm", r.pen_grooves->mean_depth}};
 }
 
 }  // namespace
 
-std::vector<std::string> lines(const RepairedScan& scan, const RepairedFile& file) {
+std::vector<std::string> lines(const RepairedScan& scan, const RepairRequest& request) {
     const RepairReport& r = scan.report;
     std::vector<std::string> text;
-    text.push_back(file.out.string() + ": " + with_commas(r.faces_out) + " faces, " +
+    text.push_back(request.out.string() + ": " + with_commas(r.faces_out) + " faces, " +
                    with_commas(r.faces_in - r.faces_gone) + " of them as scanned");
     for (const RepairStep& step : steps(r)) {
         if (step.count == 0) continue;
@@ -117,38 +118,39 @@ std::vector<std::string> lines(const RepairedScan& scan, const RepairedFile& fil
     if (r.deviation) text.push_back("distance     " + distance_line(scan));
     if (r.open_edges == 0 && scan.mm_per_unit) {
         const double unit = *scan.mm_per_unit;
-        text.push_back("volume       " + volume_in_words(unit * unit * unit * r.volume));
+        text.push_back("volume       " + describe_volume(unit * unit * unit * r.volume));
     }
     text.push_back("verdict      " + verdict(r));
     return text;
 }
 
-std::string document(const RepairedScan& scan, const RepairedFile& file) {
+std::string document(const RepairedScan& scan, const RepairRequest& request) {
     const RepairReport& r = scan.report;
-    Json json{
-        {"schema", "qchopper-repair-2"},
-        {"file", file.scan.string()},
-        {"out", file.out.string()},
-        {"format", name_of(scan.format)},
-        {"sha256", to_hex(scan.sha256)},
-        {"units", scan.mm_per_unit ? Json(name_of(unit_of(*scan.mm_per_unit))) : Json()},
-        {"scale", file.scale},
-        {"faces_in", r.faces_in},
-        {"vertices_in", r.points_in},
-        {"faces", r.faces_out},
-        {"vertices", r.points_out},
-        {"faces_gone", r.faces_gone},
-        {"faces_new", r.faces_new},
-        {"passes", r.passes},
-        {"steps", steps_of(r)},
-        {"counts", counts(r)},
-        {"self_intersections", resolved(r)},
-        {"marks", marks(r)},
-        {"wrap", r.wrapped ? Json{{"alpha_mm", r.wrapped->alpha_mm}, {"offset_mm", r.wrapped->offset_mm}} : Json()},
-        {"left_open", holes(r)},
-        {"closed", r.open_edges == 0},
-        {"solid", r.is_solid()},
-        {"volume", r.volume}};
+    Json json{{"schema", "qchopper-repair-2"},
+              {"file", request.scan.string()},
+              {"out", request.out.string()},
+              {"format", name_of(scan.format)},
+              {"sha256", to_hex(scan.sha256)},
+              {"units", scan.mm_per_unit ? Json(name_of(unit_of(*scan.mm_per_unit))) : Json()},
+              {"scale", request.options.scale},
+              {"faces_in", r.faces_in},
+              {"vertices_in", r.points_in},
+              {"faces", r.faces_out},
+              {"vertices", r.points_out},
+              {"faces_gone", r.faces_gone},
+              {"faces_new", r.faces_new},
+              {"passes", r.passes},
+              {"steps", steps_of(r)},
+              {"counts", counts(r)},
+              {"self_intersections", resolved(r)},
+              {"pen_grooves", pen_grooves(r)},
+              {"alpha_wrap", r.alpha_wrapped ? Json{{"alpha_mm", r.alpha_wrapped->alpha_mm},
+                                                    {"offset_mm", r.alpha_wrapped->offset_mm}}
+                                             : Json()},
+              {"left_open", holes(r)},
+              {"closed", r.open_edges == 0},
+              {"solid", r.is_solid()},
+              {"volume", r.volume}};
     if (r.deviation) {
         json["deviation"] = {{"unit", scan.mm_per_unit ? "mm" : "file"},
                              {"largest", r.deviation->largest().mm},

@@ -1,25 +1,17 @@
-// What a repair has done, as lines and as JSON.
+// The result of repair: lines for people, one JSON document for programs. O(holes + places).
 
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "segment/import/import_scan.h"
+#include "app/project/repair_file.h"
 
 namespace qchopper {
 
-// Which file the report is about.
-struct RepairedFile {
-    std::filesystem::path scan;
-    std::filesystem::path out;
-    double scale = 1;
-};
-
-// A line for each step that had something to do, the distance, and a verdict.
-std::vector<std::string> lines(const RepairedScan& scan, const RepairedFile& file);
+// A line for each step that changed something, the distance, the volume and a verdict.
+std::vector<std::string> lines(const RepairedScan& scan, const RepairRequest& request);
 // The document qchopper-repair-2 (docs/repair.md).
-std::string document(const RepairedScan& scan, const RepairedFile& file);
+std::string document(const RepairedScan& scan, const RepairRequest& request);
 
 }  // namespace qchopper

@@ -1,8 +1,11 @@
+// Text and JSON from a value. Of a ranking only the best answer.proposal.top planes are listed.
+
 #include "app/report/segment_report.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/project/project_lines.h"
 #include "app/project/shell_word.h"
 #include "app/project/value_json.h"
 #include "app/report/columns.h"
@@ -13,11 +16,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string in_words(Vec3 v, int digits) {
+std::string describe(Vec3 v, int digits) {
     return fixed(v.x, digits) + " " + fixed(v.y, digits) + " " + fixed(v.z, digits);
 }
 
-std::string weights_in_words(const Weights& w) {
+std::string describe_weights(const Weights& w) {
     return "face ratio " + fixed(w.face_ratio, 3) + ", fragility " + fixed(w.fragility, 3) + ", piece count " +
            fixed(w.piece_count, 3) + ", undercut " + fixed(w.undercut, 3);
 }
@@ -26,20 +29,14 @@ bool is_fragment(const SolidEvaluation& solid, const Project& project) {
     return solid.volume_mm3 < project.settings.objectives.fragment_volume_mm3;
 }
 
-// Of planes in which the piece runs through itself; the cut says it too (cut_piece.cpp).
+// For planes in which the piece runs through itself; a cut there has the same warning (cut_piece.cpp).
 std::string sections_cross(const std::string& planes) {
     return "The sections of " + planes + " cross: the piece runs through itself there, and the caps would overlap.";
 }
 
-// Undo and redo by the names of what they would take back or bring again; empty: nothing.
-std::string undo_in_words(const Project& project) {
-    const Decision* decision = to_undo(project.history);
-    return decision != nullptr ? "Undo " + words(*decision) : "";
-}
-
-std::string redo_in_words(const Project& project) {
-    const Decision* decision = to_redo(project.history);
-    return decision != nullptr ? "Redo " + words(*decision) : "";
+// "Undo cut 3 on piece B"; empty if there is no such decision.
+std::string describe_step(const std::string& step, const Decision* decision) {
+    return decision != nullptr ? step + describe(*decision) : "";
 }
 
 void add(std::vector<std::string>& text, const std::vector<std::string>& more) {
@@ -55,7 +52,7 @@ std::vector<std::string> proposal_lines(const Proposal& p, const std::filesystem
         {"K", "normal", "offset mm", "face ratio", "fragility", "piece count", "undercut", "total"}};
     for (std::size_t k = 0; k < std::min(p.top, p.ranked.size()); ++k) {
         const Ranked& r = p.ranked[k];
-        rows.push_back({std::to_string(k + 1), in_words(r.plane.normal, 4), fixed(r.plane.offset, 3),
+        rows.push_back({std::to_string(k + 1), describe(r.plane.normal, 4), fixed(r.plane.offset, 3),
                         fixed(r.terms.face_ratio, 3), fixed(r.terms.fragility, 4), fixed(r.terms.piece_count, 0),
                         fixed(r.terms.undercut, 4), fixed(r.terms.total, 4)});
     }
@@ -72,16 +69,16 @@ std::vector<std::string> proposal_lines(const Proposal& p, const std::filesystem
 
 std::vector<std::string> preview_lines(const Preview& p, const Project& project) {
     std::vector<std::string> text;
-    text.push_back("Plane " + in_words(p.plane.plane.normal, 6) + ", " + fixed(p.plane.plane.offset, 3) +
+    text.push_back("Plane " + describe(p.plane.plane.normal, 6) + ", " + fixed(p.plane.plane.offset, 3) +
                    " mm on piece " + p.piece + ": total " + fixed(p.plane.terms.total, 4));
     text.push_back("Outline: " + with_commas(p.outline.loops.size()) +
                    (p.outline.loops.size() == 1 ? " loop, " : " loops, ") + fixed(p.outline.length_mm, 1) +
-                   " mm long, within " + in_words(p.outline.box.min, 1) + " to " + in_words(p.outline.box.max, 1) +
+                   " mm long, within " + describe(p.outline.box.min, 1) + " to " + describe(p.outline.box.max, 1) +
                    " mm");
     std::vector<std::vector<std::string>> rows{{"would make", "side", "faces", "volume"}};
     for (const SolidEvaluation& s : p.solids) {
         rows.push_back({is_fragment(s, project) ? "fragment" : "piece", s.above ? "above" : "below",
-                        with_commas(s.faces), volume_in_words(s.volume_mm3)});
+                        with_commas(s.faces), describe_volume(s.volume_mm3)});
     }
     add(text, columns(rows));
     if (p.sections_cross) text.push_back(sections_cross("this plane"));
@@ -89,18 +86,19 @@ std::vector<std::string> preview_lines(const Preview& p, const Project& project)
     return text;
 }
 
-std::vector<std::string> standing_lines(const Project& project) {
+std::vector<std::string> committed_lines(const Project& project) {
     std::vector<std::vector<std::string>> rows{{"piece", "made by", "faces", "volume"}};
     for (const SolidRecord& p : project.pieces) {
         rows.push_back({p.name, p.cut > 0 ? "cut " + std::to_string(p.cut) : "the scan", with_commas(p.faces),
-                        volume_in_words(p.volume_mm3)});
+                        describe_volume(p.volume_mm3)});
     }
     std::vector<std::string> text = columns(rows);
     text.push_back(counted(project.pieces.size(), "piece") + " by " + counted(project.cuts.size(), "cut") + ", " +
                    counted(project.fragment_list.size(), "fragment") +
-                   ". Weights: " + weights_in_words(project.settings.objectives.weights) + ".");
+                   ". Weights: " + describe_weights(project.settings.objectives.weights) + ".");
     add(text, discarded_lines(project));
-    for (const auto& [option, what] : {std::pair{"--undo", undo_in_words(project)}, {"--redo", redo_in_words(project)}})
+    for (const auto& [option, what] : {std::pair{"--undo", describe_step("Undo ", to_undo(project.history))},
+                                       {"--redo", describe_step("Redo ", to_redo(project.history))}})
         if (!what.empty()) text.push_back(std::string(option) + ": " + what);
     return text;
 }
@@ -110,8 +108,8 @@ Json plane_json(const Ranked& r, const Project& project) {
             {"offset_mm", r.plane.offset},
             {"offset_in_scan_mm", r.plane.offset + height(r.plane.normal, project.scan.centre)},
             {"wanted_offset_mm", r.wanted_offset},
-            {"normal_number", r.normal},
-            {"offset_number", r.offset},
+            {"normal_index", r.normal_index},
+            {"offset_index", r.offset_index},
             {"terms", json_of(r.terms)}};
 }
 
@@ -172,19 +170,6 @@ Json text_or_null(const std::string& text) {
 
 }  // namespace
 
-std::vector<std::string> discarded_lines(const Project& project) {
-    std::vector<std::string> lines;
-    for (std::size_t i = 0; i < project.discarded.size(); ++i) {
-        const SolidRecord& solid = project.discarded[i];
-        const std::size_t after = project.discards.at(i).after;
-        lines.push_back("discarded " + (after > 0 ? "after cut " + std::to_string(after) : "before the first cut") +
-                        ": piece " + solid.name + ", " + with_commas(solid.faces) + " faces, " +
-                        fixed(solid.volume_mm3 / 1000, 3) + " ml (" +
-                        fixed(100 * solid.volume_mm3 / project.scan.volume_mm3, 2) + " % of the scan)");
-    }
-    return lines;
-}
-
 Json discarded_json(const Project& project) {
     Json all = Json::array();
     for (std::size_t i = 0; i < project.discarded.size(); ++i) {
@@ -198,36 +183,39 @@ Json discarded_json(const Project& project) {
     return all;
 }
 
-std::vector<std::string> lines(const SegmentAnswer& answer, const std::filesystem::path& folder,
-                               const Project& project) {
+std::vector<std::string> lines(const SegmentAnswer& answer) {
+    if (!answer.is_project_made) return answer.notes;
+    const Project& project = answer.project;
     std::vector<std::string> text;
     if (!answer.done.empty()) text.push_back(answer.done);
     add(text, answer.notes);
-    if (answer.plan)
+    if (answer.plan) {
         text.push_back(
             "Plan of " + std::to_string(project.cuts.size()) + " cuts" +
             (project.discards.empty() ? "" : " and " + std::to_string(project.discards.size()) + " discarded pieces") +
             ": " + answer.plan->string());
-    if (answer.plan) add(text, discarded_lines(project));
-    if (answer.pieces_written) text.push_back("The pieces are in " + (folder / "pieces").string() + ".");
-    if (answer.proposal) add(text, proposal_lines(*answer.proposal, folder));
+        add(text, discarded_lines(project));
+    }
+    if (answer.pieces_written) text.push_back("The pieces are in " + (answer.folder / "pieces").string() + ".");
+    if (answer.proposal) add(text, proposal_lines(*answer.proposal, answer.folder));
     if (answer.preview) add(text, preview_lines(*answer.preview, project));
-    if (!answer.proposal && !answer.preview && !answer.plan) add(text, standing_lines(project));
+    if (!answer.proposal && !answer.preview && !answer.plan) add(text, committed_lines(project));
     return text;
 }
 
-std::string document(const SegmentAnswer& answer, const std::filesystem::path& folder, const Project& project) {
+std::string document(const SegmentAnswer& answer) {
+    const Project& project = answer.project;
     Json pieces = Json::array();
     for (const SolidRecord& p : project.pieces) {
         pieces.push_back({{"name", p.name}, {"cut", p.cut}, {"faces", p.faces}, {"volume_mm3", p.volume_mm3}});
     }
     Json json{{"schema", "qchopper-segment-2"},
-              {"project", folder.string()},
+              {"project", answer.folder.string()},
               {"done", text_or_null(answer.done)},
               {"demand_met", answer.is_demand_met},
               {"notes", answer.notes},
-              {"undo", text_or_null(undo_in_words(project))},
-              {"redo", text_or_null(redo_in_words(project))},
+              {"undo", text_or_null(describe_step("Undo ", to_undo(project.history)))},
+              {"redo", text_or_null(describe_step("Redo ", to_redo(project.history)))},
               {"ended_because", text_or_null(project.ended_because)},
               {"weights", json_of(project.settings.objectives.weights)},
               {"cuts", cuts_json(project)},
@@ -235,7 +223,7 @@ std::string document(const SegmentAnswer& answer, const std::filesystem::path& f
               {"fragments", project.fragment_list.size()},
               {"discarded", discarded_json(project)},
               {"warnings", project.warnings}};
-    if (answer.pieces_written) json["pieces_written"] = (folder / "pieces").string();
+    if (answer.pieces_written) json["pieces_written"] = (answer.folder / "pieces").string();
     if (answer.plan) json["plan"] = answer.plan->string();
     if (answer.proposal) json["proposal"] = proposal_json(*answer.proposal, project);
     if (answer.preview) json["preview"] = preview_json(*answer.preview, project);

@@ -1,25 +1,22 @@
-// What segment answers: a few lines or a table for people, one JSON document for programs.
+// The answer of segment: lines and tables for people, one JSON document for programs. Lengths in mm.
 
 #pragma once
 
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "app/project/decide.h"
-#include "app/project/project.h"
 
 namespace qchopper {
 
-// What was discarded, in the same words and keys in every report:
-// "discarded after cut 2: piece C, 1,234 faces, 12.345 ml (3.21 % of the scan)", none if nothing is discarded;
-// [ { name, after, cut, faces, volume_mm3 } ... ], after so many cuts, made by cut, 0 for the scan.
-std::vector<std::string> discarded_lines(const Project& project);
+// The discarded pieces, with the same keys in every report: [ { name, after, cut, faces, volume_mm3 } ... ], where
+// `after` is the number of cuts before and `cut` the one that made the piece, 0 for the scan.
 nlohmann::ordered_json discarded_json(const Project& project);
 
-std::vector<std::string> lines(const SegmentAnswer& answer, const std::filesystem::path& folder,
-                               const Project& project);
-std::string document(const SegmentAnswer& answer, const std::filesystem::path& folder, const Project& project);
+// The notes only, if no project was made.
+std::vector<std::string> lines(const SegmentAnswer& answer);
+// The document qchopper-segment-2 (tests/app/cli/segment_test.cpp).
+std::string document(const SegmentAnswer& answer);
 
 }  // namespace qchopper

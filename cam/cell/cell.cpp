@@ -1,3 +1,5 @@
+// One function per table of the file. O(file), and O(blocks^2) to find two of one name.
+
 #include "cam/cell/cell.h"
 
 #include <algorithm>
@@ -11,8 +13,8 @@
 namespace qchopper {
 namespace {
 
-constexpr double farthest = 100'000;  // 100 m: a larger number is a wrong unit
-constexpr double smallest = 0.001;    // what lengths are kept to on the wire and in files is 0.001 to 0.01 mm
+constexpr double farthest = 100'000;  // 100 m: a larger number is in a wrong unit
+constexpr double smallest = 0.001;    // lengths on the wire and in files are rounded to 0.001 to 0.01 mm
 constexpr std::size_t most_blocks = 1000;
 
 constexpr std::array<std::string_view, 9> cell_keys{"name",         "id",        "reach", "table", "stock",
@@ -80,7 +82,7 @@ Tool read_tool(const TomlReader& reader) {
     return tool;
 }
 
-// HOST:PORT, where an IPv6 address stands in brackets because it has colons of its own.
+// HOST:PORT, with an IPv6 address in brackets because it contains colons.
 bool is_address(const std::string& to) {
     const std::size_t colon = to.rfind(':');
     if (colon == std::string::npos || colon == 0 || to.size() - colon > 6) return false;

@@ -1,3 +1,5 @@
+// A table of five names.
+
 #include "cam/cell/material.h"
 
 #include <array>
@@ -6,7 +8,7 @@
 namespace qchopper {
 namespace {
 
-constexpr std::array<std::pair<Material, std::string_view>, 5> words{{{Material::unspecified, "unspecified"},
+constexpr std::array<std::pair<Material, std::string_view>, 5> names{{{Material::unspecified, "unspecified"},
                                                                       {Material::pu_foam, "pu_foam"},
                                                                       {Material::eps, "eps"},
                                                                       {Material::xps, "xps"},
@@ -15,15 +17,15 @@ constexpr std::array<std::pair<Material, std::string_view>, 5> words{{{Material:
 }  // namespace
 
 std::string to_word(Material material) {
-    for (const auto& [value, word] : words) {
-        if (value == material) return std::string(word);
+    for (const auto& [value, name] : names) {
+        if (value == material) return std::string(name);
     }
     return "other";
 }
 
 std::optional<Material> material_of(std::string_view word) {
-    for (const auto& [value, known] : words) {
-        if (known == word) return value;
+    for (const auto& [value, name] : names) {
+        if (name == word) return value;
     }
     return std::nullopt;
 }

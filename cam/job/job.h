@@ -1,6 +1,7 @@
 // The values of a job: what goes into the job file of one piece, and what is read back from it.
 //
-// Millimetres in setup coordinates. job_file.h writes and reads them.
+// Lengths in mm, in setup coordinates (cam/setup/setup.h) where nothing else is stated. job_file.h writes and reads
+// them (tests/cam/job/job_file_test.cpp).
 
 #pragma once
 
@@ -20,46 +21,49 @@ namespace qchopper {
 
 constexpr int job_schema_version = 2;
 
+// Precondition of all functions that take it: piece.mesh is not null, setup.stock is an index in cell.stock, and the
+// envelope has a margin.
 struct JobInput {
-    Piece piece;
+    Piece piece;                 // in piece coordinates
     std::uint16_t piece_no = 1;  // 1..piece_count
     std::uint16_t piece_count = 1;
     std::string program_version;  // "0.1.0"
-    Uuid project_id{};
-    Sha256 scan_sha256{};
+    Uuid project_id{};            // first 16 bytes of a SHA-256 over scan and decisions
+    Sha256 scan_sha256;
     Cell cell;
     Setup setup;
     EnvelopeReport envelope;
     std::vector<std::string> warnings;  // of the project: "scaled by 0.5 on request"
 };
 
+// A file in the job file, as the manifest lists it.
 struct JobEntry {
     std::string name;
-    std::uint64_t size = 0;
-    Sha256 sha256{};
+    std::uint64_t size = 0;  // bytes
+    Sha256 sha256;
     bool operator==(const JobEntry&) const = default;
 };
 
-// A job file that was read and found whole.
+// A job file that was read and passed all checks of parse_job.
 struct ReadJob {
     std::string piece;
     std::uint16_t piece_no = 0;
     std::uint16_t piece_count = 0;
     std::string program_version;
     Uuid project_id{};
-    Sha256 scan_sha256{};
+    Sha256 scan_sha256;
     std::uint16_t cell_id = 0;
-    Setup setup;                // as it was written
-    std::string block_name;     // of the stock list
-    std::vector<Bound> bounds;  // in piece coordinates
+    Setup setup;                         // as it was written
+    std::string block_name;              // in the cell's list of stock
+    std::vector<HalfSpace> half_spaces;  // in piece coordinates
     EnvelopeReport envelope;
     std::uint64_t faces = 0;
     double volume_mm3 = 0;
     TicketTemplate ticket;
     std::vector<JobEntry> entries;       // every file but the manifest
-    std::map<std::string, Bytes> files;  // all, the manifest too
+    std::map<std::string, Bytes> files;  // all by name, the manifest too
     std::uint32_t file_size = 0;         // of the .qjob itself
-    Sha256 file_sha256{};
+    Sha256 file_sha256;
 };
 
 }  // namespace qchopper

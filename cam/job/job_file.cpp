@@ -1,20 +1,21 @@
-#include "cam/job/job_file.h"
+// Packs by base/zip.h; every entry is hashed once when it is written and once when it is read. O(bytes), with the files
+// and the archive in memory.
 
-#include <cmath>
+#include "cam/job/job_file.h"
 
 #include "base/error.h"
 #include "base/portable_name.h"
+#include "base/zip.h"
 #include "cam/job/manifest.h"
 #include "cam/job/preview.h"
-#include "cam/job/sheet.h"
-#include "cam/job/zip.h"
+#include "cam/job/setup_sheet.h"
 #include "segment/io/write_stl.h"
 #include "segment/mesh/transform.h"
 
 namespace qchopper {
 namespace {
 
-constexpr std::uint64_t largest_text = 16u << 20;  // manifest, ticket: kilobytes in fact
+constexpr std::uint64_t largest_text = 16u << 20;  // of manifest and ticket, which have kilobytes
 constexpr const char* manifest_name = "manifest.json";
 constexpr const char* ticket_name = "ticket.json";
 
@@ -40,13 +41,14 @@ std::uint16_t base_plane(const JobInput& input) {
                      "write it again with qchopper prepare, or copy it again");
 }
 
-// The manifest and the files must name each other exactly.
+// The manifest must list exactly the files that are there.
 void check_entries(const ReadJob& job, const std::string& source) {
     if (job.entries.size() + 1 != job.files.size()) refuse(source, "the manifest lists other files than are there");
     for (const JobEntry& entry : job.entries) {
         const auto found = job.files.find(entry.name);
         if (entry.name == manifest_name || found == job.files.end()) refuse(source, entry.name + " is missing");
-        if (found->second.size() != entry.size) refuse(source, entry.name + " has another size than the manifest says");
+        if (found->second.size() != entry.size)
+            refuse(source, entry.name + " has another size than the manifest lists");
         if (sha256(found->second) != entry.sha256) refuse(source, entry.name + " does not match its SHA-256");
     }
     for (const char* name : {"piece.stl", "preview.glb", "setup.txt", ticket_name}) {
@@ -60,7 +62,7 @@ void check_ticket(const ReadJob& job, const std::string& source) {
     const bool same = ticket.piece == job.piece && ticket.piece_no == job.piece_no &&
                       ticket.piece_count == job.piece_count && ticket.project_id == job.project_id &&
                       ticket.box == job.setup.box && ticket.stock == job.setup.block && ticket.base_plane == base;
-    if (!same) refuse(source, "ticket.json and manifest.json speak of different jobs");
+    if (!same) refuse(source, "ticket.json and manifest.json describe different jobs");
 }
 
 }  // namespace
@@ -96,7 +98,7 @@ TicketTemplate ticket_template(const JobInput& input) {
 }
 
 Bytes job_file(const JobInput& input) {
-    job_file_name(input.piece.name);  // refuses a name that the wire cannot carry
+    job_file_name(input.piece.name);  // throws if the name does not fit the wire
     const TriangleMesh lying = apply(input.setup.piece_in_setup, *input.piece.mesh);
     const PreviewNotes notes{input.piece.name,  input.program_version,         input.piece_no,
                              input.piece_count, input.setup.base.value_or(-1), input.envelope.fits()};

@@ -1,7 +1,7 @@
-// The job file of one piece: everything that the cell and the workshop need, in one ZIP named <piece>.qjob.
+// Writes and reads the job file of one piece: all that the cell and the workshop need, in one ZIP named <piece>.qjob.
 //
-// Millimetres in setup coordinates. Same input, same bytes: no time and no random id goes in. What is read back is
-// checked: schema, every size and SHA-256 (tests/cam/job/job_file_test.cpp). docs/job-folder.md holds the grammar.
+// Same input, same bytes: no time and no random number goes in. Reading checks the form, the schema, and every size and
+// SHA-256 (tests/cam/job/job_file_test.cpp). docs/job-folder.md holds the grammar.
 
 #pragma once
 
@@ -16,10 +16,11 @@ namespace qchopper {
 // "<piece>.qjob". Throws InputError (use) if the name does not fit the wire (is_portable_name).
 std::string job_file_name(const std::string& piece);
 
-// The whole file. Throws InputError (use) if a number does not fit the ticket.
+// The whole file. Throws InputError (use) if the name does not fit the wire, the number of the base's cut does not fit
+// the ticket, or the file would exceed job_limit.
 Bytes job_file(const JobInput& input);
 
-// The template that goes into the job file.
+// The template that goes into the job file. Throws InputError (use) if the number of the base's cut does not fit it.
 TicketTemplate ticket_template(const JobInput& input);
 
 // The bytes of a job file (job_limit). Throws InputError: missing if it cannot be read, mesh if it is too large.
@@ -28,8 +29,8 @@ Bytes read_job(const std::filesystem::path& path);
 // Throws InputError (mesh) naming `source` if the bytes are not exactly what job_file writes for a job of this schema.
 ReadJob parse_job(const Bytes& bytes, const std::string& source);
 
-// The template of a job bound to its file, which will have this name at the cell. Throws InputError (use) if the wire
-// cannot carry the name.
+// The template of a job bound to its file, which will have this name at the cell. Throws InputError (use) if the name
+// does not fit the wire (is_portable_name).
 JobTicket job_ticket(const ReadJob& job, const std::string& file_name);
 
 }  // namespace qchopper

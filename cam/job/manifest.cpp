@@ -1,3 +1,5 @@
+// One function per object of the JSON, first to write and then to read it.
+
 #include "cam/job/manifest.h"
 
 #include <cmath>
@@ -18,7 +20,7 @@ Json from_setup(const Setup& setup) {
     Json rows = Json::array();
     for (const Vec3& row : setup.piece_in_setup.row) rows.push_back(from_vector(row));
     return {{"base", setup.base ? Json(*setup.base) : Json(nullptr)},
-            {"base_words", setup.base_words},
+            {"base_description", setup.base_description},
             {"up", from_vector(setup.up)},
             {"piece_in_setup", {{"rows", rows}, {"shift", from_vector(setup.piece_in_setup.shift)}}},
             {"box", from_box(setup.box)},
@@ -30,13 +32,13 @@ Json from_setup(const Setup& setup) {
             {"warnings", setup.warnings}};
 }
 
-Json from_bounds(const std::vector<Bound>& bounds) {
+Json from_half_spaces(const std::vector<HalfSpace>& half_spaces) {
     Json list = Json::array();
-    for (const Bound& bound : bounds) {
-        list.push_back({{"cut", bound.cut},
-                        {"normal", from_vector(bound.plane.normal)},
-                        {"offset", bound.plane.offset},
-                        {"above", bound.above}});
+    for (const HalfSpace& half_space : half_spaces) {
+        list.push_back({{"cut", half_space.cut},
+                        {"normal", from_vector(half_space.plane.normal)},
+                        {"offset", half_space.plane.offset},
+                        {"above", half_space.above}});
     }
     return list;
 }
@@ -81,7 +83,7 @@ Pose to_pose(const Json& json) {
     Pose pose;
     for (std::size_t i = 0; i < 3; ++i) pose.row[i] = to_vector(rows[i], "rows");
     pose.shift = vector(json, "shift");
-    // A mirror image would pass every other check and be carved.
+    // A mirror image would pass all other checks and be carved.
     const double turn = dot(pose.row[0], cross(pose.row[1], pose.row[2]));
     if (!(std::abs(turn - 1) < 1e-6)) throw wrong("piece_in_setup", "is not a rotation");
     return pose;
@@ -90,7 +92,7 @@ Pose to_pose(const Json& json) {
 Setup to_setup(const Json& json, const Json& stock) {
     Setup setup;
     if (!member(json, "base").is_null()) setup.base = cut_number(json, "base");
-    setup.base_words = text(json, "base_words");
+    setup.base_description = text(json, "base_description");
     setup.up = vector(json, "up");
     setup.piece_in_setup = to_pose(member(json, "piece_in_setup"));
     setup.box = box(json, "box");
@@ -117,19 +119,20 @@ EnvelopeReport to_envelope(const Json& json) {
     return envelope;
 }
 
-std::vector<Bound> to_bounds(const Json& json) {
-    std::vector<Bound> bounds;
-    for (const Json& bound : items(json, "bounds")) {
-        bounds.push_back(
-            {cut_number(bound, "cut"), {vector(bound, "normal"), real(bound, "offset")}, truth(bound, "above")});
+std::vector<HalfSpace> to_half_spaces(const Json& json) {
+    std::vector<HalfSpace> half_spaces;
+    for (const Json& half_space : items(json, "half_spaces")) {
+        half_spaces.push_back({cut_number(half_space, "cut"),
+                               {vector(half_space, "normal"), real(half_space, "offset")},
+                               truth(half_space, "above")});
     }
-    return bounds;
+    return half_spaces;
 }
 
 std::vector<JobEntry> to_entries(const Json& json) {
     std::vector<JobEntry> entries;
     for (const Json& entry : items(json, "files")) {
-        entries.push_back({text(entry, "name"), whole<std::uint64_t>(entry, "size"), from_hex<32>(entry, "sha256")});
+        entries.push_back({text(entry, "name"), whole<std::uint64_t>(entry, "size"), {from_hex<32>(entry, "sha256")}});
     }
     return entries;
 }
@@ -151,10 +154,10 @@ ReadJob to_job(const Json& json) {
     job.volume_mm3 = real(piece, "volume_mm3");
     job.program_version = text(member(json, "program"), "version");
     job.project_id = from_hex<16>(json, "project_id");
-    job.scan_sha256 = from_hex<32>(json, "scan_sha256");
+    job.scan_sha256 = {from_hex<32>(json, "scan_sha256")};
     job.cell_id = whole<std::uint16_t>(member(json, "cell"), "id");
     if (job.cell_id == 0) throw wrong("id", "is the number of no cell");
-    job.bounds = to_bounds(json);
+    job.half_spaces = to_half_spaces(json);
     job.setup = to_setup(member(json, "setup"), member(json, "stock"));
     job.block_name = text(member(json, "stock"), "name");
     job.envelope = to_envelope(member(json, "envelope"));
@@ -183,7 +186,7 @@ std::string to_manifest(const JobInput& input, const std::vector<JobEntry>& entr
         {"project_id", to_hex(input.project_id)},
         {"scan_sha256", to_hex(input.scan_sha256)},
         {"cell", {{"name", input.cell.name}, {"id", input.cell.id}}},
-        {"bounds", from_bounds(input.piece.bounds)},
+        {"half_spaces", from_half_spaces(input.piece.half_spaces)},
         {"setup", from_setup(input.setup)},
         {"stock", from_stock(input)},
         {"envelope", from_envelope(input.envelope)},

@@ -1,6 +1,6 @@
-// The manifest of a job file: what the job is and the SHA-256 of every other file in it.
+// Writes and reads the manifest of a job file: what the job is, and the SHA-256 of every other file in it.
 //
-// Forth and back is identity (tests/cam/job/job_file_test.cpp). The grammar is in docs/job-folder.md.
+// What is read is what was written (tests/cam/job/job_file_test.cpp). docs/job-folder.md holds the grammar.
 
 #pragma once
 
@@ -12,10 +12,12 @@
 
 namespace qchopper {
 
-// `entries` are the other files, sorted by name.
+// JSON text. `entries` are the other files, sorted by name. Precondition: all numbers are finite.
 std::string to_manifest(const JobInput& input, const std::vector<JobEntry>& entries);
 
-// Fills all of ReadJob but ticket, files, file_size and file_sha256. Throws InputError (mesh) naming `source`.
+// Fills all of ReadJob but ticket, files, file_size and file_sha256. Throws InputError (mesh) naming `source` and the
+// key if a value is missing, of another kind or out of range, or if the text is not in the form that to_manifest
+// writes.
 ReadJob from_manifest(std::string_view text, const std::string& source);
 
 }  // namespace qchopper

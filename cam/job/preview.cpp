@@ -1,3 +1,5 @@
+// One node with notes; segment/io writes the file.
+
 #include "cam/job/preview.h"
 
 #include "segment/io/write_glb.h"

@@ -1,7 +1,8 @@
-// The piece as it will be carved, as GLB, for any viewer.
+// Writes the piece as it will be carved as GLB, for any viewer.
 //
-// glTF wants metres and Y up: the root node turns and scales, the numbers inside stay millimetres in setup coordinates
-// in single precision. The node piece/<name> carries extras {"qchopper": {...}} (tests/cam/job/preview_test.cpp).
+// glTF is in metres with Y up: the root node turns and scales; coordinates below it are millimetres in setup
+// coordinates in single precision. The node piece/<name> has extras {"qchopper": {...}}
+// (tests/cam/job/preview_test.cpp).
 
 #pragma once
 
@@ -21,7 +22,8 @@ struct PreviewNotes {
     bool fits = true;
 };
 
-// The mesh is in setup coordinates. Caps are a second primitive with a colour of their own.
+// The mesh is in setup coordinates. Its caps are a second primitive with a colour of their own. Throws InputError (use)
+// for a mesh beyond 4 GiB.
 Bytes preview_glb(const TriangleMesh& mesh, const PreviewNotes& notes);
 
 }  // namespace qchopper

@@ -1,3 +1,5 @@
+// Reads and writes the template as JSON.
+
 #include "cam/job/ticket.h"
 
 #include <algorithm>
@@ -14,16 +16,16 @@ using namespace json_values;
 
 namespace {
 
-// What the registers of a ticket hold: 0.01 mm in 32 bits with a sign, 0.001 mm in 32 bits without.
+// The range of a ticket's registers: 0.01 mm in 32 bits with a sign, 0.001 mm in 32 bits without.
 constexpr double farthest_mm = 21'474'836;
 constexpr double widest_tool_mm = 4'294'967;
 
 void check_lengths(const TicketTemplate& about) {
-    const auto is_told = [](Vec3 v) {
+    const auto fits = [](Vec3 v) {
         return std::abs(v.x) <= farthest_mm && std::abs(v.y) <= farthest_mm && std::abs(v.z) <= farthest_mm;
     };
-    if (!is_told(about.box.min) || !is_told(about.box.max)) throw wrong("box", "is out of range");
-    if (!is_told(about.stock)) throw wrong("stock", "is out of range");
+    if (!fits(about.box.min) || !fits(about.box.max)) throw wrong("box", "is out of range");
+    if (!fits(about.stock)) throw wrong("stock", "is out of range");
 }
 
 }  // namespace
@@ -58,7 +60,7 @@ TicketTemplate ticket_template_from_json(std::string_view text, const std::strin
         about.box = box(json, "box");
         about.stock = vector(json, "stock");
         const std::optional<Material> material = material_of(json_values::text(json, "material"));
-        if (!material) throw wrong("material", "is none that we know");
+        if (!material) throw wrong("material", "is not one of the known materials");
         about.material = *material;
         about.tool_no = whole<std::uint16_t>(json, "tool_no");
         about.tool_diameter = real_within(json, "tool_diameter", 0, widest_tool_mm);

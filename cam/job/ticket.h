@@ -1,7 +1,7 @@
-// The job ticket: what the cell is told about one job before it starts.
+// The job ticket: the data about one job that are sent to the cell before the job starts.
 //
-// A ticket template lies in every job file. Dispatch adds what only it can know: the facts of the file itself, the
-// job id and the time. Lengths are millimetres in setup coordinates (the base frame of the program).
+// Every job file holds a ticket template. job_ticket() binds it to the file, and dispatch adds job id and time. Lengths
+// in mm in setup coordinates, the base frame of the robot program.
 
 #pragma once
 
@@ -18,14 +18,14 @@ namespace qchopper {
 
 constexpr std::uint16_t no_base_plane = 0xFFFF;
 
-// Known when the job is written. The same piece, setup and cell give the same template.
+// What is known when the job is written. The same piece, setup and cell give the same template.
 struct TicketTemplate {
     std::string piece;           // name of the piece
     std::uint16_t piece_no = 0;  // 1..piece_count
     std::uint16_t piece_count = 0;
     Uuid project_id{};  // first 16 bytes of a SHA-256 over scan and decisions
     Box box;            // of the piece in setup coordinates
-    Vec3 stock;         // size of the block
+    Vec3 stock;         // size of the block as it stands
     Material material = Material::unspecified;
     std::uint16_t tool_no = 0;
     double tool_diameter = 0;
@@ -41,17 +41,19 @@ struct JobTicket {
     TicketTemplate about;
     std::string file_name;  // is_portable_name
     std::uint32_t file_size = 0;
-    Sha256 file_sha256{};
+    Sha256 file_sha256;
     bool operator==(const JobTicket&) const = default;
 };
 
-// The template as a JSON text of one object, and back; forth and back is identity (tests/cam/job/ticket_test.cpp).
-// from_json throws InputError (mesh) that names `source` and the key.
+// The template as a JSON text of one object. Precondition: all numbers are finite.
 std::string to_json(const TicketTemplate& about);
+// The inverse of to_json (tests/cam/job/ticket_test.cpp). Throws InputError (mesh) naming `source` and the key if a
+// value is missing, of another kind or beyond what the registers hold, or if the text is not in the form that to_json
+// writes.
 TicketTemplate ticket_template_from_json(std::string_view text, const std::string& source);
 
-// Foam to be taken away over the removal rate, in whole seconds, at least 1. Crude: it knows no finishing, no travel
-// and no acceleration.
+// The volume of foam to remove over the removal rate, rounded up to whole seconds, 1 to 2^32 - 1. Crude: without
+// finishing, travel and acceleration.
 std::uint32_t crude_time_s(double stock_mm3, double piece_mm3, double removal_mm3_per_s);
 
 }  // namespace qchopper

@@ -1,24 +1,25 @@
+// Compares boxes axis by axis.
+
 #include "cam/setup/envelope.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
+#include "base/text.h"
+
 namespace qchopper {
 namespace {
 
 constexpr double rounding = 1e-6;  // mm
 
-std::string whole_mm(double mm) {
-    // A violation of a tenth is not "0 mm too high".
+// Rounded up, so that a violation of a tenth is not "0 mm too high": from 10 on to whole mm, below to tenths.
+std::string rounded_up(double mm) {
     const double shown = std::abs(mm) < 10 ? std::ceil(std::abs(mm) * 10) / 10 : std::ceil(std::abs(mm));
-    std::string text = std::to_string(shown);
-    text.erase(text.find('.') + 2);
-    if (text.ends_with(".0")) text.erase(text.size() - 2);
-    return text + " mm";
+    return significant(shown, 15) + " mm";
 }
 
-std::string size_words(Vec3 size) {
+std::string describe_size(Vec3 size) {
     const auto number = [](double mm) { return std::to_string(std::lround(mm)); };
     return number(size.x) + " x " + number(size.y) + " x " + number(size.z) + " mm";
 }
@@ -27,14 +28,14 @@ void add_piece_margins(const Setup& setup, const Cell& cell, std::vector<Margin>
     assert(setup.stock < cell.stock.size());
     const Vec3 piece = setup.box.size();
     const Vec3 block = setup.block;
-    const std::string name = "block " + cell.stock[setup.stock].name + " (" + size_words(block) + ")";
+    const std::string name = "block " + cell.stock[setup.stock].name + " (" + describe_size(block) + ")";
     const double m = cell.stock_margin;
     margins.push_back({"piece in block, length", "too long for " + name, block.x - piece.x - 2 * m});
     margins.push_back({"piece in block, width", "too wide for " + name, block.y - piece.y - 2 * m});
     margins.push_back({"piece in block, height", "too high for " + name, block.z - piece.z - m});
 }
 
-// The tool walks around the block, half of it outside.
+// The tool travels around the block, its axis half a diameter outside.
 void add_reach_margins(const Setup& setup, const Cell& cell, std::vector<Margin>& margins) {
     const Table& table = cell.table;
     const Box& reach = cell.reach;
@@ -73,17 +74,17 @@ EnvelopeReport check_envelope(const Setup& setup, const Cell& cell) {
     return report;
 }
 
-std::string envelope_words(const std::string& piece, const EnvelopeReport& report) {
+std::string describe_envelope(const std::string& piece, const EnvelopeReport& report) {
     if (report.fits()) {
         return "piece " + piece + " fits, tightest: " + report.worst().name + " " +
                std::to_string(static_cast<long>(std::floor(std::max(0.0, report.worst().mm)))) + " mm";
     }
-    std::string words;
+    std::string problems;
     for (const Margin& margin : report.margins) {
         if (margin.mm >= -rounding) continue;
-        words += (words.empty() ? "" : ", ") + whole_mm(margin.mm) + " " + margin.problem;
+        problems += (problems.empty() ? "" : ", ") + rounded_up(margin.mm) + " " + margin.problem;
     }
-    return "piece " + piece + " does not fit: " + words;
+    return "piece " + piece + " does not fit: " + problems;
 }
 
 }  // namespace qchopper

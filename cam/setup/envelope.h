@@ -1,7 +1,7 @@
-// Does the block stand in the cell, and the piece in the block? Every answer is a margin with a name.
+// Checks that the block fits into the cell and the piece into the block: one named margin per condition.
 //
-// Millimetres; negative: violated. First check only: boxes, no kinematics. A piece fits when no margin is negative
-// (tests/cam/setup/envelope_test.cpp).
+// Lengths in mm; a negative margin is a violated condition. Boxes only, no kinematics. A piece fits when no margin is
+// negative beyond rounding, 1e-6 (tests/cam/setup/envelope_test.cpp).
 
 #pragma once
 
@@ -23,13 +23,15 @@ struct EnvelopeReport {
     std::vector<Margin> margins;
     bool operator==(const EnvelopeReport&) const = default;
     bool fits() const;
-    // The smallest margin. There is always one.
+    // The smallest margin, of equal ones the first. Precondition: there is a margin.
     const Margin& worst() const;
 };
 
+// Always the same 11 conditions in the same order. Precondition: setup.stock is an index in cell.stock.
 EnvelopeReport check_envelope(const Setup& setup, const Cell& cell);
 
 // "piece B does not fit: 32 mm too high for block medium (600 x 400 x 400 mm), ..."; "piece B fits, ..." otherwise.
-std::string envelope_words(const std::string& piece, const EnvelopeReport& report);
+// Precondition: there is a margin.
+std::string describe_envelope(const std::string& piece, const EnvelopeReport& report);
 
 }  // namespace qchopper

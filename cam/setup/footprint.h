@@ -1,36 +1,35 @@
-// What a piece covers on the table, seen along one direction: its rectangle and its projected area.
+// Measures the footprint of a piece, its vertical projection on the table: smallest rectangle and projected area.
 //
-// Millimetres. No turn of a footprint has a smaller rectangle (tests/cam/setup/footprint_test.cpp).
+// Plane coordinates in mm. No direction gives a smaller rectangle (tests/cam/setup/footprint_test.cpp).
 
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
+#include "segment/mesh/polygon.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {
 
-using FootPoint = std::array<double, 2>;
+// The corners counter-clockwise, the lowest of the leftmost first, no three in line. Fewer than three where all points
+// coincide or lie in a line.
+std::vector<Point2> convex_hull(std::vector<Point2> points);
 
-// Counter-clockwise corners, the lowest of the leftmost first, no three in line. Fewer than three where all points
-// are one or lie in a line.
-std::vector<FootPoint> convex_hull(std::vector<FootPoint> points);
-
-// The rectangle of least area around the points.
 struct Rectangle {
-    FootPoint along{1, 0};  // unit vector of the long side
+    Point2 along{1, 0};  // unit vector of the long side
     double length = 0;
     double width = 0;  // never more than the length
     double area() const { return length * width; }
 };
-Rectangle smallest_rectangle(std::vector<FootPoint> points);
+// The rectangle of least area around the points; its sizes are 0 for no points or a single one.
+Rectangle smallest_rectangle(std::vector<Point2> points);
 
-// Two unit vectors that make a right-handed frame with the unit vector `up`.
+// Two unit vectors that, with the unit vector `up` as the third, make a right-handed frame.
 std::array<Vec3, 2> frame_under(Vec3 up);
 
-// Area of the projection along `up`, on a grid: good to about a hundredth of its box.
+// Area of the projection along the unit vector `up`, holes left out, measured on a grid: the error is about a hundredth
+// of the box around the projection. 0 if that box has no area.
 double projected_area_mm2(const TriangleMesh& mesh, Vec3 up);
 
 }  // namespace qchopper

@@ -1,3 +1,6 @@
+// Evaluates every cap (undercut.h), or every side of the oriented box, and keeps the best. O(caps * triangles), and a
+// ray per triangle for the base that is chosen, or for each of six sides.
+
 #include "cam/setup/setup.h"
 
 #include <algorithm>
@@ -14,7 +17,7 @@
 namespace qchopper {
 namespace {
 
-constexpr double same = 1e-9;               // undercuts and shares that differ by less are a tie
+constexpr double tie = 1e-9;                // undercuts and ratios that differ by no more are equal
 constexpr double rounding = 1e-6;           // mm
 constexpr double least_stable_share = 0.1;  // of the projected area
 
@@ -22,7 +25,8 @@ std::string percent(double share) {
     return std::to_string(std::lround(100 * share)) + " %";
 }
 
-struct Candidate {
+// A way to lay the piece: on a cap, or without one on a side of its oriented box.
+struct BaseCandidate {
     std::optional<std::int32_t> base;
     Vec3 up;
     Facing facing;
@@ -30,36 +34,38 @@ struct Candidate {
     bool is_stable = false;
 };
 
-std::vector<Candidate> caps_owned(const Piece& piece) {
-    std::vector<Candidate> candidates;
-    for (const Bound& bound : piece.bounds) {
-        const Facing sums = facing(*piece.mesh, bound.up(), bound.cut);
+// One candidate per half-space whose cap the piece still has.
+std::vector<BaseCandidate> caps_owned(const Piece& piece) {
+    std::vector<BaseCandidate> candidates;
+    for (const HalfSpace& half_space : piece.half_spaces) {
+        const Facing sums = facing(*piece.mesh, half_space.up(), half_space.cut);
         if (sums.base_triangles == 0) continue;
-        Candidate candidate{bound.cut, bound.up(), sums, projected_area_mm2(*piece.mesh, bound.up()), false};
+        BaseCandidate candidate{half_space.cut, half_space.up(), sums, projected_area_mm2(*piece.mesh, half_space.up()),
+                                false};
         candidate.is_stable = sums.base >= least_stable_share * candidate.projected_area_mm2;
         candidates.push_back(candidate);
     }
     return candidates;
 }
 
-// Ties within a tolerance are no order, so the best is found first and the lowest cut among its equals second.
-Candidate best_cap(const std::vector<Candidate>& candidates) {
+// A comparison with a tolerance is no order, so the best is found first and the lowest cut among its equals second.
+BaseCandidate best_cap(const std::vector<BaseCandidate>& candidates) {
     assert(!candidates.empty());
-    Candidate best = candidates.front();
-    for (const Candidate& other : candidates) {
+    BaseCandidate best = candidates.front();
+    for (const BaseCandidate& other : candidates) {
         const bool less = other.facing.undercut() < best.facing.undercut();
         if (other.is_stable != best.is_stable ? other.is_stable : less) best = other;
     }
-    Candidate first = best;
-    for (const Candidate& other : candidates) {
-        const bool tie = other.is_stable == best.is_stable && other.facing.undercut() - best.facing.undercut() <= same;
-        if (tie && *other.base < *first.base) first = other;
+    BaseCandidate first = best;
+    for (const BaseCandidate& other : candidates) {
+        const bool equal = other.is_stable == best.is_stable && other.facing.undercut() - best.facing.undercut() <= tie;
+        if (equal && *other.base < *first.base) first = other;
     }
     return first;
 }
 
-// Shortest side first: where nothing else decides, a piece lies flat.
-Candidate best_side(const Piece& piece, const RayTree& rays) {
+// Shortest side first: of equal sides the piece lies on the one that makes it lowest.
+BaseCandidate best_side(const Piece& piece, const RayTree& rays) {
     const OrientedBox box = oriented_box(piece.mesh->points);
     Vec3 up = box.axis[2];
     double least = std::numeric_limits<double>::infinity();
@@ -67,7 +73,7 @@ Candidate best_side(const Piece& piece, const RayTree& rays) {
         for (const double sign : {1.0, -1.0}) {
             const Vec3 direction = sign * box.axis[axis];
             const double occluded = occluded_area_ratio(*piece.mesh, rays, direction, std::nullopt);
-            if (occluded >= least - same) continue;
+            if (occluded >= least - tie) continue;
             least = occluded;
             up = direction;
         }
@@ -75,22 +81,23 @@ Candidate best_side(const Piece& piece, const RayTree& rays) {
     return {std::nullopt, up, facing(*piece.mesh, up, std::nullopt), projected_area_mm2(*piece.mesh, up), false};
 }
 
-// Turned so that the smallest rectangle of the footprint lies along x, then set down.
+// Turns the piece so that the smallest rectangle of its footprint lies along x, then puts it on z = 0.
 void place(const TriangleMesh& mesh, Setup& setup) {
     const auto [e1, e2] = frame_under(setup.up);
-    std::vector<FootPoint> footprint;
+    std::vector<Point2> footprint;
     footprint.reserve(mesh.points.size());
     for (const Vec3& p : mesh.points) footprint.push_back({dot(e1, p), dot(e2, p)});
-    const FootPoint along = smallest_rectangle(std::move(footprint)).along;
-    const Vec3 x = normalized(along[0] * e1 + along[1] * e2);
+    const Point2 along = smallest_rectangle(std::move(footprint)).along;
+    const Vec3 x = normalized(along.x * e1 + along.y * e2);
     setup.piece_in_setup = {{x, cross(setup.up, x), setup.up}, {}};
     const Box turned = bounds(apply(setup.piece_in_setup, mesh));
     const Vec3 middle = turned.centre();
     setup.piece_in_setup.shift = -Vec3{middle.x, middle.y, turned.min.z};
     setup.box = bounds(apply(setup.piece_in_setup, mesh));
-    assert(std::abs(setup.box.min.z) < 1e-6);  // set down
+    assert(std::abs(setup.box.min.z) < 1e-6);
 }
 
+// What the block lacks along the worst axis; not positive if it holds the size.
 double shortfall(Vec3 needed, Vec3 block) {
     const Vec3 lack = needed - block;
     return std::max({lack.x, lack.y, lack.z});
@@ -107,7 +114,7 @@ void choose_stock(const Cell& cell, Setup& setup) {
         for (const bool turned : {false, true}) {
             const Vec3 block = turned ? Vec3{size.y, size.x, size.z} : size;
             const double lack = shortfall(needed, block);
-            const double counted = lack <= rounding ? 0 : lack;  // all that hold are equal; then volume decides
+            const double counted = lack <= rounding ? 0 : lack;  // among blocks that hold it, volume decides
             const double volume = size.x * size.y * size.z;
             if (counted > least_lack || (counted == least_lack && volume >= least_volume)) continue;
             least_lack = counted;
@@ -121,13 +128,13 @@ void choose_stock(const Cell& cell, Setup& setup) {
     assert(setup.stock < cell.stock.size());
 }
 
-void describe(const Candidate& chosen, Setup& setup) {
+void describe(const BaseCandidate& chosen, Setup& setup) {
     if (!chosen.base) {
-        setup.base_words = "no cap: the piece is bedded on the foam that is left under it";
+        setup.base_description = "no cap: the piece is bedded on the foam that is left under it";
         setup.warnings.push_back("the piece has no flat cap to lie on: keep it held from below");
         return;
     }
-    setup.base_words = "the cap of cut " + std::to_string(*chosen.base);
+    setup.base_description = "the cap of cut " + std::to_string(*chosen.base);
     if (setup.base_is_stable) return;
     setup.warnings.push_back("the base is only " + percent(chosen.facing.base / chosen.projected_area_mm2) +
                              " of the piece's projected area: it may tip or break off");
@@ -138,8 +145,8 @@ void describe(const Candidate& chosen, Setup& setup) {
 Setup choose_setup(const Piece& piece, const Cell& cell) {
     assert(piece.mesh && !piece.mesh->triangles.empty() && !cell.stock.empty());
     const RayTree rays(*piece.mesh);
-    const std::vector<Candidate> caps = caps_owned(piece);
-    const Candidate chosen = caps.empty() ? best_side(piece, rays) : best_cap(caps);
+    const std::vector<BaseCandidate> caps = caps_owned(piece);
+    const BaseCandidate chosen = caps.empty() ? best_side(piece, rays) : best_cap(caps);
 
     Setup setup;
     setup.base = chosen.base;

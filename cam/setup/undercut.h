@@ -1,7 +1,8 @@
-// What a piece shows to a tool from straight above, when one of its caps lies on the table.
+// Measures how much of a piece a tool from straight above cannot reach, when one of its caps lies on the table.
 //
 // Undercut u(phi): Nicholson, "QChopper", 2016, section 4.2.4, the base left out: with it the share is one half for
-// every closed surface. In [0, 1/2) on a closed piece (tests/cam/setup/undercut_test.cpp).
+// every closed surface. In [0, 1/2) on a closed piece with a base (tests/cam/setup/undercut_test.cpp). `base` is the
+// number of the cut whose cap lies on the table, `up` a unit vector.
 
 #pragma once
 
@@ -20,13 +21,14 @@ struct Facing {
     double down = 0;  // of what faces down, base left out
     double base = 0;  // of the base, signed: positive when it faces down
     std::size_t base_triangles = 0;
-    // Share of what faces down; 1/2 where nothing faces either way.
+    // Share of what faces down; 1/2 where nothing faces up or down.
     double undercut() const { return up + down > 0 ? down / (up + down) : 0.5; }
 };
+// Precondition: the mesh is consistent, and `up` is not zero.
 Facing facing(const TriangleMesh& mesh, Vec3 up, std::optional<std::int32_t> base);
 
-// Share of the area, base left out, that faces down or has something of the piece straight above its middle. A wall
-// counts as seen: the side of the tool cuts it.
+// Share of the area, base left out, of the triangles that face down or have a part of the piece straight above their
+// middle. A vertical wall does not face down: the side of the tool cuts it. `rays` is the tree of `mesh`.
 double occluded_area_ratio(const TriangleMesh& mesh, const RayTree& rays, Vec3 up, std::optional<std::int32_t> base);
 
 }  // namespace qchopper

@@ -1,5 +1,6 @@
-// Constrained Delaunay triangulation by CGAL, one region at a time. Its answer is taken only if it kept every point
-// and every loop edge; otherwise the region is cut into ears (ears.h), which cannot fail.
+// Constrained Delaunay triangulation by CGAL, one region at a time. Its result is used only if it has every point and
+// every loop edge; otherwise the same is tried with contacts moved apart (contact.h), and at last the region is cut
+// into ears (ear_clipping.h), which cannot fail. O(N log N) for N points on average.
 
 #include "segment/cut/cap.h"
 
@@ -31,7 +32,7 @@ using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-// Number of constrained edges between a face and the infinite one, modulo 2, for all faces.
+// Sets the info of every face to the number of constrained edges between it and the infinite one, modulo 2.
 void mark_inside(Delaunay& cdt) {
     for (const Delaunay::Face_handle face : cdt.all_face_handles()) face->info() = -1;
     std::vector<Delaunay::Face_handle> stack{cdt.infinite_face()};
@@ -48,7 +49,7 @@ void mark_inside(Delaunay& cdt) {
     }
 }
 
-// Whether the edge is one of the triangulation, with what is inside on its left only.
+// Whether this is an edge of the triangulation with the inside on its left only.
 bool is_border(const Delaunay& cdt, Delaunay::Vertex_handle from, Delaunay::Vertex_handle to) {
     Delaunay::Face_handle left;
     int i = 0;
@@ -58,11 +59,16 @@ bool is_border(const Delaunay& cdt, Delaunay::Vertex_handle from, Delaunay::Vert
     return left->info() == 1 && right->info() == 0;
 }
 
-// Nothing if the triangulation would merge points, split a loop edge, give another number of triangles, or turn them
-// against a loop: of a loop with next to no area each set of coordinates rounds to its own sign.
+// Nothing if the triangulation would merge points, split a loop edge, give another number of triangles, or orient them
+// against a loop: the sign of an area near 0 depends on the rounding of the coordinates.
 std::optional<Triangles> delaunay(std::span<const Point2> points, std::span<const Loop* const> loops) {
     std::vector<std::uint32_t> order;
-    for (const Loop* loop : loops) order.insert(order.end(), loop->begin(), loop->end());
+    std::vector<std::size_t> next;  // one per entry of order: the following entry of its loop
+    for (const Loop* loop : loops) {
+        const std::size_t first = order.size();
+        order.insert(order.end(), loop->begin(), loop->end());
+        for (std::size_t i = 0; i < loop->size(); ++i) next.push_back(first + (i + 1) % loop->size());
+    }
     std::vector<Kernel::Point_2> place;
     place.reserve(order.size());
     for (const std::uint32_t p : order) place.emplace_back(points[p].x, points[p].y);
@@ -82,23 +88,13 @@ std::optional<Triangles> delaunay(std::span<const Point2> points, std::span<cons
         hint = vertex[i]->face();
     }
     try {
-        std::size_t first = 0;
-        for (const Loop* loop : loops) {
-            for (std::size_t i = 0; i < loop->size(); ++i) {
-                cdt.insert_constraint(vertex[first + i], vertex[first + (i + 1) % loop->size()]);
-            }
-            first += loop->size();
-        }
+        for (std::size_t i = 0; i < next.size(); ++i) cdt.insert_constraint(vertex[i], vertex[next[i]]);
     } catch (const Delaunay::Intersection_of_constraints_exception&) {
         return std::nullopt;
     }
     mark_inside(cdt);
-    std::size_t first = 0;
-    for (const Loop* loop : loops) {
-        for (std::size_t i = 0; i < loop->size(); ++i) {
-            if (!is_border(cdt, vertex[first + i], vertex[first + (i + 1) % loop->size()])) return std::nullopt;
-        }
-        first += loop->size();
+    for (std::size_t i = 0; i < next.size(); ++i) {
+        if (!is_border(cdt, vertex[i], vertex[next[i]])) return std::nullopt;
     }
     Triangles triangles;
     for (const Delaunay::Face_handle face : cdt.finite_face_handles()) {
@@ -115,14 +111,13 @@ CapTriangles triangulate_regions(std::span<const Point2> points, std::span<const
                                  std::span<const CapRegion> regions) {
     CapTriangles result;
     for (const CapRegion& region : regions) {
-        ++result.regions;
         std::vector<const Loop*> region_loops{&loops[region.outer]};
         for (const std::size_t hole : region.holes) region_loops.push_back(&loops[hole]);
         std::optional<Triangles> triangles;
         if (region.is_simple) triangles = delaunay(points, region_loops);
         if (!triangles) {
-            const std::optional<std::vector<Point2>> parted = without_contacts(points, region_loops);
-            if (parted) triangles = delaunay(*parted, region_loops);
+            const std::optional<std::vector<Point2>> separated = without_contacts(points, region_loops);
+            if (separated) triangles = delaunay(*separated, region_loops);
         }
         if (!triangles) {
             ++result.forced_regions;
@@ -138,11 +133,6 @@ CapTriangles triangulate_regions(std::span<const Point2> points, std::span<const
 std::vector<Loop> capped(std::vector<Loop> loops) {
     std::erase_if(loops, [](const Loop& l) { return l.size() < 3; });
     return loops;
-}
-
-CapTriangles triangulate_caps(std::span<const Point2> points, std::span<const Loop> loops) {
-    const std::vector<Loop> kept = capped({loops.begin(), loops.end()});
-    return triangulate_regions(points, kept, nest(points, kept));
 }
 
 }  // namespace qchopper

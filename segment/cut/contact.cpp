@@ -1,3 +1,6 @@
+// For every corner of a loop, the edges that it touches are found by rows (polygon.h); the angles of their ends about
+// the corner show whether they lie in its material or in the void. O(N) for N points while few edges lie in one row.
+
 #include "segment/cut/contact.h"
 
 #include <algorithm>
@@ -7,8 +10,8 @@
 namespace qchopper {
 namespace {
 
-// Shares of the region's size. Rounding stays far below the first; what a nudged plane leaves between two vertices is
-// far above the last.
+// Shares of the region's size. Rounding is far below the first; the distance of two vertices at a nudged plane is far
+// above the last.
 constexpr double contact_share = 1e-11;
 constexpr double move_share = 1e-10;
 constexpr double probe_share = 1e-9;
@@ -26,13 +29,13 @@ double angle_of(Point2 d) {
     return std::atan2(d.y, d.x);
 }
 
-// From one angle counter-clockwise to another: 0 to 2 pi.
+// The angle counter-clockwise from one direction to another: 0 to 2 pi.
 double turn(double from, double to) {
     const double t = std::fmod(to - from, 2 * std::numbers::pi);
     return t < 0 ? t + 2 * std::numbers::pi : t;
 }
 
-// A point of a loop, and the points before and after it that lie elsewhere.
+// A point of a loop, and the last point before it and the first one after it at another place.
 struct Corner {
     Point2 at;
     Point2 before;
@@ -42,10 +45,11 @@ struct Corner {
     bool is_doubled_after = false;
 };
 
-// The two sides of a corner: the material from the way out counter-clockwise to the way in, and the rest.
+// The two sides of a corner: the material, counter-clockwise from the edge that leaves it to the one that arrives, and
+// the void.
 struct Sides {
-    double out = 0;
-    double material = 0;  // angle
+    double out = 0;       // direction of the edge that leaves the corner
+    double material = 0;  // angle of the material
     double into_material() const { return out + material / 2; }
     double into_void() const { return out + material / 2 + std::numbers::pi; }
 };
@@ -53,13 +57,14 @@ struct Sides {
 struct Edge {
     Point2 a;
     Point2 b;
-    std::size_t from = 0;  // corners
+    std::size_t from = 0;  // indices of its corners
     std::size_t to = 0;
 };
 
-class Parter {
+class ContactSeparator {
  public:
-    Parter(std::span<const Point2> points, std::span<const Loop* const> loops) : points_(points), loops_(loops) {
+    ContactSeparator(std::span<const Point2> points, std::span<const Loop* const> loops)
+        : points_(points), loops_(loops) {
         Rectangle2 box;
         for (const Loop* loop : loops) {
             for (const std::uint32_t p : *loop) box.include(points[p]);
@@ -78,9 +83,9 @@ class Parter {
         std::vector<Point2> moved(points_.begin(), points_.end());
         bool is_any = false;
         for (std::size_t c = 0; c < corners_.size(); ++c) {
-            const std::optional<double> way = way_out(c);
-            if (!way) continue;
-            moved[corners_[c].point] = along(corners_[c].at, *way, move_share * size_);
+            const std::optional<double> direction = move_direction(c);
+            if (!direction) continue;
+            moved[corners_[c].point] = along(corners_[c].at, *direction, move_share * size_);
             is_any = true;
         }
         if (!is_any) return std::nullopt;
@@ -116,7 +121,7 @@ class Parter {
         }
     }
 
-    // Even-odd, in the region as it was.
+    // By the even-odd rule, in the region before the move.
     bool is_material(Point2 p) const {
         bool inside = false;
         for (const std::uint32_t number : rows_.at(p.y)) {
@@ -130,7 +135,7 @@ class Parter {
         Sides s;
         s.out = angle_of(c.after - c.at);
         s.material = turn(s.out, angle_of(c.before - c.at));
-        // A spike: is it one of void or one of material?
+        // A spike of material or of void: the sides have no breadth.
         if (s.material < equal_angle || s.material > 2 * std::numbers::pi - equal_angle) {
             const bool is_around = is_material(along(c.at, s.out + std::numbers::pi, probe_share * size_));
             s.material = is_around ? 2 * std::numbers::pi : 0;
@@ -138,8 +143,8 @@ class Parter {
         return s;
     }
 
-    // Which way a corner has to move to come free; nothing if it touches nothing, or on both its sides.
-    std::optional<double> way_out(std::size_t number) const {
+    // The direction in which a corner has to move; nothing if it touches nothing, or if it does on both its sides.
+    std::optional<double> move_direction(std::size_t number) const {
         const Corner& c = corners_[number];
         if (c.is_doubled_before != c.is_doubled_after) {
             return angle_of((c.is_doubled_before ? c.after : c.before) - c.at);
@@ -160,7 +165,8 @@ class Parter {
             }
         }
         if (!own) return std::nullopt;
-        if (!in_material && !in_void) {  // only edges along its own: non-manifold is what is not there a little farther
+        // Only edges along its own: the contact is in the side that is not found a little farther away.
+        if (!in_material && !in_void) {
             const bool has_material = is_material(along(c.at, own->into_material(), probe_share * size_));
             (has_material ? in_void : in_material) = true;
         }
@@ -181,7 +187,7 @@ class Parter {
 
 std::optional<std::vector<Point2>> without_contacts(std::span<const Point2> points,
                                                     std::span<const Loop* const> loops) {
-    return Parter(points, loops).run();
+    return ContactSeparator(points, loops).run();
 }
 
 }  // namespace qchopper

@@ -1,8 +1,8 @@
-// Moves the points in which loops touch themselves or each other apart, so that a triangulation of what is left without
-// contact is one of the loops as they are, but for slivers as thin as the move.
+// Moves points apart in which loops touch themselves or each other.
 //
-// Plane coordinates, mm. A point that touches moves by 1e-10 of the region's size, away from what it touches: out of
-// the material where the material is non-manifold there, into it where the void is
+// Plane coordinates, mm. A point that touches moves by 1e-10 of the size of the region, away from what it touches: out
+// of the material where two parts of the material touch there, into it where two parts of the void do. So the result
+// has no contact, and a triangulation of it is one of the given loops, but for slivers as thin as the move
 // (tests/segment/score/touching_test.cpp).
 
 #pragma once
@@ -15,8 +15,8 @@
 
 namespace qchopper {
 
-// The points after the move. Nothing if no point touches, or if a loop then runs the wrong way round: counter-clockwise
-// is the first one, the outer; clockwise are the others, its holes.
+// The points after the move, all of them. The first loop is the outer one and counter-clockwise, the others are its
+// holes and clockwise. Nothing if no point touches, or if a loop has another orientation after the move.
 std::optional<std::vector<Point2>> without_contacts(std::span<const Point2> points, std::span<const Loop* const> loops);
 
 }  // namespace qchopper

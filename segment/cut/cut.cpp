@@ -1,3 +1,6 @@
+// Triangles are copied to their half; crossed ones are divided at the points of the section (plane_section.h), which
+// both halves share; the caps triangulate its loops (cap.h). One pass over the triangles for each half.
+
 #include "segment/cut/cut.h"
 
 #include <algorithm>
@@ -10,7 +13,7 @@
 namespace qchopper {
 namespace {
 
-// Writes one half: its whole triangles, its parts of crossed triangles, its cap.
+// Builds one half: its whole triangles, its parts of crossed triangles, its cap.
 class HalfWriter {
  public:
     HalfWriter(const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_above, bool above, std::size_t extra)
@@ -31,13 +34,13 @@ class HalfWriter {
         reserve_huge(half_.parent, triangles);
     }
 
-    void whole(std::uint32_t t) {
+    void add_whole(std::uint32_t t) {
         const Triangle& v = mesh_.triangles[t];
         add({half_.number[v[0]], half_.number[v[1]], half_.number[v[2]]}, cap_of(mesh_, t), t);
     }
 
-    // The corner that is alone, or the four-sided rest.
-    void part(const SectionTriangle& s, bool above) {
+    // The part with the apex, or the four-sided part with the other corners.
+    void add_part(const SectionTriangle& s, bool above) {
         const Triangle& v = mesh_.triangles[s.triangle];
         const auto [apex, apex_is_above] = s.crossing;
         const std::int32_t cap = cap_of(mesh_, s.triangle);
@@ -61,7 +64,7 @@ class HalfWriter {
         half_.first_cap_triangle = half_.mesh.triangles.size();
         for (const auto& [a, b, c] : caps.triangles) {
             Triangle t{first_cap_point_ + a, first_cap_point_ + b, first_cap_point_ + c};
-            if (above) std::swap(t[1], t[2]);  // the upper half's cap looks down
+            if (above) std::swap(t[1], t[2]);  // the cap of the upper half faces down
             add(t, cut_number, no_parent);
         }
         return std::move(half_);
@@ -102,7 +105,8 @@ std::optional<CappedSection> capped_section(const TriangleMesh& mesh, const Plan
     const std::vector<Point2> flat = flat_points(points, plane.normal, points.front());
     for (const Loop& loop : loops) result.area_mm2 += signed_area(flat, loop);
     const std::vector<Loop> kept = capped(loops);
-    // Nested in the coordinates of the sweep, to the last bit: what it predicts is what the cut makes.
+    // Nested in the coordinates of the sweep, to the last bit, so that the cut has the regions that the sweep
+    // evaluates.
     const std::vector<CapRegion> regions = nest(flat_points(points, plane.normal, mesh.points.front()), kept);
     result.caps = triangulate_regions(flat, kept, regions);
     return result;
@@ -126,10 +130,10 @@ std::optional<CutHalves> cut(const TriangleMesh& mesh, const Plane& plane, std::
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         if (next_crossed < section.triangles.size() && section.triangles[next_crossed].triangle == t) {
             const SectionTriangle& s = section.triangles[next_crossed++];
-            above.part(s, true);
-            below.part(s, false);
+            above.add_part(s, true);
+            below.add_part(s, false);
         } else {
-            (is_above[mesh.triangles[t][0]] != 0 ? above : below).whole(t);
+            (is_above[mesh.triangles[t][0]] != 0 ? above : below).add_whole(t);
         }
     }
     assert(next_crossed == section.triangles.size());

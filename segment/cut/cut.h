@@ -1,8 +1,8 @@
 // Cuts a closed mesh in two along a plane and caps both halves.
 //
-// Lengths are millimetres. Whatever the plane, the two halves close again and their volumes add up to the volume of
-// the input to 1e-9 (tests/segment/cut/cut_test.cpp). No vertex of the mesh may lie numerically on the plane: nudge()
-// finds an offset for which that holds (nudge.h). A vertex at the height of the plane counts as above.
+// Lengths are millimetres. Precondition: the mesh is closed (edges.h), and no vertex lies numerically on the plane:
+// nudge() finds such an offset (nudge.h). Postcondition: both halves are closed and their volumes add up to that of the
+// input to 1e-9 relative (tests/segment/cut/cut_test.cpp). A vertex at the height of the plane counts as above.
 
 #pragma once
 
@@ -23,26 +23,27 @@ constexpr std::uint32_t no_parent = std::numeric_limits<std::uint32_t>::max();
 struct Half {
     TriangleMesh mesh;
     std::size_t first_cap_triangle = 0;
-    std::vector<std::uint32_t>
-        parent;  // per triangle: the triangle of the input that it is (a part of); caps: no_parent
-    std::vector<std::uint32_t> number;  // per point of the input: its number in this half, or no_parent
+    std::vector<std::uint32_t> parent;  // one per triangle: that of the input of which it is a part; caps: no_parent
+    std::vector<std::uint32_t> number;  // one per point of the input: its number in this half, or no_parent
 };
 
-// Both halves of one cut. Cap triangle i of one is cap triangle i of the other, turned over, with the same points to
-// the last bit.
+// Both halves of one cut. Cap triangle i of one half is cap triangle i of the other, of opposite orientation, with the
+// same points to the last bit.
 struct CutHalves {
     Half above;  // the side that plane.normal points to
     Half below;
-    double cap_area_mm2 = 0;  // signed: sum over the loops of the section
-    std::size_t loops = 0;
-    std::size_t forced_regions = 0;  // cap regions whose loops cross: the input runs through itself there
+    double cap_area_mm2 = 0;         // signed: sum over the loops of the section
+    std::size_t loops = 0;           // of the section
+    std::size_t forced_regions = 0;  // cap regions whose loops cross: the input intersects itself there
 };
 
-// Returns nothing if the plane misses the mesh: that is an answer, not an error. New caps are marked cut_number in
-// cap_of. Throws InputError if the mesh is open where the plane passes; repair closes it.
+// Returns nothing if the plane misses the mesh: that is an answer, not an error. cap_of of new caps is cut_number,
+// which is not no_cap. Throws InputError (mesh) if the mesh is open where the plane passes; repair closes it.
+// O(triangles + c log c) for c crossed triangles.
 std::optional<CutHalves> cut(const TriangleMesh& mesh, const Plane& plane, std::int32_t cut_number);
 
-// The forced_regions of a cut that is not made: the sections cross there, and a cap would overlap itself.
+// The forced_regions that this cut would have, without making it: in those the cap would overlap itself. Throws as
+// cut().
 std::size_t crossing_regions(const TriangleMesh& mesh, const Plane& plane);
 
 }  // namespace qchopper

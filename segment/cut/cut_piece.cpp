@@ -1,3 +1,5 @@
+// Cut, then the solids of both halves as meshes of their own.
+
 #include "segment/cut/cut_piece.h"
 
 #include <cassert>
@@ -10,13 +12,13 @@ namespace qchopper {
 namespace {
 
 void add_solids(CutPieces& result, const Piece& parent, const TriangleMesh& half, const HalfSolids& solids,
-                const Bound& bound) {
+                const HalfSpace& half_space) {
     for (TriangleMesh& solid : split_solids(half, solids.shells, solids.solids)) {
         assert(edges(solid).faults.is_closed());
         Piece piece;
         piece.mesh = std::make_shared<const TriangleMesh>(std::move(solid));
-        piece.bounds = parent.bounds;
-        piece.bounds.push_back(bound);
+        piece.half_spaces = parent.half_spaces;
+        piece.half_spaces.push_back(half_space);
         result.pieces.push_back(std::move(piece));
     }
 }
@@ -37,7 +39,7 @@ std::optional<CutPieces> cut_piece(const Piece& piece, const Plane& plane, std::
     const SolidsOfHalves solids = solids_of_halves(*piece.mesh, plane, *halves);
     add_solids(result, piece, halves->above.mesh, solids.above, {cut_number, plane, true});
     add_solids(result, piece, halves->below.mesh, solids.below, {cut_number, plane, false});
-    assert(result.pieces.size() >= 2);  // something on either side
+    assert(result.pieces.size() >= 2);  // at least one on either side
     return result;
 }
 

@@ -1,4 +1,7 @@
-// Cuts a piece into the pieces that it falls into: every connected solid on both sides of the plane.
+// Cuts a piece into new pieces: every connected solid on either side of the plane.
+//
+// mm. Precondition: that of cut.h. The pieces are closed, and their volumes add up to that of the piece to 1e-9
+// relative (tests/segment/cut/cut_test.cpp).
 
 #pragma once
 
@@ -11,12 +14,13 @@
 namespace qchopper {
 
 struct CutPieces {
-    std::vector<Piece> pieces;  // unnamed; those above the plane first, then those below, each closed
-    double cap_area_mm2 = 0;
-    std::vector<std::string> warnings;  // where the input intersects itself
+    std::vector<Piece> pieces;          // two or more, without names; those above the plane first, then those below
+    double cap_area_mm2 = 0;            // as in CutHalves
+    std::vector<std::string> warnings;  // one if the piece intersects itself at the plane
 };
 
-// Cuts exactly at plane.offset. Nothing if the plane misses the piece. Throws InputError if the piece is open.
+// Cuts exactly at plane.offset. Nothing if the plane misses the piece. Throws InputError (mesh) if the piece is open
+// where the plane passes. O(triangles + c log c) for c crossed triangles.
 std::optional<CutPieces> cut_piece(const Piece& piece, const Plane& plane, std::int32_t cut_number);
 
 }  // namespace qchopper

@@ -1,5 +1,7 @@
-// After Meisters 1975 (two ears) and Eberly 2002 (bridges). Where no ear is left, as on loops that cross themselves,
-// the least bad corner is cut instead: the combinatorics, and so closedness, never depend on the geometry.
+// Ears after G. Meisters, "Polygons have ears" (1975); bridges to holes after D. Eberly, "Triangulation by ear
+// clipping" (2002). Where no ear is left, as on loops that cross themselves, the corner that overlaps least is cut off
+// instead: the combinatorics, and so closedness, never depend on the geometry. O(N^2) for N points as a rule, O(N^3) at
+// worst.
 
 #include "segment/cut/ear_clipping.h"
 
@@ -18,14 +20,14 @@ std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
     return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
 }
 
-// Does the open segment p-q properly cross a-b?
+// Whether the open segment p-q properly crosses a-b.
 bool crosses(Point2 p, Point2 q, Point2 a, Point2 b) {
     return (orientation(p, q, a) > 0) != (orientation(p, q, b) > 0) &&
            (orientation(a, b, p) > 0) != (orientation(a, b, q) > 0);
 }
 
-// Is the direction from a ring corner towards q inside the material there? A corner that a bridge has doubled stands
-// in the ring twice, and only one of the two may be right.
+// Whether the direction from a ring corner towards q runs into the material there. A corner at the end of a bridge is
+// in the ring twice, and perhaps only one of the two opens towards q.
 bool opens_towards(std::span<const Point2> points, const Loop& ring, std::size_t at, Point2 q) {
     const Point2 a = points[ring[(at + ring.size() - 1) % ring.size()]];
     const Point2 b = points[ring[at]];
@@ -45,7 +47,7 @@ bool is_clear_of(std::span<const Point2> points, const Loop& loop, Point2 p, Poi
     return true;
 }
 
-// The ring position from which the hole is reached: the nearest one that is in sight, else the nearest.
+// The ring position for the bridge to a point of a hole: the nearest one that is visible, else the nearest.
 std::size_t bridge_position(std::span<const Point2> points, const Loop& ring, Point2 from,
                             std::span<const Loop> holes) {
     std::vector<std::size_t> by_distance(ring.size());
@@ -53,7 +55,7 @@ std::size_t bridge_position(std::span<const Point2> points, const Loop& ring, Po
     std::stable_sort(by_distance.begin(), by_distance.end(), [&](std::size_t a, std::size_t b) {
         return distance2(points[ring[a]], from) < distance2(points[ring[b]], from);
     });
-    constexpr std::size_t tries = 64;  // in sight is almost always one of the first few
+    constexpr std::size_t tries = 64;  // almost always one of the first few is visible
     for (std::size_t k = 0; k < std::min(tries, by_distance.size()); ++k) {
         const std::size_t at = by_distance[k];
         const Point2 to = points[ring[at]];
@@ -65,22 +67,22 @@ std::size_t bridge_position(std::span<const Point2> points, const Loop& ring, Po
     return by_distance.front();
 }
 
-// Walks into the hole and back over the bridge, so that one ring remains. No bridge may pass any hole.
+// Inserts the hole and a bridge to it and back, so that one ring remains. `holes` are all: no bridge may cross one.
 void bridge(std::span<const Point2> points, Loop& ring, const Loop& hole, std::span<const Loop> holes) {
     std::size_t start = 0;
     for (std::size_t i = 1; i < hole.size(); ++i) {
         if (points[hole[i]].x > points[hole[start]].x) start = i;
     }
     const std::size_t at = bridge_position(points, ring, points[hole[start]], holes);
-    Loop detour;
-    for (std::size_t i = 0; i <= hole.size(); ++i) detour.push_back(hole[(start + i) % hole.size()]);
-    detour.push_back(ring[at]);
-    ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(at) + 1, detour.begin(), detour.end());
+    Loop inserted;
+    for (std::size_t i = 0; i <= hole.size(); ++i) inserted.push_back(hole[(start + i) % hole.size()]);
+    inserted.push_back(ring[at]);
+    ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(at) + 1, inserted.begin(), inserted.end());
 }
 
-class EarCutter {
+class EarClipper {
  public:
-    EarCutter(std::span<const Point2> points, const Loop& ring) : points_(points), ring_(ring) {
+    EarClipper(std::span<const Point2> points, const Loop& ring) : points_(points), ring_(ring) {
         const std::size_t n = ring.size();
         next_.resize(n);
         previous_.resize(n);
@@ -97,9 +99,9 @@ class EarCutter {
         std::size_t at = 0;
         std::size_t since_last_ear = 0;
         while (left > 3) {
-            // After one fruitless round take the least bad corner.
+            // After a round without an ear, the corner that overlaps least.
             const bool is_forced = since_last_ear > left;
-            if (is_forced) at = least_bad(at, left);
+            if (is_forced) at = least_overlap(at, left);
             if (is_forced || is_ear(at)) {
                 triangles.push_back({ring_[previous_[at]], ring_[at], ring_[next_[at]]});
                 used_.insert(edge_key(ring_[previous_[at]], ring_[next_[at]]));
@@ -120,7 +122,7 @@ class EarCutter {
  private:
     Point2 point(std::size_t position) const { return points_[ring_[position]]; }
 
-    // An edge that exists already would be used by more than two triangles.
+    // An edge that exists already would belong to more than two triangles.
     bool is_allowed(std::size_t at) const {
         const std::uint32_t a = ring_[previous_[at]];
         const std::uint32_t b = ring_[next_[at]];
@@ -141,17 +143,17 @@ class EarCutter {
     }
 
     // The allowed corner that overlaps least: convex or flat ones first, small ones first.
-    std::size_t least_bad(std::size_t start, std::size_t left) const {
+    std::size_t least_overlap(std::size_t start, std::size_t left) const {
         std::size_t best = start;
-        double best_badness = std::numeric_limits<double>::infinity();
+        double least = std::numeric_limits<double>::infinity();
         std::size_t at = start;
         for (std::size_t i = 0; i < left; ++i, at = next_[at]) {
             if (ring_[previous_[at]] == ring_[next_[at]]) continue;
             const double area = orientation(point(previous_[at]), point(at), point(next_[at]));
-            double badness = area >= 0 ? area : -1e6 * area;
-            if (!is_allowed(at)) badness = std::numeric_limits<double>::max();
-            if (badness < best_badness) {
-                best_badness = badness;
+            double overlap = area >= 0 ? area : -1e6 * area;
+            if (!is_allowed(at)) overlap = std::numeric_limits<double>::max();
+            if (overlap < least) {
+                least = overlap;
                 best = at;
             }
         }
@@ -170,7 +172,8 @@ class EarCutter {
 std::vector<std::array<std::uint32_t, 3>> clip_ears(std::span<const Point2> points, const Loop& outer,
                                                     std::span<const Loop> holes) {
     Loop ring = outer;
-    // From right to left: the rightmost point of a hole then sees the ring, not a hole that is not yet joined.
+    // From right to left: from the rightmost point of a hole the ring is visible then, past no hole that is not yet
+    // joined.
     std::vector<const Loop*> order;
     for (const Loop& hole : holes) order.push_back(&hole);
     const auto right_end = [&](const Loop* loop) {
@@ -181,7 +184,7 @@ std::vector<std::array<std::uint32_t, 3>> clip_ears(std::span<const Point2> poin
     std::stable_sort(order.begin(), order.end(),
                      [&](const Loop* a, const Loop* b) { return right_end(a) > right_end(b); });
     for (const Loop* hole : order) bridge(points, ring, *hole, holes);
-    return EarCutter(points, ring).run();
+    return EarClipper(points, ring).run();
 }
 
 }  // namespace qchopper

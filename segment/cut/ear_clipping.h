@@ -1,6 +1,7 @@
-// The cap triangulation of last resort: bridges holes to their outer loop and cuts ears.
+// Triangulates a region by ear clipping, for caps that have no Delaunay triangulation (cap.h).
 //
-// Always N + 2L - 4 triangles whose edges match the loops, whatever the geometry; good triangles where it can.
+// Plane coordinates, mm. Always N + 2L - 4 triangles for N points and L loops, each loop edge in exactly one of them,
+// whatever the geometry. Triangles do not overlap if the loops do not cross (tests/segment/cut/cap_test.cpp).
 
 #pragma once
 
@@ -13,6 +14,8 @@
 
 namespace qchopper {
 
+// `outer` is counter-clockwise and the holes are clockwise; otherwise triangles overlap. Precondition: each loop has
+// three points or more. O(N^2) as a rule.
 std::vector<std::array<std::uint32_t, 3>> clip_ears(std::span<const Point2> points, const Loop& outer,
                                                     std::span<const Loop> holes);
 

@@ -1,3 +1,6 @@
+// Each cavity link of the whole mesh whose ends are both in a half joins two of its shells. The links are computed only
+// if a half has more than one shell.
+
 #include "segment/cut/half_solids.h"
 
 #include <algorithm>
@@ -5,7 +8,7 @@
 namespace qchopper {
 namespace {
 
-// Per point of a mesh, a shell that it belongs to.
+// One number per point of a mesh: its shell; 0 for points without a triangle.
 std::vector<std::uint32_t> shell_of_points(const TriangleMesh& mesh, const Shells& shells) {
     std::vector<std::uint32_t> shell(mesh.points.size(), 0);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

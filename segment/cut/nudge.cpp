@@ -1,3 +1,6 @@
+// Heights of the points near any wanted offset are sorted once for all offsets of a normal; the gaps between them in
+// the window of an offset are compared by width, cap area, distance and order.
+
 #include "segment/cut/nudge.h"
 
 #include <algorithm>
@@ -9,7 +12,7 @@ namespace {
 
 constexpr double window_share = 1e-7;  // of the extent
 constexpr double least_ulps = 64;
-constexpr double equal_share = 1e-9;  // of the extent: an offset read in float32 lies a little beside what it means
+constexpr double equal_share = 1e-9;  // of the extent: an offset that is this close to a vertex counts as on it
 
 struct Gap {
     double low;
@@ -18,12 +21,12 @@ struct Gap {
     double middle() const { return low + (high - low) / 2; }
 };
 
-// What stays the same for all offsets of one normal.
+// The data that all offsets of one normal share.
 struct Heights {
     const Piece& piece;
     Vec3 normal;
     std::vector<double> sorted_near;  // heights within the widest window of any wanted offset
-    std::vector<double> of_point;
+    std::vector<double> of_point;     // one per point of the mesh
     Extent range;
     double least_width = 0;
 };
@@ -41,8 +44,8 @@ std::vector<Gap> gaps(const Heights& heights, double low, double high) {
     return result;
 }
 
-// How much larger the cap is just below `high` than just above `low`, for faces that lie flat between the two: the
-// section loses the faces that look up and gains those that look down.
+// How much larger the cap is just below `low` than just above `high`, by the faces that lie between the two: upwards
+// the section loses those that face up and gains those that face down.
 double flat_area(const Heights& heights, double low, double high) {
     double area = 0;
     const TriangleMesh& mesh = *heights.piece.mesh;
@@ -89,17 +92,18 @@ Gap best_gap(const Heights& heights, const std::vector<Gap>& all, double wanted)
     return tied[best];
 }
 
-bool is_near_parallel_bound(const Piece& piece, Vec3 normal, double wanted, double window) {
-    return std::any_of(piece.bounds.begin(), piece.bounds.end(), [&](const Bound& bound) {
-        const double along = dot(bound.plane.normal, normal);
-        return std::abs(along) > 1 - 1e-12 && std::abs(bound.plane.offset * (along > 0 ? 1 : -1) - wanted) <= window;
+bool is_near_parallel_half_space(const Piece& piece, Vec3 normal, double wanted, double window) {
+    return std::any_of(piece.half_spaces.begin(), piece.half_spaces.end(), [&](const HalfSpace& half_space) {
+        const double along = dot(half_space.plane.normal, normal);
+        return std::abs(along) > 1 - 1e-12 &&
+               std::abs(half_space.plane.offset * (along > 0 ? 1 : -1) - wanted) <= window;
     });
 }
 
 std::optional<Nudged> nudge_one(const Heights& heights, double wanted) {
     const double window = window_share * heights.range.size();
     if (!(wanted > heights.range.low + window && wanted < heights.range.high - window)) return std::nullopt;
-    if (is_near_parallel_bound(heights.piece, heights.normal, wanted, window)) return std::nullopt;
+    if (is_near_parallel_half_space(heights.piece, heights.normal, wanted, window)) return std::nullopt;
     for (const double factor : {1.0, 10.0}) {
         const double low = std::max(wanted - factor * window, heights.range.low);
         const double high = std::min(wanted + factor * window, heights.range.high);

@@ -1,4 +1,6 @@
 // A piece: one connected closed solid of the segmentation, and the cuts that bound it.
+//
+// mm. The mesh is closed and shared: several segmentations may hold it (tests/segment/cut/cut_test.cpp).
 
 #pragma once
 
@@ -13,19 +15,19 @@
 namespace qchopper {
 
 // A cut that bounds a piece. The piece lies wholly on one side of it.
-struct Bound {
+struct HalfSpace {
     std::int32_t cut = 0;  // number of the cut, as in TriangleMesh::cap_of
     Plane plane;
     bool above = true;  // the piece lies on the side that plane.normal points to
-    bool operator==(const Bound&) const = default;
-    // The inward normal: "up" when this cap lies on the table.
+    bool operator==(const HalfSpace&) const = default;
+    // The inward normal: the upward direction when this cap is the base.
     Vec3 up() const { return above ? plane.normal : -plane.normal; }
 };
 
 struct Piece {
-    std::string name;  // A, B, ... Z, AA, ...: in the order in which pieces came to be
+    std::string name;  // A, B, ... Z, AA, ...: in the order in which pieces were made
     std::shared_ptr<const TriangleMesh> mesh;
-    std::vector<Bound> bounds;  // in the order of the cuts; a piece may own no cap of a bound any more
+    std::vector<HalfSpace> half_spaces;  // in the order of the cuts; of some of them the piece may have no cap left
 };
 
 }  // namespace qchopper

@@ -1,9 +1,10 @@
+// Reads, repairs, checks and shifts, in that order. The cost is that of the repair; memory holds the bytes of the file
+// beside the mesh.
+
 #include "segment/import/import_scan.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -13,14 +14,14 @@
 namespace qchopper {
 namespace {
 
-constexpr double largest_mm = 1e11;  // beyond this a double does not hold 0.0001 mm any more
+constexpr double largest_mm = 1e11;  // beyond this a double does not resolve 0.0001 mm
 constexpr const char* repair_first = "repair the scan in the scanning software, then try again";
 
 std::string place(Vec3 p) {
     return significant(p.x, 6) + ", " + significant(p.y, 6) + ", " + significant(p.z, 6);
 }
 
-// What one unit of the file is; nothing where that may stay open.
+// The unit of the scan; nothing where it may lack one.
 std::optional<double> mm_per_unit_of(const RawMesh& scan, const std::string& name, const ImportOptions& options) {
     const std::optional<double> agreed = agreed_mm_per_unit(scan.mm_per_unit, options.mm_per_unit, name);
     if (agreed || options.may_lack_unit) return agreed;
@@ -35,17 +36,12 @@ void check(const ImportOptions& options) {
     throw InputError(InputFault::use, "units and scale must be positive numbers", "leave --scale out for 1");
 }
 
-// Of the points in use.
+// Around the points of all triangles, of which there is at least one.
 Box box_of(const TriangleMesh& mesh) {
     const Vec3 first = mesh.points[mesh.triangles[0][0]];
     Box box{first, first};
     for (const Triangle& t : mesh.triangles) {
-        for (const std::uint32_t corner : t) {
-            for (int axis = 0; axis < 3; ++axis) {
-                box.min[axis] = std::min(box.min[axis], mesh.points[corner][axis]);
-                box.max[axis] = std::max(box.max[axis], mesh.points[corner][axis]);
-            }
-        }
+        for (const std::uint32_t corner : t) extend(box, mesh.points[corner]);
     }
     return box;
 }
@@ -61,45 +57,44 @@ void check_range(const Box& box, double mm_per_unit, const std::string& name) {
     }
 }
 
-std::string scaled_in_words(double scale) {
+std::string scale_warning(double scale) {
     return "The scan is scaled by " + significant(scale, 6) + " (--scale): its pieces are not in true size.";
 }
 
-// Says what stands between the result and a solid.
+// Throws InputError (mesh) with the first reason why the result is no solid.
 void check_solid(const RepairedScan& scan, const std::string& name, bool may_be_open) {
     const RepairReport& r = scan.report;
     const auto refuse = [&](const std::string& why, const std::string& to_do = repair_first) {
         throw InputError(InputFault::mesh, name + why, to_do);
     };
     if (scan.mesh.triangles.empty()) {
-        refuse(r.of_double_sheets > 0 ? ": nothing but flat double sheets, which enclose nothing"
-                                      : ": no face has an area");
+        refuse(r.of_doubled_components > 0 ? ": nothing but flat doubled components, which enclose nothing"
+                                           : ": no face has an area");
     }
     if (may_be_open) return;
-    if (r.sheets > 0) {
-        refuse(" is open: " + counted(r.sheets, "part of it is a sheet", "parts of it are sheets") +
-                   " with more missing than there is; the first around (" + place(r.first_sheet) +
-                   ") in the units of the file",
+    if (r.open_components_left > 0) {
+        refuse(" is open: " + counted(r.open_components_left, "open component encloses", "open components enclose") +
+                   " nothing; the first around (" + place(r.first_open_component) + ") in the units of the file",
                "scan the other side too, or close the surface in the scanning software");
     }
     if (!r.left_open.empty()) {
         const OpenHole& hole = r.left_open.front();
-        refuse(": " + counted(r.left_open.size(), "hole", "holes") + " cannot be closed; the first has " +
+        refuse(": " + counted(r.left_open.size(), "hole") + " cannot be closed; the first has " +
                std::to_string(hole.edges) + " edges around (" + place(hole.centre) + ") in the units of the file");
     }
     if (r.open_edges > 0) {
-        refuse(" does not close at " + counted(r.open_edges, "edge", "edges") + "; the first near (" +
-               place(r.first_open_edge) + ") in the units of the file");
+        refuse(" does not close at " + counted(r.open_edges, "edge") + "; the first near (" + place(r.first_open_edge) +
+               ") in the units of the file");
     }
     if (!(r.volume > 0)) refuse(" has no volume");
 }
 
-// Of a file that lies in several, the hash over the hashes.
+// The hash of the bytes; with further files the hash over the hashes of all.
 Sha256 hash_of(const Bytes& bytes, const std::vector<Sha256>& beside) {
     const Sha256 own = sha256(bytes);
     if (beside.empty()) return own;
-    Bytes all(own.begin(), own.end());
-    for (const Sha256& other : beside) all.insert(all.end(), other.begin(), other.end());
+    Bytes all(own.bytes.begin(), own.bytes.end());
+    for (const Sha256& other : beside) all.insert(all.end(), other.bytes.begin(), other.bytes.end());
     return sha256(all);
 }
 
@@ -107,7 +102,7 @@ void warn_of_size(const ImportedScan& imported, std::vector<std::string>& warnin
     const Vec3 size = bounds(imported.mesh).size();
     const double longest = std::max({size.x, size.y, size.z});
     if (longest >= 10 && longest <= 20000) return;
-    warnings.push_back("The scan measures " + size_in_words(size) + ": is --units right?");
+    warnings.push_back("The scan measures " + describe_size(size) + ": is --units right?");
 }
 
 }  // namespace
@@ -144,7 +139,7 @@ void enlarge(RepairedScan& scan, double scale) {
     if (scale == 1) return;
     for (Vec3& p : scan.mesh.points) p = scale * p;
     scan.report.volume *= scale * scale * scale;
-    scan.warnings.push_back(scaled_in_words(scale));
+    scan.warnings.push_back(scale_warning(scale));
 }
 
 ImportedScan import_scan(const std::filesystem::path& path, const ImportOptions& options, const Context& context) {
@@ -158,9 +153,7 @@ ImportedScan import_scan(const std::filesystem::path& path, const ImportOptions&
     for (Vec3& p : imported.mesh.points) p = factor * p - imported.centre;
     imported.sha256 = scan.sha256;
     imported.report = {std::move(scan.report), {}};
-    if (options.scale != 1) {
-        imported.report.warnings.push_back(scaled_in_words(options.scale));
-    }
+    if (options.scale != 1) imported.report.warnings.push_back(scale_warning(options.scale));
     for (std::string& warning : scan.warnings) imported.report.warnings.push_back(std::move(warning));
     warn_of_size(imported, imported.report.warnings);
     return imported;

@@ -1,9 +1,10 @@
+// Welds, then counts by points (links.h) and by shells (shells.h, containment.h). O(n log n) in the triangles apart
+// from the search for self-intersections; the mesh is not copied.
+
 #include "segment/import/inspect.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 
 #include "base/text.h"
@@ -22,7 +23,7 @@ namespace {
 constexpr std::size_t most_places = 10;
 constexpr double places_apart = 0.01;  // of the diagonal
 
-// One mesh on its way through all that is asked about it.
+// One inspection of one mesh.
 class Inspecting {
  public:
     Inspecting(RawMesh scan, const InspectOptions& options, const Context& context)
@@ -46,11 +47,11 @@ class Inspecting {
         result_.unreferenced = counts.unreferenced;
         result_.triangles = mesh_.triangles.size();
         result_.vertices = mesh_.points.size();
-        step("edges looked at");
-        look_at_edges();
-        step("shells looked at");
-        look_at_shells();
-        if (options_.deep) look_for_self_intersections();
+        step("edges counted");
+        count_edges();
+        step("shells counted");
+        count_shells();
+        if (options_.deep) find_self_intersections();
         return std::move(result_);
     }
 
@@ -60,23 +61,23 @@ class Inspecting {
         context_.progress(what, ++steps_, 3);
     }
 
-    void look_for_self_intersections() {
+    void find_self_intersections() {
         const SelfIntersections found = self_intersections(mesh_, {}, context_);
-        SelfIntersected told;
-        told.pairs = found.pairs.size();
-        told.is_complete = found.is_complete;
+        SelfIntersected result;
+        result.pairs = found.pairs.size();
+        result.is_complete = found.is_complete;
         const double apart = places_apart * norm(result_.box.size());
         for (const auto& pair : found.pairs) {
-            if (told.places.size() == most_places) break;
+            if (result.places.size() == most_places) break;
             const Vec3 place = meeting_place(mesh_, pair);
-            const bool is_near = std::any_of(told.places.begin(), told.places.end(),
+            const bool is_near = std::any_of(result.places.begin(), result.places.end(),
                                              [&](Vec3 other) { return norm(place - other) < apart; });
-            if (!is_near) told.places.push_back(place);
+            if (!is_near) result.places.push_back(place);
         }
-        result_.self_intersected = std::move(told);
+        result_.self_intersected = std::move(result);
     }
 
-    void look_at_edges() {
+    void count_edges() {
         links_ = links(mesh_);
         result_.open_edges = links_.faults.open;
         result_.inconsistent = links_.faults.inconsistent;
@@ -84,8 +85,8 @@ class Inspecting {
         result_.touching = count_touching();
         result_.non_manifold_vertices = links_.extra_fans.size();
         result_.repeated = links_.repeated;
-        // As repair counts shells: surfaces that only touch in points are two. At non-manifold edges they would fall to
-        // pieces.
+        // As in repair, surfaces that only touch in points are two shells; not in a mesh with non-manifold edges, which
+        // would fall into pieces.
         if (result_.non_manifold + result_.inconsistent == 0) split_fans(mesh_, links_.extra_fans);
         links_.extra_fans = {};
         loops_ = border_loops(mesh_, links_.open);
@@ -98,7 +99,7 @@ class Inspecting {
         }
     }
 
-    // A wall between two solids, or a solid that touches itself along an edge: parted, nothing is open.
+    // Edges of a wall between two solids, or where a solid touches itself: once they are split, nothing is open.
     std::size_t count_touching() const {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> ways;
         for (const std::uint32_t h : links_.non_manifold) {
@@ -111,7 +112,7 @@ class Inspecting {
             ways.begin(), ways.end(), [](const auto& edge) { return edge.second.first == edge.second.second; }));
     }
 
-    void look_at_shells() {
+    void count_shells() {
         shells_ = shells(mesh_);
         result_.shells = shells_.count();
         if (result_.shells == 0) return;
@@ -132,13 +133,13 @@ class Inspecting {
         for (const std::vector<std::uint32_t>* half_edges : {&links_.open, &links_.non_manifold}) {
             for (const std::uint32_t h : *half_edges) is_open_[shells_.shell_of[h / 3]] = true;
         }
-        look_for_cavities();
-        look_for_sheets();
+        find_cavities();
+        find_open_components();
     }
 
-    // Negative shells are cavities where something lies around them and inside out where nothing does. Shells with an
-    // open border have no sign. The volume of a solid is that of its outer shell without that of its cavities.
-    void look_for_cavities() {
+    // Closed shells of negative volume are cavities if other shells are around them, otherwise inside out. The volume
+    // of a solid is that of its outer shell without that of its cavities.
+    void find_cavities() {
         std::vector<bool> is_negative(shells_.count());
         double whole = 0;
         for (std::size_t s = 0; s < shells_.count(); ++s) {
@@ -175,8 +176,8 @@ class Inspecting {
         if (result_.area > 0) result_.fragment_area_share = area / result_.area;
     }
 
-    // A flat lid on each hole is the least that closes it; its area is that of the loop seen along its mean normal.
-    void look_for_sheets() {
+    // The area of a hole is that of its loop projected along its mean normal: no fill is smaller.
+    void find_open_components() {
         std::vector<double> lids(shells_.count());
         for (const std::span<const std::uint32_t> loop : loops_) {
             const Vec3 origin = mesh_.points[start_of(mesh_, loop[0])];
@@ -189,10 +190,10 @@ class Inspecting {
         double area = 0;
         for (std::size_t s = 0; s < shells_.count(); ++s) {
             if (!(lids[s] > most_fill_of_surface * area_[s])) continue;
-            ++result_.sheets;
+            ++result_.open_components;
             area += area_[s];
         }
-        if (result_.area > 0) result_.sheet_area_share = area / result_.area;
+        if (result_.area > 0) result_.open_component_area_share = area / result_.area;
     }
 
     const InspectOptions& options_;
@@ -207,26 +208,24 @@ class Inspecting {
     std::vector<bool> is_open_;  // per shell: it has an open or non-manifold edge
 };
 
-// How lengths are told next to the longest of them.
-struct Wording {
+// How lengths are written beside the longest of them.
+struct LengthFormat {
     const char* unit;
     double mm;
     int decimals;  // three digits for the longest
 };
 
-Wording wording_for(double longest_mm) {
+LengthFormat format_for(double longest_mm) {
     const auto in = [&](const char* unit, double mm) {
         const double value = longest_mm / mm;
-        return Wording{unit, mm, value >= 99.95 ? 0 : value >= 9.995 ? 1 : 2};
+        return LengthFormat{unit, mm, value >= 99.95 ? 0 : value >= 9.995 ? 1 : 2};
     };
     if (longest_mm >= 999.5) return in("m", 1000);
     return longest_mm >= 99.95 ? in("cm", 10) : in("mm", 1);
 }
 
-std::string in_words(double mm, const Wording& wording) {
-    std::array<char, 400> text{};  // the largest double has 309 digits
-    std::snprintf(text.data(), text.size(), "%.*f %s", wording.decimals, mm / wording.mm, wording.unit);
-    return text.data();
+std::string describe(double mm, const LengthFormat& format) {
+    return fixed(mm / format.mm, format.decimals) + " " + format.unit;
 }
 
 }  // namespace
@@ -249,43 +248,43 @@ Judgement judge(const Inspection& i) {
         return judgement;
     };
     if (i.triangles == i.degenerate) return unrepairable("No face has an area.");
-    if (i.sheet_area_share > open_component_share) {
-        return unrepairable(counted(i.sheets, "part of it is a sheet", "parts of it are sheets") +
-                            " with more missing than there is: scan the other side too.");
+    if (i.open_component_area_share > open_component_share) {
+        return unrepairable(counted(i.open_components, "open component encloses", "open components enclose") +
+                            " nothing: scan the other side too.");
     }
     if (i.is_closed() && i.volume == 0) return unrepairable("It has no volume.");
-    const auto tell = [&](std::size_t count, const char* one, const char* many) {
+    const auto note = [&](std::size_t count, const char* one, const char* many) {
         if (count > 0) judgement.reasons.push_back(counted(count, one, many));
     };
     const auto add = [&](std::size_t count, const char* one, const char* many) {
-        tell(count, one, many);
+        note(count, one, many);
         if (count > 0) judgement.verdict = Verdict::to_repair;
     };
-    tell(i.collapsed, "face is collapsed to a line or point and dropped.",
+    note(i.collapsed, "face is collapsed to a line or point and dropped.",
          "faces are collapsed to a line or point and dropped.");
-    tell(i.touching, "edge where solids only touch is parted.", "edges where solids only touch are parted.");
-    tell(i.non_manifold_vertices, "point where surfaces only touch is parted.",
-         "points where surfaces only touch are parted.");
+    note(i.touching, "edge where solids only touch is split.", "edges where solids only touch are split.");
+    note(i.non_manifold_vertices, "point where surfaces only touch is split.",
+         "points where surfaces only touch are split.");
     add(i.repeated, "face lies on another one and is dropped.", "faces lie on others and are dropped.");
     add(i.non_manifold - std::min(i.non_manifold, i.touching), "edge of more than two faces is split.",
         "edges of more than two faces are split.");
-    add(i.inconsistent, "edge has faces turned against each other, which are turned.",
-        "edges have faces turned against each other, which are turned.");
-    add(i.degenerate, "face has no area and is taken away.", "faces have no area and are taken away.");
-    add(i.sheets, "small open component is dropped.", "small open components are dropped.");
-    add(i.holes.size() - std::min(i.holes.size(), i.sheets), "hole is closed.", "holes are closed.");
+    add(i.inconsistent, "edge has faces of opposite orientation, which are turned.",
+        "edges have faces of opposite orientation, which are turned.");
+    add(i.degenerate, "face has no area and is removed.", "faces have no area and are removed.");
+    add(i.open_components, "small open component is dropped.", "small open components are dropped.");
+    add(i.holes.size() - std::min(i.holes.size(), i.open_components), "hole is closed.", "holes are closed.");
     add(i.inside_out, "shell is inside out and turned.", "shells are inside out and turned.");
     if (i.self_intersected && i.self_intersected->pairs > 0) {
         judgement.reasons.push_back(counted(i.self_intersected->pairs, "pair of faces runs", "pairs of faces run") +
-                                    " through each other; repair mends what lies close together.");
+                                    " through each other; repair resolves places that are small.");
         judgement.verdict = Verdict::to_repair;
     }
     return judgement;
 }
 
-std::string size_in_words(Vec3 size_mm) {
-    const Wording wording = wording_for(std::max({size_mm.x, size_mm.y, size_mm.z}));
-    return in_words(size_mm.x, wording) + " x " + in_words(size_mm.y, wording) + " x " + in_words(size_mm.z, wording);
+std::string describe_size(Vec3 size_mm) {
+    const LengthFormat format = format_for(std::max({size_mm.x, size_mm.y, size_mm.z}));
+    return describe(size_mm.x, format) + " x " + describe(size_mm.y, format) + " x " + describe(size_mm.z, format);
 }
 
 }  // namespace qchopper

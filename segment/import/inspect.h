@@ -1,8 +1,8 @@
-// Says what a scan is and what is wrong with it, without mending anything.
+// Counts what a scan consists of and what is wrong with it, without repairing anything.
 //
-// Lengths and places are in the file's own unit and coordinates. Bad meshes are described, not refused
-// (tests/segment/import/inspect_test.cpp). Everything but the first counts is taken after equal points are welded, so
-// that STL and PLY compare.
+// Lengths and places are in the unit and the coordinates of the file. Bad meshes are described, not refused
+// (tests/segment/import/inspect_test.cpp). All values but the first counts are those after equal points are welded, so
+// that STL and PLY give the same.
 
 #pragma once
 
@@ -24,16 +24,16 @@ struct BorderLoop {
     double length = 0;
 };
 
-// What a search for triangles that run through each other has found.
+// The result of a search for self-intersections (self_intersections.h).
 struct SelfIntersected {
-    std::size_t pairs = 0;     // that meet elsewhere than at what they share
-    bool is_complete = true;   // false: the search ended at a limit, there are more
-    std::vector<Vec3> places;  // some, well apart from each other; at most 10
+    std::size_t pairs = 0;     // of triangles
+    bool is_complete = true;   // false: the search ended at a limit, there may be more
+    std::vector<Vec3> places;  // at most 10, at least 1 % of the box's diagonal apart
 };
 
 struct Inspection {
     MeshFormat format = MeshFormat::ply_ascii;
-    std::optional<double> mm_per_unit;  // what the file says one unit is; nothing: it has none
+    std::optional<double> mm_per_unit;  // unit of the file; nothing: it has none
     std::vector<std::string> warnings;  // of the reader
     std::size_t faces_in_file = 0;      // polygons count once
     std::size_t points_in_file = 0;
@@ -49,47 +49,50 @@ struct Inspection {
     std::size_t repeated = 0;      // triangles with the corners of an earlier one
     Box box;                       // of the points in use
     std::size_t shells = 0;
-    std::size_t cavities = 0;        // closed shells with negative volume inside another shell
-    std::size_t inside_out = 0;      // closed shells with negative volume and nothing around them
-    std::size_t fragments = 0;       // closed solids with less than 1/100,000 of the volume: too small to be pieces
-    double fragment_area_share = 0;  // of the surface
-    std::size_t sheets = 0;          // open shells with more missing than there is: they enclose nothing
-    double sheet_area_share = 0;     // of the surface
-    std::size_t open_edges = 0;      // edges of one triangle
-    std::size_t inconsistent = 0;    // edges that both triangles run the same way
-    std::size_t non_manifold = 0;    // edges of three triangles or more
-    std::size_t touching = 0;        // of these, edges with as many faces one way as the other: solids that only touch
+    std::size_t cavities = 0;         // closed shells with negative volume inside another shell
+    std::size_t inside_out = 0;       // closed shells with negative volume and nothing around them
+    std::size_t fragments = 0;        // closed solids with less than 1/100,000 of the volume: too small to be pieces
+    double fragment_area_share = 0;   // of the surface
+    std::size_t open_components = 0;  // open shells with holes larger than 80 % of their area: they enclose nothing
+    double open_component_area_share = 0;  // of the surface
+    std::size_t open_edges = 0;            // edges of one triangle
+    std::size_t inconsistent = 0;          // edges along which both triangles run the same way
+    std::size_t non_manifold = 0;          // edges of three triangles or more
+    std::size_t touching = 0;  // of these, edges with as many faces one way as the other: solids that only touch
     std::size_t non_manifold_vertices = 0;            // points where surfaces only touch
     std::vector<BorderLoop> holes;                    // in order of their first edge
-    double volume = 0;                                // signed, file unit cubed; means something only when closed
+    double volume = 0;                                // signed, file unit cubed; meaningful only when closed
     double area = 0;                                  // file unit squared
-    std::optional<SelfIntersected> self_intersected;  // only when asked for
+    std::optional<SelfIntersected> self_intersected;  // with InspectOptions::deep
 
     bool is_closed() const { return open_edges == 0 && inconsistent == 0 && non_manifold == 0; }
-    // The longest one; nothing without a hole.
+    // The first of the longest holes; nullptr without a hole.
     const BorderLoop* longest_hole() const;
 };
 
 struct InspectOptions {
-    bool deep = false;  // look for self-intersections too: several times the time of all the rest
+    bool deep = false;  // find self-intersections too: takes several times as long as all the rest
 };
 
+// The scan may be any mesh of the readers. Throws Cancelled.
 Inspection inspect(RawMesh scan, const InspectOptions& options = {}, const Context& context = {});
 
 enum class Verdict {
-    ready,        // a solid as it stands, or once what always happens on the way in has happened
-    to_repair,    // prepare and repair make a solid of it
+    ready,        // a solid as it is, or after what every import does
+    to_repair,    // prepare and repair are expected to make a solid of it
     unrepairable  // there is no solid in it
 };
 
-// What stands between the scan and a solid, in whole sentences; when it is ready, what happens on the way in.
+// The verdict, and what stands between the scan and a solid, in whole sentences; if it is ready, what every import does
+// to it.
 struct Judgement {
     Verdict verdict = Verdict::ready;
     std::vector<std::string> reasons;
 };
+// From the counts alone, without a repair.
 Judgement judge(const Inspection& inspection);
 
-// "1.82 m x 0.94 m x 0.71 m": all in the unit that suits the longest, which gets three digits.
-std::string size_in_words(Vec3 size_mm);
+// "1.82 m x 0.94 m x 0.71 m": all in the unit, mm, cm or m, in which the longest has three digits.
+std::string describe_size(Vec3 size_mm);
 
 }  // namespace qchopper

@@ -1,5 +1,6 @@
+// The table of units.
+
 #include <array>
-#include <cstdio>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -15,7 +16,7 @@ struct UnitName {
 constexpr std::array<UnitName, 6> units{
     {{"mm", 1}, {"cm", 10}, {"m", 1000}, {"in", 25.4}, {"ft", 304.8}, {"um", 0.001}}};  // in the order of Unit
 
-std::string unit_in_words(double mm) {
+std::string describe_unit(double mm) {
     for (const UnitName& unit : units) {
         if (unit.mm == mm) return std::string(unit.name);
     }
@@ -50,10 +51,10 @@ Unit unit_of(double mm) {
 std::optional<double> agreed_mm_per_unit(std::optional<double> in_file, std::optional<double> given,
                                          const std::string& name) {
     if (in_file && given && *in_file != *given) {
-        throw InputError(InputFault::use,
-                         name + " says itself that its unit is " + unit_in_words(*in_file) + ", but --units says " +
-                             unit_in_words(*given),
-                         "leave --units out; if the file is wrong, save it in a format without units, such as PLY");
+        throw InputError(
+            InputFault::use,
+            name + " has the unit " + describe_unit(*in_file) + ", but --units is " + describe_unit(*given),
+            "leave --units out; if the file is wrong, save it in a format without units, such as PLY");
     }
     return in_file ? in_file : given;
 }

@@ -1,3 +1,5 @@
+// Counts the face and splits it by ear clipping. O(1) for a triangle; polygon.cpp states the cost of others.
+
 #include "segment/io/add_face.h"
 
 #include "segment/io/polygon.h"

@@ -1,3 +1,6 @@
+// Copies the members that describe triangles from the parsed JSON into a new one and checks the type and the range of
+// each. O(bytes) in time; memory for both documents.
+
 #include "segment/io/gltf_json.h"
 
 #include <cmath>
@@ -12,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Extensions that change how a surface looks, or that are read: a file may need them.
+// Extensions that change only the appearance of a surface, or that are read: a file may require them.
 bool is_harmless(const std::string& extension) {
     for (const char* part : {"_materials_", "_texture_", "_lights_", "KHR_mesh_quantization", "KHR_xmp"}) {
         if (extension.find(part) != std::string::npos) return true;
@@ -20,29 +23,29 @@ bool is_harmless(const std::string& extension) {
     return false;
 }
 
-class Cutter {
+class GltfFilter {
  public:
-    Cutter(const Json& all, bool has_bin, const std::string& name) : all_(all), has_bin_(has_bin), name_(name) {}
+    GltfFilter(const Json& all, bool has_bin, const std::string& name) : all_(all), has_bin_(has_bin), name_(name) {}
 
-    PlainGltf cut() {
-        if (!all_.is_object()) refuse("it is no JSON object");
+    PlainGltf filtered() {
+        if (!all_.is_object()) refuse("it is not a JSON object");
         check_extensions();
         Json plain;
         plain["asset"]["version"] = "2.0";
         check_version();
-        list(plain, "buffers", &Cutter::buffer);
-        list(plain, "bufferViews", &Cutter::view);
-        list(plain, "accessors", &Cutter::accessor);
-        list(plain, "meshes", &Cutter::mesh);
-        list(plain, "nodes", &Cutter::node);
-        list(plain, "scenes", &Cutter::scene);
+        list(plain, "buffers", &GltfFilter::buffer);
+        list(plain, "bufferViews", &GltfFilter::view);
+        list(plain, "accessors", &GltfFilter::accessor);
+        list(plain, "meshes", &GltfFilter::mesh);
+        list(plain, "nodes", &GltfFilter::node);
+        list(plain, "scenes", &GltfFilter::scene);
         index(all_, plain, "scene");
         if (morphed_ > 0) {
             result_.warnings.push_back("Of " + std::to_string(morphed_) +
-                                       " meshes that can change their shape, the shape at rest was read.");
+                                       " meshes with morph targets, only the base shape was read.");
         }
         if (instanced_ > 0) {
-            result_.warnings.push_back("Copies that " + std::to_string(instanced_) +
+            result_.warnings.push_back("The copies that " + std::to_string(instanced_) +
                                        " nodes make by EXT_mesh_gpu_instancing were left out.");
         }
         result_.json = plain.dump();
@@ -64,24 +67,25 @@ class Cutter {
         const auto required = all_.find("extensionsRequired");
         if (required == all_.end() || !required->is_array()) return;
         for (const Json& extension : *required) {
-            if (!extension.is_string()) refuse("\"extensionsRequired\" holds something else than names");
-            const auto& word = extension.get_ref<const std::string&>();
-            if (is_harmless(word)) continue;
-            throw InputError(InputFault::mesh,
-                             name_ + " needs " + word.substr(0, 60) + ", an extension of glTF that is not read",
-                             "export it without compression and extensions");
+            if (!extension.is_string()) refuse("\"extensionsRequired\" has an entry that is not a name");
+            const auto& extension_name = extension.get_ref<const std::string&>();
+            if (is_harmless(extension_name)) continue;
+            throw InputError(
+                InputFault::mesh,
+                name_ + " needs " + extension_name.substr(0, 60) + ", an extension of glTF that is not read",
+                "export it without compression and extensions");
         }
     }
 
-    using Make = Json (Cutter::*)(const Json&);
-    void list(Json& plain, const char* key, Make make) {
+    using Filter = Json (GltfFilter::*)(const Json&);
+    void list(Json& plain, const char* key, Filter filter) {
         const auto found = all_.find(key);
         if (found == all_.end()) return;
-        if (!found->is_array()) refuse("\"" + std::string(key) + "\" is no list");
+        if (!found->is_array()) refuse("\"" + std::string(key) + "\" is not a list");
         Json& items = plain[key] = Json::array();
         for (const Json& item : *found) {
             at_ = std::string(key) + " " + std::to_string(items.size());
-            items.push_back((this->*make)(checked_object(item)));
+            items.push_back((this->*filter)(checked_object(item)));
         }
         if (items.empty()) plain.erase(key);
     }
@@ -95,7 +99,7 @@ class Cutter {
             if (!has_bin_ || at_ != "buffers 0") refuse(at_ + " has no \"uri\"");
             return to;
         }
-        if (!uri->is_string()) refuse(at_ + ": \"uri\" is no text");
+        if (!uri->is_string()) refuse(at_ + ": \"uri\" is not a text");
         to["uri"] = *uri;
         return to;
     }
@@ -179,16 +183,16 @@ class Cutter {
     }
 
     const Json& checked_object(const Json& value) const {
-        if (!value.is_object()) refuse(at_ + " is no object where it should be one");
+        if (!value.is_object()) refuse(at_ + " is not an object");
         return value;
     }
 
     std::uint64_t whole(const Json& value, const char* key, std::uint64_t most) const {
-        // some writers put 12.0 for 12
+        // some writers write 12.0 for 12; 9e15 is below 2^53, up to which every whole number is a double
         const double real = value.is_number_float() ? value.get<double>() : -1;
         const bool is_whole = value.is_number_unsigned() || (real >= 0 && real <= 9e15 && std::floor(real) == real);
         const std::uint64_t number = is_whole ? value.get<std::uint64_t>() : 0;
-        if (!is_whole || number > most) refuse(at_ + ": \"" + key + "\" is no whole number that it can be");
+        if (!is_whole || number > most) refuse(at_ + ": \"" + key + "\" is no whole number in its range");
         return number;
     }
 
@@ -201,7 +205,7 @@ class Cutter {
         return number;
     }
 
-    // Numbers of things, and the codes of the format.
+    // Indices of objects, and the codes of the format.
     void index(const Json& from, Json& to, const char* key) {
         const auto found = from.find(key);
         if (found == from.end()) return;
@@ -211,7 +215,7 @@ class Cutter {
     void indices(const Json& from, Json& to, const char* key) {
         const auto found = from.find(key);
         if (found == from.end()) return;
-        if (!found->is_array()) refuse(at_ + ": \"" + key + "\" is no list");
+        if (!found->is_array()) refuse(at_ + ": \"" + key + "\" is not a list");
         Json& values = to[key] = Json::array();
         for (const Json& value : *found) {
             values.push_back(whole(value, key, std::numeric_limits<std::int32_t>::max()));
@@ -226,19 +230,19 @@ class Cutter {
             refuse(at_ + ": \"" + key + "\" needs " + std::to_string(count) + " numbers");
         }
         for (const Json& value : *found) {
-            if (!value.is_number()) refuse(at_ + ": \"" + key + "\" holds something else than numbers");
+            if (!value.is_number()) refuse(at_ + ": \"" + key + "\" has an entry that is not a number");
         }
         to[key] = *found;
     }
 
     [[noreturn]] void refuse(const std::string& why) const {
-        throw InputError(InputFault::mesh, name_ + " is no sound glTF: " + why, "export the scan again");
+        throw InputError(InputFault::mesh, name_ + " is not a valid glTF file: " + why, "export the scan again");
     }
 
     const Json& all_;
     bool has_bin_;
     const std::string& name_;
-    std::string at_ = "the file";  // "nodes 7"
+    std::string at_ = "the file";  // what is being filtered: "nodes 7"
     std::size_t morphed_ = 0;
     std::size_t instanced_ = 0;
     PlainGltf result_;
@@ -251,13 +255,13 @@ PlainGltf plain_gltf(std::string_view json, bool has_bin, const std::string& nam
     try {
         all = Json::parse(json);
     } catch (const Json::exception& fault) {
-        const auto* place = dynamic_cast<const Json::parse_error*>(&fault);
+        const auto* position = dynamic_cast<const Json::parse_error*>(&fault);
         throw InputError(InputFault::mesh,
-                         name + " is no sound glTF: its JSON is damaged" +
-                             (place != nullptr ? " at byte " + std::to_string(place->byte) : ""),
+                         name + " is not a valid glTF file: its JSON is damaged" +
+                             (position != nullptr ? " at byte " + std::to_string(position->byte) : ""),
                          "export or copy the file again");
     }
-    return Cutter(all, has_bin, name).cut();
+    return GltfFilter(all, has_bin, name).filtered();
 }
 
 }  // namespace qchopper

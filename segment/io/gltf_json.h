@@ -1,7 +1,7 @@
-// The JSON of a glTF file cut down to what makes triangles, with every value of the type that it must have.
+// Reduces the JSON of a glTF file to what describes triangles, with every value of the type that it must have.
 //
-// What goes on to the library then holds no pictures, no notes and no surprises: it reads numbers without asking
-// whether they are any, and follows nested notes as deep as they go (tests/segment/io/damaged_test.cpp).
+// tinygltf, which reads the result, neither checks the types of values nor limits the depth of nested "extras"; here
+// types are checked and extras are left out (tests/segment/io/damaged_test.cpp, tests/segment/io/read_gltf_test.cpp).
 
 #pragma once
 
@@ -13,11 +13,12 @@ namespace qchopper {
 
 struct PlainGltf {
     std::string json;
-    std::vector<std::string> warnings;  // what was left out
+    std::vector<std::string> warnings;  // what was left out, one sentence each
 };
 
-// `has_bin`: it is that of a GLB, whose first buffer follows it. Throws InputError (mesh) for JSON that is damaged, and
-// for files that need an extension which is not read.
+// `has_bin`: the JSON is that of a GLB, whose first buffer follows it in the file. `name` stands for the file in
+// messages. Throws InputError (mesh) for JSON that is damaged or no glTF of version 2, and for a file that requires an
+// extension which is not read.
 PlainGltf plain_gltf(std::string_view json, bool has_bin, const std::string& name);
 
 }  // namespace qchopper

@@ -1,3 +1,5 @@
+// Assembles each number from its bytes, so that the host's byte order and alignment do not matter. O(1) per number.
+
 #include "segment/io/gltf_numbers.h"
 
 #include <algorithm>
@@ -51,16 +53,16 @@ double GltfNumbers::real(std::size_t i, std::size_t component_of_it, bool is_nor
     return std::bit_cast<float>(raw);
 }
 
-// Nothing is multiplied before it is known to be small.
+// No product of numbers from the file is formed before they are bounded: it could overflow.
 std::optional<GltfNumbers> numbers_in(const GltfView& view, std::size_t offset, GltfComponent component,
                                       std::size_t components, std::size_t count) {
     const std::size_t size = components * size_of(component);
     const std::size_t stride = view.stride == 0 ? size : view.stride;
     if (view.offset > view.buffer.size() || view.length > view.buffer.size() - view.offset) return {};
     if (offset > view.length) return {};
-    const std::size_t room = view.length - offset;
-    if (count > 0 && (room < size || (room - size) / stride < count - 1)) return {};
-    return GltfNumbers{view.buffer.subspan(view.offset + offset, room), stride, component};
+    const std::size_t space = view.length - offset;
+    if (count > 0 && (space < size || (space - size) / stride < count - 1)) return {};
+    return GltfNumbers{view.buffer.subspan(view.offset + offset, space), stride, component};
 }
 
 }  // namespace qchopper

@@ -1,4 +1,4 @@
-// Numbers that lie in a buffer of a glTF file at even distances, in any of its component types.
+// Reads numbers that lie at even distances in a buffer of a glTF file, in any component type of the format.
 
 #pragma once
 
@@ -9,32 +9,39 @@
 
 namespace qchopper {
 
+// The values are the codes of the format.
 enum class GltfComponent { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 
-// Nothing for a number that stands for none.
+// Nothing for a number that is no such code.
 std::optional<GltfComponent> gltf_component(int code);
+// Bytes of one number.
 std::size_t size_of(GltfComponent component);
 
+// Elements of a fixed number of components. As numbers_in() returns them, every element lies in `bytes`.
 struct GltfNumbers {
-    std::span<const std::uint8_t> bytes;  // from the first number to the end of the last
-    std::size_t stride = 1;               // never 0
+    std::span<const std::uint8_t> bytes;  // from the first element to the end of the view
+    std::size_t stride = 1;               // bytes from one element to the next, never 0
     GltfComponent component = GltfComponent::f32;
 
-    // The number as it lies there, little-endian.
+    // Preconditions of both: `i` is below the count and `component_of_it` below the number of components that were
+    // given to numbers_in().
+
+    // The bytes of a number as an unsigned integer, little-endian.
     std::uint32_t whole(std::size_t i, std::size_t component_of_it = 0) const;
-    // Whole numbers stand for themselves or, normalized, for fractions of the largest (KHR_mesh_quantization).
+    // The value; normalized integers become fractions, 1 for the largest of the type (KHR_mesh_quantization).
     double real(std::size_t i, std::size_t component_of_it, bool is_normalized) const;
 };
 
-// What a buffer view says about its part of a buffer. Every number comes from the file.
+// A buffer view. All numbers come from the file unchecked; lengths are in bytes.
 struct GltfView {
     std::span<const std::uint8_t> buffer;
     std::size_t offset = 0;
     std::size_t length = 0;
-    std::size_t stride = 0;  // 0: one element after the other
+    std::size_t stride = 0;  // 0: one element follows the other
 };
 
-// `count` elements of `components` numbers each; nothing if not all of them lie in the view, or it not in the buffer.
+// `count` elements of `components` numbers each, from `offset` bytes into the view on. Nothing if an element lies
+// outside the view, or the view outside the buffer.
 std::optional<GltfNumbers> numbers_in(const GltfView& view, std::size_t offset, GltfComponent component,
                                       std::size_t components, std::size_t count);
 

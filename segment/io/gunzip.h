@@ -1,6 +1,6 @@
-// Unpacks what came compressed by gzip, and says how much any packed file may become.
+// Unpacks gzip files, and limits how many bytes any packed file may unpack to.
 //
-// A file of a few kilobytes can be made that unpacks to a hundred gigabytes; it is refused before it takes the memory
+// A file of a few kilobytes can unpack to a hundred gigabytes; it is refused before that memory is taken
 // (tests/segment/io/unpack_test.cpp).
 
 #pragma once
@@ -12,14 +12,15 @@
 
 namespace qchopper {
 
-// The most bytes that packed ones may become: 200 times as many (scans shrink to a twentieth at most), at least 64 MiB
-// and at most 8 GiB.
+// The most bytes that so many packed bytes may unpack to: 200 times as many (scans shrink to a twentieth at most), at
+// least 64 MiB and at most 8 GiB.
 std::uint64_t most_unpacked(std::uint64_t packed);
 
+// Whether the bytes begin with the marks of gzip and of deflate, its only method.
 bool is_gzip(const Bytes& bytes);
 
-// All members of the file one after the other. Throws InputError (mesh) for one that is damaged, cut short or too
-// large.
+// The contents of all members, one after the other. Precondition: is_gzip(bytes). Throws InputError (mesh) if a member
+// is damaged or cut short, or if they unpack to more than most_unpacked(bytes.size()); `name` stands for the file.
 Bytes gunzip(const Bytes& bytes, const std::string& name);
 
 }  // namespace qchopper

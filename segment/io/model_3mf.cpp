@@ -1,3 +1,6 @@
+// expat reads the XML part by part and calls a handler per element; references to objects are resolved by read_3mf.cpp.
+// O(bytes) in time; memory for the points and triangles only.
+
 #include "segment/io/model_3mf.h"
 
 #include <expat.h>
@@ -19,9 +22,9 @@
 namespace qchopper {
 namespace {
 
-// Names come as "namespace|name".
+// Names of elements as expat reports them: "namespace|name".
 constexpr std::string_view core = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02|";
-// Version 0.93 of the format; what is read of it was the same there.
+// Version 0.93 of the format: the same in all that is read here.
 constexpr std::string_view core_before = "http://schemas.microsoft.com/3dmanufacturing/2013/01|";
 constexpr std::string_view path_attribute = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06|path";
 constexpr std::string_view lattice_start = "http://schemas.microsoft.com/3dmanufacturing/beamlattice/";
@@ -51,13 +54,12 @@ std::optional<std::string_view> value_of(Attributes attributes, std::string_view
     return {};
 }
 
-// Feeds expat and hands elements to `Handler`, whose functions may throw: expat is C, so that nothing is thrown through
-// it, but kept until it has returned.
+// Passes text to expat and its elements to `Handler`, whose functions may throw. expat is C: an exception must not
+// cross it, so the first one is kept and thrown when expat has returned.
 template <class Handler>
 class Xml {
  public:
-    Xml(Handler& handler, const std::string& name)
-        : handler_(handler), name_(name), parser_(XML_ParserCreateNS(nullptr, '|')) {
+    explicit Xml(Handler& handler) : handler_(handler), parser_(XML_ParserCreateNS(nullptr, '|')) {
         if (parser_ == nullptr) throw std::bad_alloc();
         XML_SetUserData(parser_.get(), this);
         XML_SetElementHandler(
@@ -72,20 +74,20 @@ class Xml {
             static_cast<Xml*>(self)->guarded(
                 [&](Handler& to) { to.name_space(prefix != nullptr ? prefix : "", uri != nullptr ? uri : ""); });
         });
-        // 3MF forbids it, and it is where the traps of XML are
+        // 3MF forbids it, and entities declared there can expand without bound
         XML_SetStartDoctypeDeclHandler(
             parser_.get(), [](void* self, const XML_Char*, const XML_Char*, const XML_Char*, int) {
-                static_cast<Xml*>(self)->guarded([&](Handler& to) { to.refuse("a document type, which 3MF has not"); });
+                static_cast<Xml*>(self)->guarded([&](Handler& to) { to.refuse("a document type, which 3MF forbids"); });
             });
         handler.line = [this] { return XML_GetCurrentLineNumber(parser_.get()); };
     }
 
     void read(const ReadSome& read_some) {
-        constexpr int room = 1 << 16;
+        constexpr int buffer_size = 1 << 16;
         while (true) {
-            void* to = XML_GetBuffer(parser_.get(), room);
+            void* to = XML_GetBuffer(parser_.get(), buffer_size);
             if (to == nullptr) throw std::bad_alloc();
-            const std::size_t got = read_some(static_cast<char*>(to), room);
+            const std::size_t got = read_some(static_cast<char*>(to), buffer_size);
             const XML_Status status = XML_ParseBuffer(parser_.get(), static_cast<int>(got), got == 0);
             if (fault_) std::rethrow_exception(fault_);
             if (status == XML_STATUS_ERROR) handler_.refuse(XML_ErrorString(XML_GetErrorCode(parser_.get())));
@@ -110,13 +112,12 @@ class Xml {
     }
 
     Handler& handler_;
-    const std::string& name_;
     std::unique_ptr<std::remove_pointer_t<XML_Parser>, Free> parser_;
     std::exception_ptr fault_;
 };
 
-// What both handlers need.
-struct Place {
+// The file, the current line, and errors that name both.
+struct XmlHandler {
     const std::string& name;
     std::function<std::size_t()> line;
 
@@ -126,9 +127,9 @@ struct Place {
     }
 };
 
-class ModelHandler : public Place {
+class ModelHandler : public XmlHandler {
  public:
-    explicit ModelHandler(const std::string& file) : Place{file, {}} {}
+    explicit ModelHandler(const std::string& file) : XmlHandler{file, {}} {}
 
     void name_space(const std::string& prefix, const std::string& uri) {
         if (depth_ == 0) uri_of_[prefix] = uri;
@@ -180,7 +181,7 @@ class ModelHandler : public Place {
     }
 
     void start_model(std::string_view element, Attributes attributes) {
-        if (element != "model") refuse("it is no 3MF model");
+        if (element != "model") refuse("it is not a 3MF model");
         if (const auto unit = value_of(attributes, "unit")) {
             const auto known =
                 std::find_if(units.begin(), units.end(), [&](const Unit3mf& u) { return u.name == *unit; });
@@ -268,14 +269,14 @@ class ModelHandler : public Place {
     }
 
     Model3mf model_;
-    Object3mf* object_ = nullptr;  // the one that is being read
+    Object3mf* object_ = nullptr;  // whose element is open
     std::size_t depth_ = 0;
     std::map<std::string, std::string> uri_of_;  // per prefix
 };
 
-class RelationsHandler : public Place {
+class RelationsHandler : public XmlHandler {
  public:
-    explicit RelationsHandler(const std::string& file) : Place{file, {}} {}
+    explicit RelationsHandler(const std::string& file) : XmlHandler{file, {}} {}
     void name_space(const std::string&, const std::string&) {}
     void end(std::string_view) {}
     void start(std::string_view element, Attributes attributes) {
@@ -289,13 +290,13 @@ class RelationsHandler : public Place {
 
 Model3mf read_model_3mf(const ReadSome& read_some, const std::string& name) {
     ModelHandler handler(name);
-    Xml<ModelHandler>(handler, name).read(read_some);
+    Xml<ModelHandler>(handler).read(read_some);
     return handler.model();
 }
 
 std::string start_part_3mf(const ReadSome& read_some, const std::string& name) {
     RelationsHandler handler(name);
-    Xml<RelationsHandler>(handler, name).read(read_some);
+    Xml<RelationsHandler>(handler).read(read_some);
     return handler.target;
 }
 

@@ -1,7 +1,7 @@
-// One model file of a 3MF package as it stands there: objects and what is to be built of them.
+// Reads one model file of a 3MF package as it stands: objects, and where the build places them.
 //
-// Its XML comes in stretches, so that no text of it ever lies in memory whole. Indices are checked here; references
-// between objects are not (read_3mf.h follows them).
+// The XML is read part by part, so that its text is never in memory whole. The corners of triangles are checked here;
+// references between objects are not (read_3mf.h resolves them). Lengths are in the unit of the model.
 
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace qchopper {
 
-// An object somewhere: a component of another one, or an item of the build.
+// A placed object: a component of another one, or an item of the build.
 struct Reference3mf {
     std::string path;  // of the model file that holds it; empty: this one
     std::uint32_t object = 0;
@@ -25,26 +25,28 @@ struct Reference3mf {
 
 struct Object3mf {
     std::uint32_t id = 0;
-    std::string type = "model";  // or support, solidsupport, surface, other
-    std::vector<Vec3> points;
-    std::vector<Triangle> triangles;
+    std::string type = "model";       // or support, solidsupport, surface, other
+    std::vector<Vec3> points;         // finite
+    std::vector<Triangle> triangles;  // corners are indices of points
     std::vector<Reference3mf> components;
-    bool has_beams = false;  // a lattice, which makes no faces
+    bool has_beams = false;  // a beam lattice, which makes no triangles
 };
 
 struct Model3mf {
     double mm_per_unit = 1;
-    std::vector<Object3mf> objects;  // in the order of their ids
+    std::vector<Object3mf> objects;  // by ascending id, each id once
     std::vector<Reference3mf> items;
 };
 
-// Returns how many bytes it has put there; 0 at the end.
-using ReadSome = std::function<std::size_t(char* to, std::size_t room)>;
+// Writes at most `size` bytes to `to` and returns their number; 0 at the end.
+using ReadSome = std::function<std::size_t(char* to, std::size_t size)>;
 
-// `name` stands for the file in errors. Throws InputError (mesh) for XML that is damaged or no model, with the line.
+// Throws InputError (mesh) for XML that is damaged or is no such model, with the line; `name` stands for the file.
+// Exceptions of read_some pass through.
 Model3mf read_model_3mf(const ReadSome& read_some, const std::string& name);
 
-// The path of the model file, as the relations of a package (_rels/.rels) name it; empty if they do not.
+// The path of the first model file, from the relations of a package (_rels/.rels); empty if they name none. Throws as
+// read_model_3mf does.
 std::string start_part_3mf(const ReadSome& read_some, const std::string& name);
 
 }  // namespace qchopper

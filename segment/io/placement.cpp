@@ -1,3 +1,5 @@
+// Product and application of affine maps. place_points: O(points).
+
 #include "segment/io/placement.h"
 
 #include <cmath>
@@ -8,8 +10,8 @@ namespace qchopper {
 
 Placement operator*(const Placement& outer, const Placement& inner) {
     Placement both;
-    const Placement turn{outer.axes, {}};
-    for (std::size_t i = 0; i < 3; ++i) both.axes[i] = turn(inner.axes[i]);
+    const Placement linear{outer.axes, {}};
+    for (std::size_t i = 0; i < 3; ++i) both.axes[i] = linear(inner.axes[i]);
     both.origin = outer(inner.origin);
     return both;
 }
@@ -29,7 +31,7 @@ std::uint32_t place_points(RawMesh& scan, const std::vector<Vec3>& points, const
     for (const Vec3& point : points) {
         const Vec3 p = placement(point);
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-            throw InputError(InputFault::mesh, what + " has a point whose place is not a finite number",
+            throw InputError(InputFault::mesh, what + " has a point whose position is not a finite number",
                              "export the scan again");
         }
         scan.mesh.points.push_back(p);

@@ -1,7 +1,7 @@
-// Where a file puts a part of its scene: an affine map, and parts added to a scan through it.
+// The affine map that places a part in the scene of a file, and the points of a part added to a scan by it.
 //
-// glTF and 3MF draw the same part many times over, and parts of parts: a small file may ask for more than any machine
-// holds, so what is placed is counted before it is made (tests/segment/io/read_3mf_test.cpp).
+// glTF and 3MF repeat parts, and parts of parts: a small file can describe more points than fit in memory, so they are
+// counted before they are added (tests/segment/io/read_3mf_test.cpp).
 
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace qchopper {
 
-// Where the three axes and the origin come to lie.
+// The images of the three axes and of the origin. As it begins it is the identity.
 struct Placement {
     std::array<Vec3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     Vec3 origin;
@@ -25,14 +25,15 @@ struct Placement {
 
 // First `inner`, then `outer`.
 Placement operator*(const Placement& outer, const Placement& inner);
-// Turns left into right: faces placed by it have to be turned, too.
+// Whether the map reverses orientation: triangles placed by it must have two corners exchanged.
 bool is_mirroring(const Placement& placement);
 
-// Of points, and of triangles.
+// Limit of the points of a scene with all repetitions, and of its triangles.
 constexpr std::size_t most_placed = 50'000'000;
 
-// Adds the points at their place and returns the number of the first. Throws InputError (mesh) for more than
-// most_placed in all, and where the place of one is no finite number; `what` names the part.
+// Appends the mapped points and returns the index of the first. Precondition: the scan has at most most_placed points.
+// Throws InputError (mesh) if it would have more than most_placed, or if a mapped coordinate is not finite; `what`
+// names the part.
 std::uint32_t place_points(RawMesh& scan, const std::vector<Vec3>& points, const Placement& placement,
                            const std::string& what);
 

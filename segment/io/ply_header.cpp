@@ -1,3 +1,5 @@
+// One pass over the lines of the header after G. Turk, "The PLY Polygon File Format", 1994. O(bytes of the header).
+
 #include "segment/io/ply_header.h"
 
 #include <array>
@@ -15,6 +17,7 @@ struct TypeName {
     PlyType type;
     std::size_t size;
 };
+// In the order of PlyType.
 constexpr std::array<TypeName, 8> type_names{{{"char", "int8", PlyType::i8, 1},
                                               {"uchar", "uint8", PlyType::u8, 1},
                                               {"short", "int16", PlyType::i16, 2},
@@ -26,13 +29,13 @@ constexpr std::array<TypeName, 8> type_names{{{"char", "int8", PlyType::i8, 1},
 
 constexpr std::size_t most_elements = 100;
 
-// Reads the header line by line; every fault is thrown with its line.
+// Reads the header line by line; every fault is refused with its line.
 class HeaderReader {
  public:
     HeaderReader(std::string_view file, const std::string& name) : file_(file), name_(name) {}
 
     PlyHeader read() {
-        // Lines end in CR alone only if the first one does: a binary body may begin with a byte that looks like LF.
+        // Lines end in CR alone only if the first one does: a binary body may begin with the byte of an LF.
         const std::size_t end_of_first = file_.find_first_of("\r\n");
         if (end_of_first == std::string_view::npos) refuse("the file ends in the first line");
         line_end_ = file_[end_of_first];

@@ -1,4 +1,4 @@
-// The header of a PLY file: which elements follow, and how each of their properties is stored.
+// Reads the header of a PLY file: which elements follow, and how each of their properties is stored.
 
 #pragma once
 
@@ -14,6 +14,7 @@ namespace qchopper {
 
 enum class PlyType { i8, u8, i16, u16, i32, u32, f32, f64 };
 
+// Bytes of one value in a binary body.
 std::size_t size_of(PlyType type);
 inline bool is_integer(PlyType type) {
     return type != PlyType::f32 && type != PlyType::f64;
@@ -23,24 +24,25 @@ struct PlyProperty {
     std::string name;
     PlyType type = PlyType::f32;
     bool is_list = false;
-    PlyType count_type = PlyType::u8;  // of a list
+    PlyType count_type = PlyType::u8;  // of a list; an integer type
 };
 
 struct PlyElement {
     std::string name;
     std::uint64_t count = 0;
     std::vector<PlyProperty> properties;
-    std::size_t line = 0;  // where the header names it
+    std::size_t line = 0;  // of its line in the header, from 1
 };
 
 struct PlyHeader {
     MeshFormat format = MeshFormat::ply_ascii;
-    std::vector<PlyElement> elements;
-    std::size_t size = 0;   // bytes up to the first element
-    std::size_t lines = 0;  // lines up to there
+    std::vector<PlyElement> elements;  // at most 100, each name once
+    std::size_t size = 0;              // bytes of the header: where the body begins
+    std::size_t lines = 0;             // of the header
 };
 
-// Throws InputError (mesh) with the line of the fault.
+// The first line is not checked (is_ply() does that). Throws InputError (mesh) with the line of the fault; `name`
+// stands for the file.
 PlyHeader read_ply_header(std::string_view file, const std::string& name);
 
 }  // namespace qchopper

@@ -1,7 +1,7 @@
-// The values of a PLY body one after the other, whether they are words or bytes.
+// Reads the values of a PLY body one after the other, from text or from bytes.
 //
-// Where a value is missing or wrong the answer is nothing, and place() says where that is. AsciiValues and BinaryValues
-// have the same functions, so that one template reads both.
+// Where a value is missing or wrong the result is nothing, and place() names the line or the byte. AsciiValues and
+// BinaryValues have the same functions, so that one template reads both. O(1) per value.
 
 #pragma once
 
@@ -18,19 +18,19 @@
 
 namespace qchopper {
 
-// Values of an ASCII body, word by word. Where a value is missing or wrong the answer is nothing.
+// Values of a text body; `lines` is the number of lines before it.
 class AsciiValues {
  public:
     AsciiValues(std::string_view body, std::size_t lines) : text_(body), lines_before_(lines) {}
 
     std::optional<double> real(PlyType) { return number(text_.word()); }
     std::optional<std::int64_t> whole(PlyType) { return integer(text_.word()); }
-    bool pass(PlyType) { return !text_.word().empty(); }
+    bool skip(PlyType) { return !text_.word().empty(); }
     std::string place() const { return "line " + std::to_string(lines_before_ + text_.line()); }
-    // How many values of these sizes may still come: a character and a space each.
-    bool has_room(std::uint64_t values, std::uint64_t /*bytes*/) const { return values <= (text_.left() + 1) / 2; }
-    bool is_used_up() { return text_.word().empty(); }
-    // The next element begins in a line of its own; some writers leave more values in a line than they announce.
+    // Whether so many values can follow: a character and a space each, at the least.
+    bool can_hold(std::uint64_t values, std::uint64_t /*bytes*/) const { return values <= (text_.left() + 1) / 2; }
+    bool is_at_end() { return text_.word().empty(); }
+    // Passes the rest of the line: some writers put more values into a line than the header announces.
     void end_element() { text_.rest_of_line(); }
 
  private:
@@ -38,7 +38,7 @@ class AsciiValues {
     std::size_t lines_before_;
 };
 
-// Values of a binary body.
+// Values of a binary body, which begins at byte `start`. Precondition: start <= file.size().
 template <std::endian order>
 class BinaryValues {
  public:
@@ -73,19 +73,20 @@ class BinaryValues {
         }
     }
 
-    bool pass(PlyType type) {
+    bool skip(PlyType type) {
         if (left() < size_of(type)) return false;
         at_ += size_of(type);
         return true;
     }
 
     std::string place() const { return "byte " + std::to_string(at_); }
-    bool has_room(std::uint64_t /*values*/, std::uint64_t bytes) const { return bytes <= left(); }
+    // Whether so many bytes follow.
+    bool can_hold(std::uint64_t /*values*/, std::uint64_t bytes) const { return bytes <= left(); }
 
     void end_element() {}
 
-    // Some writers end a binary file with a line end or fill it up with zeros.
-    bool is_used_up() const {
+    // Some writers end a binary file with a line end or pad it with zeros.
+    bool is_at_end() const {
         return std::all_of(file_.begin() + static_cast<std::ptrdiff_t>(at_), file_.end(),
                            [](char c) { return c == '\0' || c == ' ' || (c >= '\t' && c <= '\r'); });
     }

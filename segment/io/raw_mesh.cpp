@@ -1,3 +1,5 @@
+// The names of the formats, as a table.
+
 #include "segment/io/raw_mesh.h"
 
 #include <array>

@@ -1,4 +1,4 @@
-// A mesh as a file holds it, in the file's own unit, before anything is welded, shifted or scaled.
+// Holds a mesh as a file contains it, in the unit of the file, before it is welded, shifted or scaled.
 
 #pragma once
 
@@ -20,28 +20,30 @@ enum class MeshFormat {
     stl_binary,
     obj,
     off,
-    gltf,  // JSON, with its numbers in other files or inside
-    glb,   // all in one
+    gltf,  // JSON, with its buffers in other files or inside
+    glb,   // JSON and buffers in one file
     three_mf
 };
 
 // "PLY, binary little-endian"
 std::string name_of(MeshFormat format);
 
+// As the readers return it: coordinates are finite, corners are indices of points, cap_of is empty or one per triangle
+// (tests/segment/io/damaged_test.cpp).
 struct RawMesh {
-    TriangleMesh mesh;  // an STL file names three points of its own per triangle; cap_of comes from a PLY face property
+    TriangleMesh mesh;  // of an STL file three points per triangle; cap_of is the face property `cap` of a PLY
     MeshFormat format = MeshFormat::ply_ascii;
     std::size_t faces_in_file = 0;       // polygons count once
     std::size_t faces_without_area = 0;  // with fewer than three corners: left out
-    std::optional<double> mm_per_unit;   // what the file itself says one unit is; nothing: the format has none
-    std::vector<std::string> warnings;   // what was left out, in whole sentences for the operator
-    std::size_t welded = 0;              // points that the reader made one with an equal earlier one
-    std::vector<Sha256> beside;          // of the files beside it that hold a part of it (glTF), in its order
+    std::optional<double> mm_per_unit;   // of the unit that the file states; nothing: the format has none
+    std::vector<std::string> warnings;   // what was left out, one sentence each, for the operator
+    std::size_t welded = 0;              // points that the reader replaced by an equal earlier one
+    std::vector<Sha256> beside;          // of the buffer files of a glTF, in the order of reading
 };
 
 struct ReadOptions {
-    // Equal points of a binary STL file become one as they are read, which saves most of the memory: to be followed by
-    // weld(), which then has the same result.
+    // Equal points of a binary STL file become one as they are read, which saves most of the memory. weld() must follow
+    // and then has the same result; the readers of other formats ignore it.
     bool weld = false;
 };
 

@@ -1,3 +1,6 @@
+// libzip unpacks each model file once. The build is walked depth first to list the placed objects, which are counted
+// before any is added. O(bytes of the models + placed points and triangles).
+
 #include "segment/io/read_3mf.h"
 
 #include <zip.h>
@@ -16,7 +19,7 @@ namespace qchopper {
 namespace {
 
 constexpr int most_depth = 100;               // of components in components
-constexpr std::size_t most_visits = 100'000;  // to objects, so that empty ones come to an end as well
+constexpr std::size_t most_visits = 100'000;  // of objects: empty ones add no points and need a limit too
 constexpr const char* export_again = "export or copy the file again";
 
 std::string without_slash(const std::string& path) {
@@ -41,7 +44,7 @@ class Package {
 
     bool has(const std::string& path) const { return find(path) >= 0; }
 
-    // The name of the first part that ends so; empty if there is none.
+    // The name of the first part with this ending; empty if there is none.
     std::string first_that_ends_with(const std::string& ending) const {
         for (zip_int64_t i = 0; i < zip_get_num_entries(archive_.get(), 0); ++i) {
             const char* part = zip_get_name(archive_.get(), static_cast<zip_uint64_t>(i), 0);
@@ -50,14 +53,14 @@ class Package {
         return {};
     }
 
-    // Gives `use` a function that reads the part in stretches.
+    // Calls `use` with a function that reads the part in blocks, and returns its result.
     template <class Use>
     auto read(const std::string& path, const Use& use) {
         const std::unique_ptr<zip_file_t, Close> file(
             zip_fopen_index(archive_.get(), static_cast<zip_uint64_t>(find(path)), 0));
         if (!file) refuse(path, zip_strerror(archive_.get()));
-        return use([&](char* to, std::size_t room) {
-            const zip_int64_t got = zip_fread(file.get(), to, room);
+        return use([&](char* to, std::size_t size) {
+            const zip_int64_t got = zip_fread(file.get(), to, size);
             if (got < 0) refuse(path, zip_file_strerror(file.get()));
             unpacked_ += static_cast<std::uint64_t>(got);
             if (unpacked_ > most_) refuse(path, "it unpacks to more than " + std::to_string(most_ >> 20) + " MiB");
@@ -73,7 +76,7 @@ class Package {
         void operator()(zip_file_t* file) const { zip_fclose(file); }
     };
 
-    // Names of parts are told apart without regard to case.
+    // The names of parts do not depend on case.
     zip_int64_t find(const std::string& path) const {
         return zip_name_locate(archive_.get(), without_slash(path).c_str(), ZIP_FL_NOCASE);
     }
@@ -101,16 +104,16 @@ class Builder {
         for (const Reference3mf& item : model.items) visit(item, start, {}, 0);
         check_count();
         for (const Placed& placed : placed_) add(*placed.object, placed.placement);
-        if (unmade_ > 0) {
-            scan_.warnings.push_back(std::to_string(unmade_) +
+        if (not_built_ > 0) {
+            scan_.warnings.push_back(std::to_string(not_built_) +
                                      " supports and other objects that are not to be made were left out.");
         }
         if (beams_ > 0) {
             scan_.warnings.push_back("Beam lattices of " + std::to_string(beams_) + " objects were left out.");
         }
         if (model.items.empty() && !model.objects.empty()) {
-            throw InputError(InputFault::mesh, name_ + " holds objects, but its build is empty: nothing is to be made",
-                             "put the object on the plate and export again");
+            refuse(" holds objects, but its build is empty: nothing is to be made",
+                   "put the object on the plate and export again");
         }
         return std::move(scan_);
     }
@@ -124,8 +127,7 @@ class Builder {
         }
         if (start.empty() || !package_.has(start)) start = package_.first_that_ends_with(".model");
         if (start.empty()) {
-            throw InputError(InputFault::mesh, name_ + " is a ZIP, but no 3MF: it holds no model",
-                             "unpack it and give the scan that is in it");
+            refuse(" is a ZIP, but no 3MF: it holds no model", "unpack it and give the scan that is in it");
         }
         return without_slash(start);
     }
@@ -133,10 +135,7 @@ class Builder {
     const Model3mf& model_at(const std::string& path) {
         const auto known = models_.find(path);
         if (known != models_.end()) return known->second;
-        if (!package_.has(path)) {
-            throw InputError(InputFault::mesh, name_ + " names " + path.substr(0, 100) + ", which is not in it",
-                             export_again);
-        }
+        if (!package_.has(path)) refuse(" names " + path.substr(0, 100) + ", which is not in it");
         const std::string name = models_.empty() ? name_ : name_ + ": " + path;
         Model3mf model = package_.read(path, [&](const ReadSome& some) { return read_model_3mf(some, name); });
         if (!models_.empty() && model.mm_per_unit != *scan_.mm_per_unit) {
@@ -147,13 +146,12 @@ class Builder {
 
     void visit(const Reference3mf& reference, const std::string& from, const Placement& outer, int depth) {
         if (depth > most_depth || ++visits_ > most_visits) {
-            throw InputError(InputFault::mesh, name_ + ": its components hold each other without end",
-                             "export the parts as plain objects");
+            refuse(": its components contain each other without end", "export the parts as plain objects");
         }
         const std::string path = reference.path.empty() ? from : without_slash(reference.path);
         const Object3mf& object = object_at(path, reference.object);
         if (object.type != "model" && object.type != "surface") {
-            ++unmade_;
+            ++not_built_;
             return;
         }
         beams_ += object.has_beams;
@@ -168,13 +166,12 @@ class Builder {
             std::lower_bound(objects.begin(), objects.end(), id,
                              [](const Object3mf& object, std::uint32_t wanted) { return object.id < wanted; });
         if (found == objects.end() || found->id != id) {
-            throw InputError(InputFault::mesh, name_ + " names object " + std::to_string(id) + ", which is not in it",
-                             export_again);
+            refuse(" names object " + std::to_string(id) + ", which is not in it");
         }
         return *found;
     }
 
-    // Before the first of them takes any memory.
+    // Before memory is taken for the first of them.
     void check_count() {
         std::uint64_t points = 0;
         std::uint64_t triangles = 0;
@@ -183,9 +180,8 @@ class Builder {
             triangles += placed.object->triangles.size();
         }
         if (points > most_placed || triangles > most_placed) {
-            throw InputError(InputFault::mesh,
-                             name_ + ": with all its repetitions there are more than 50 million points or triangles",
-                             "export only what is to be carved");
+            refuse(": with all its repetitions there are more than 50 million points or triangles",
+                   "export only what is to be carved");
         }
         scan_.mesh.points.reserve(points);
         scan_.mesh.triangles.reserve(triangles);
@@ -202,8 +198,12 @@ class Builder {
         scan_.faces_in_file += object.triangles.size();
     }
 
+    [[noreturn]] void refuse(const std::string& why, const char* to_do = export_again) const {
+        throw InputError(InputFault::mesh, name_ + why, to_do);
+    }
+
     struct Placed {
-        const Object3mf* object;  // in models_, where it stays
+        const Object3mf* object;  // in models_, whose entries do not move
         Placement placement;
     };
 
@@ -213,7 +213,7 @@ class Builder {
     std::map<std::string, Model3mf> models_;
     std::vector<Placed> placed_;
     std::size_t visits_ = 0;
-    std::size_t unmade_ = 0;
+    std::size_t not_built_ = 0;
     std::size_t beams_ = 0;
 };
 

@@ -1,3 +1,6 @@
+// tinygltf loads the buffers; nodes are visited depth first, and each primitive is added through its placement.
+// O(bytes + placed points and triangles).
+
 #include "segment/io/read_gltf.h"
 
 #include <tiny_gltf.h>
@@ -8,11 +11,11 @@
 #include <optional>
 
 #include "base/error.h"
-#include "segment/io/add_face.h"
 #include "segment/io/glb_file.h"
 #include "segment/io/gltf_json.h"
 #include "segment/io/gltf_numbers.h"
 #include "segment/io/placement.h"
+#include "segment/io/text.h"
 
 namespace qchopper {
 namespace {
@@ -24,26 +27,26 @@ constexpr Placement z_up{{{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}}, {}};
 constexpr int most_depth = 1000;  // of nodes in nodes
 constexpr const char* export_again = "export the scan again";
 
-// What tinygltf asks of the disk. Its own error texts hold no reason, so the first fault is kept and thrown later.
-struct Beside {
+// The buffer files that tinygltf reads through callbacks. Its error texts hold no reason, so the first fault is kept
+// and thrown later.
+struct BufferFiles {
     fs::path folder;
     std::string name;
     std::vector<Sha256> read = {};
     std::optional<InputError> fault = {};
 
-    fs::path path_of(const std::string& uri) const { return folder / uri; }
-
     bool load(std::vector<unsigned char>& bytes, const std::string& uri) {
         try {
             const fs::path path(uri);
-            bool leads_out = folder.empty() || path.is_absolute() || uri.find(':') != std::string::npos;
-            for (const fs::path& step : path) leads_out |= step == "..";
-            if (leads_out) {
-                const std::string why = folder.empty() ? ", and that is not at hand" : ", which is not beside it";
-                throw InputError(InputFault::mesh, name + " keeps a part of itself in " + uri.substr(0, 100) + why,
+            bool is_outside = folder.empty() || path.is_absolute() || uri.find(':') != std::string::npos;
+            for (const fs::path& step : path) is_outside |= step == "..";
+            if (is_outside) {
+                const std::string why =
+                    folder.empty() ? ", but no folder to search was given" : ", which is not beside it";
+                throw InputError(InputFault::mesh, name + " has a buffer in the file " + uri.substr(0, 100) + why,
                                  "export the scan as GLB, which is one file");
             }
-            bytes = read_file(path_of(uri));
+            bytes = read_file(folder / uri);
             read.push_back(sha256(bytes));
             return true;
         } catch (const InputError& error) {
@@ -53,32 +56,32 @@ struct Beside {
     }
 };
 
-bool says_exists(const std::string&, void*) {
-    return true;  // the reading says why not
+bool assume_exists(const std::string&, void*) {
+    return true;  // read_buffer reports why a file cannot be read
 }
 std::string unchanged_path(const std::string& path, void*) {
     return path;
 }
-bool read_beside(std::vector<unsigned char>* bytes, std::string*, const std::string& uri, void* beside) {
-    return static_cast<Beside*>(beside)->load(*bytes, uri);
+bool read_buffer(std::vector<unsigned char>* bytes, std::string*, const std::string& uri, void* files) {
+    return static_cast<BufferFiles*>(files)->load(*bytes, uri);
 }
 bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
     return false;
 }
 
-tinygltf::Model load(const Bytes& bytes, const GltfPlace& place, std::string json, Beside& beside) {
+tinygltf::Model load(const Bytes& bytes, const JsonChunk& chunk, std::string json, BufferFiles& files) {
     tinygltf::TinyGLTF loader;
-    loader.SetFsCallbacks({says_exists, unchanged_path, read_beside, write_nothing, &beside});
+    loader.SetFsCallbacks({assume_exists, unchanged_path, read_buffer, write_nothing, &files});
     tinygltf::Model model;
-    std::string fault;  // words of the library, which are not for the operator
+    std::string fault;  // texts of the library, not meant for the operator
     std::string remark;
     bool is_loaded = false;
     if (json.size() + bytes.size() > std::numeric_limits<std::uint32_t>::max()) {
-        throw InputError(InputFault::mesh, beside.name + " has more than 4 GiB", "export the scan as PLY");
+        throw InputError(InputFault::mesh, files.name + " has more than 4 GiB", "export the scan as PLY");
     }
     try {
-        if (place.is_glb) {
-            const Bytes plain = glb_with(bytes, place, std::move(json));
+        if (chunk.is_glb) {
+            const Bytes plain = with_json(bytes, chunk, std::move(json));
             is_loaded =
                 loader.LoadBinaryFromMemory(&model, &fault, &remark, plain.data(), static_cast<unsigned>(plain.size()));
         } else {
@@ -88,10 +91,10 @@ tinygltf::Model load(const Bytes& bytes, const GltfPlace& place, std::string jso
     } catch (const std::exception&) {
         is_loaded = false;
     }
-    if (beside.fault) throw *beside.fault;
+    if (files.fault) throw *files.fault;
     if (!is_loaded) {
         throw InputError(InputFault::mesh,
-                         beside.name + " is no sound glTF: its buffers, views and accessors do not fit together",
+                         files.name + " is not a valid glTF file: its buffers, views and accessors do not fit together",
                          export_again);
     }
     return model;
@@ -113,13 +116,11 @@ class SceneReader {
     }
 
  private:
-    // Of the scene that the file wants shown; without scenes, every node that is in no other.
+    // The nodes of the default scene; without scenes, every node that has no parent.
     std::vector<int> roots() const {
         if (!model_.scenes.empty()) {
             const int scene = std::max(model_.defaultScene, 0);
-            if (static_cast<std::size_t>(scene) >= model_.scenes.size())
-                refuse("there is no scene " + std::to_string(scene));
-            return model_.scenes[static_cast<std::size_t>(scene)].nodes;
+            return item_at(model_.scenes, scene, "there is no scene " + std::to_string(scene)).nodes;
         }
         std::vector<bool> is_child(model_.nodes.size());
         for (const tinygltf::Node& node : model_.nodes) {
@@ -137,17 +138,15 @@ class SceneReader {
     void read_node(int index, const Placement& outer, int depth) {
         const auto n = static_cast<std::size_t>(index);
         const std::string what = "node " + std::to_string(index);
-        if (n >= model_.nodes.size()) refuse("there is no " + what);
-        if (is_seen_[n]) refuse(what + " hangs in two places");
+        const tinygltf::Node& node = item_at(model_.nodes, index, "there is no " + what);
+        if (is_seen_[n]) refuse(what + " occurs twice in the scene");
         if (depth > most_depth) refuse(what + " lies more than " + std::to_string(most_depth) + " nodes deep");
         is_seen_[n] = true;
-        const tinygltf::Node& node = model_.nodes[n];
         const Placement placement = outer * placement_of(node);
         if (node.mesh >= 0) {
-            if (static_cast<std::size_t>(node.mesh) >= model_.meshes.size())
-                refuse(what + " names a mesh that is not there");
-            std::map<int, std::uint32_t> placed;  // primitives of a mesh may share their points
-            for (const tinygltf::Primitive& primitive : model_.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
+            const tinygltf::Mesh& mesh = item_at(model_.meshes, node.mesh, what + " names a mesh that is not there");
+            std::map<int, std::uint32_t> placed;  // first point of each accessor: primitives of a mesh may share one
+            for (const tinygltf::Primitive& primitive : mesh.primitives) {
                 read_primitive(primitive, placement, placed, "mesh " + std::to_string(node.mesh));
             }
         }
@@ -227,7 +226,7 @@ class SceneReader {
                 made = {corner(0), corner(t + 1), corner(t + 2)};
             } else {
                 made = {corner(t), corner(t + 1 + t % 2), corner(t + 2 - t % 2)};
-                // a strip is led on to its next stretch over corners that stand twice
+                // triangles with a repeated corner only connect two parts of a strip
                 if (made[0] == made[1] || made[1] == made[2] || made[2] == made[0]) continue;
             }
             if (is_mirrored) std::swap(made[1], made[2]);
@@ -254,18 +253,18 @@ class SceneReader {
             points.reserve(accessor.count);
             for (std::size_t i = 0; i < accessor.count; ++i) points.push_back(read(all, i));
         } else {
-            // all zero but for a few: the count stands for no bytes, so it is held against what bytes there are
+            // all zero but for a few: the count is backed by no bytes of its own, so it is limited by those of the file
             if (accessor.count > all_bytes()) refuse(what + " has more points than bytes");
             points.resize(accessor.count);
         }
         if (!accessor.sparse.isSparse) return points;
         const auto& sparse = accessor.sparse;
-        const auto changed = static_cast<std::size_t>(std::max(sparse.count, 0));
-        const auto offset = [](int bytes) { return static_cast<std::size_t>(std::max(bytes, 0)); };
-        const GltfNumbers which = whole_numbers(sparse.indices.bufferView, offset(sparse.indices.byteOffset),
+        const auto at_least_0 = [](int value) { return static_cast<std::size_t>(std::max(value, 0)); };
+        const std::size_t changed = at_least_0(sparse.count);
+        const GltfNumbers which = whole_numbers(sparse.indices.bufferView, at_least_0(sparse.indices.byteOffset),
                                                 sparse.indices.componentType, changed, what);
         const GltfNumbers values =
-            numbers(sparse.values.bufferView, offset(sparse.values.byteOffset), *component, 3, changed, what);
+            numbers(sparse.values.bufferView, at_least_0(sparse.values.byteOffset), *component, 3, changed, what);
         for (std::size_t i = 0; i < changed; ++i) {
             if (which.whole(i) >= points.size()) refuse(what + " replaces a point that is not there");
             points[which.whole(i)] = read(values, i);
@@ -280,29 +279,28 @@ class SceneReader {
     }
 
     const tinygltf::Accessor& accessor_at(int index, const std::string& what) const {
-        if (index < 0 || static_cast<std::size_t>(index) >= model_.accessors.size()) {
-            refuse(what + " names accessor " + std::to_string(index) + ", which is not there");
-        }
-        return model_.accessors[static_cast<std::size_t>(index)];
+        return item_at(model_.accessors, index,
+                       what + " names accessor " + std::to_string(index) + ", which is not there");
+    }
+
+    template <class Item>
+    const Item& item_at(const std::vector<Item>& items, int index, const std::string& fault) const {
+        if (index < 0 || static_cast<std::size_t>(index) >= items.size()) refuse(fault);
+        return items[static_cast<std::size_t>(index)];
     }
 
     GltfNumbers numbers(int view_index, std::size_t offset, GltfComponent component, std::size_t components,
                         std::size_t count, const std::string& what) const {
-        if (view_index < 0 || static_cast<std::size_t>(view_index) >= model_.bufferViews.size()) {
-            refuse(what + " has numbers in no buffer view");
-        }
-        const tinygltf::BufferView& view = model_.bufferViews[static_cast<std::size_t>(view_index)];
-        if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model_.buffers.size()) {
-            refuse(what + " has numbers in no buffer");
-        }
-        const GltfView place{model_.buffers[static_cast<std::size_t>(view.buffer)].data, view.byteOffset,
-                             view.byteLength, view.byteStride};
-        const std::optional<GltfNumbers> found = numbers_in(place, offset, component, components, count);
+        const tinygltf::BufferView& view =
+            item_at(model_.bufferViews, view_index, what + " has numbers in no buffer view");
+        const tinygltf::Buffer& buffer = item_at(model_.buffers, view.buffer, what + " has numbers in no buffer");
+        const std::optional<GltfNumbers> found = numbers_in(
+            {buffer.data, view.byteOffset, view.byteLength, view.byteStride}, offset, component, components, count);
         if (!found) refuse(what + " has more numbers than its buffer");
         return *found;
     }
 
-    // Those that count corners or points.
+    // Indices of points.
     GltfNumbers whole_numbers(int view_index, std::size_t offset, int code, std::size_t count,
                               const std::string& what) const {
         const std::optional<GltfComponent> component = gltf_component(code);
@@ -313,7 +311,7 @@ class SceneReader {
     }
 
     [[noreturn]] void refuse(const std::string& why) const {
-        throw InputError(InputFault::mesh, name_ + " is no sound glTF: " + why, export_again);
+        throw InputError(InputFault::mesh, name_ + " is not a valid glTF file: " + why, export_again);
     }
 
     const tinygltf::Model& model_;
@@ -333,16 +331,16 @@ bool is_gltf(const Bytes& bytes) {
 }
 
 RawMesh parse_gltf(const Bytes& bytes, const std::string& name, const fs::path& folder) {
-    const GltfPlace place = json_in(bytes, name);
-    const std::string_view json(reinterpret_cast<const char*>(bytes.data()) + place.begin, place.end - place.begin);
-    PlainGltf plain = plain_gltf(json, place.is_glb, name);
-    Beside beside{folder, name};
-    const tinygltf::Model model = load(bytes, place, std::move(plain.json), beside);
+    const JsonChunk chunk = find_json(bytes, name);
+    const std::string_view json = as_text(bytes).substr(chunk.begin, chunk.end - chunk.begin);
+    PlainGltf plain = plain_gltf(json, chunk.is_glb, name);
+    BufferFiles files{folder, name};
+    const tinygltf::Model model = load(bytes, chunk, std::move(plain.json), files);
     RawMesh scan = SceneReader(model, name).read();
-    scan.format = place.is_glb ? MeshFormat::glb : MeshFormat::gltf;
+    scan.format = chunk.is_glb ? MeshFormat::glb : MeshFormat::gltf;
     scan.mm_per_unit = mm_per_metre;
     scan.warnings.insert(scan.warnings.begin(), plain.warnings.begin(), plain.warnings.end());
-    scan.beside = std::move(beside.read);
+    scan.beside = std::move(files.read);
     return scan;
 }
 

@@ -1,7 +1,8 @@
-// The glTF side of read_mesh: version 2 as JSON or GLB, read by tinygltf, every node at its place.
+// Reads glTF of version 2, as JSON or GLB, every node at its place. The glTF part of read_mesh.h.
 //
-// glTF has metres and Y up; the scan comes out in metres with Z up: (x, y, z) becomes (x, -z, y). Triangles, strips and
-// fans are read, quantized and sparse points too; lines, points, pictures and movement are not.
+// glTF has metres and Y up; the scan has metres and Z up: (x, y, z) becomes (x, -z, y). Triangles, strips and fans are
+// read, also quantized and sparse points; lines, points, images and animations are not (docs/formats.md,
+// tests/segment/io/read_gltf_test.cpp). The JSON is filtered by gltf_json.h and read by tinygltf.
 
 #pragma once
 
@@ -13,11 +14,13 @@
 
 namespace qchopper {
 
-// Whether the first thing in it is a brace, as in any JSON.
+// Whether the first character that is not white space is a brace, as in any JSON object.
 bool is_gltf(const Bytes& bytes);
 
-// Files that it names are looked for in `folder` and below it, nowhere else; without a folder it must not name any.
-// Throws InputError (mesh) for anything that is not such a file, (missing) for a file beside it that is not there.
+// Bytes that are no GLB are read as JSON. Files that it names are read from `folder` and below it, nowhere else; with
+// an empty folder it must name none. Throws InputError (mesh) for a file that is damaged, exceeds the limits of
+// docs/formats.md or requires an extension that is not read, (missing) if a file beside it cannot be read; `name`
+// stands for the file.
 RawMesh parse_gltf(const Bytes& bytes, const std::string& name, const std::filesystem::path& folder);
 
 }  // namespace qchopper

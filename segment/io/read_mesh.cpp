@@ -1,3 +1,5 @@
+// Unpacks gzip, converts to UTF-8, and calls the reader whose mark the bytes bear. The readers state their cost.
+
 #include "segment/io/read_mesh.h"
 
 #include "base/error.h"
@@ -17,11 +19,11 @@ namespace {
 [[noreturn]] void refuse_unknown(const Bytes& bytes, const std::string& name) {
     throw InputError(
         InputFault::mesh,
-        name + " begins like no PLY, STL, OBJ, OFF, glTF, GLB or 3MF file, and " + why_no_binary_stl(bytes),
+        name + " does not begin like a PLY, STL, OBJ, OFF, glTF, GLB or 3MF file, and " + why_no_binary_stl(bytes),
         "give a file of one of these formats; if it was one, export or copy it again");
 }
 
-// OBJ comes last: its only mark is that its first line looks like it.
+// OBJ comes last: its only mark is the first word of its first line.
 RawMesh parse_by_content(const Bytes& bytes, const std::string& name, const std::filesystem::path& folder) {
     if (is_ply(bytes)) return parse_ply(bytes, name);
     if (is_ascii_stl(bytes)) return parse_ascii_stl(bytes, name);
@@ -32,9 +34,9 @@ RawMesh parse_by_content(const Bytes& bytes, const std::string& name, const std:
     refuse_unknown(bytes, name);
 }
 
-// What the wrapping holds. A binary STL comes first, since its length is a better mark than any few bytes.
-RawMesh parse_wrapped(const Bytes& bytes, const std::string& name, const std::filesystem::path& folder,
-                      const ReadOptions& options) {
+// After unpacking. A binary STL comes first: its length is a better mark than the first bytes.
+RawMesh parse_unpacked(const Bytes& bytes, const std::string& name, const std::filesystem::path& folder,
+                       const ReadOptions& options) {
     if (is_binary_stl(bytes)) return parse_binary_stl(bytes, name, options.weld);
     if (const std::optional<Bytes> text = to_utf8(bytes)) return parse_by_content(*text, name, folder);
     return parse_by_content(bytes, name, folder);
@@ -43,10 +45,10 @@ RawMesh parse_wrapped(const Bytes& bytes, const std::string& name, const std::fi
 RawMesh parse_packed(const Bytes& bytes, const std::string& name, const std::filesystem::path& folder,
                      const ReadOptions& options) {
     if (bytes.empty()) throw InputError(InputFault::mesh, name + " is empty", "export or copy the file again");
-    if (!is_gzip(bytes) || is_binary_stl(bytes)) return parse_wrapped(bytes, name, folder, options);
+    if (!is_gzip(bytes) || is_binary_stl(bytes)) return parse_unpacked(bytes, name, folder, options);
     const Bytes unpacked = gunzip(bytes, name);
-    if (unpacked.empty()) throw InputError(InputFault::mesh, name + " is empty once unpacked", "copy the file again");
-    return parse_wrapped(unpacked, name, folder, options);
+    if (unpacked.empty()) throw InputError(InputFault::mesh, name + " is empty after unpacking", "copy the file again");
+    return parse_unpacked(unpacked, name, folder, options);
 }
 
 }  // namespace
@@ -65,7 +67,7 @@ Bytes read_scan(const std::filesystem::path& path) {
 }
 
 RawMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
-    return parse_mesh(read_scan(path), path == "-" ? "standard input" : path.string(), folder_of(path), options);
+    return parse_mesh(read_scan(path), name_of_scan(path), folder_of(path), options);
 }
 
 std::string name_of_scan(const std::filesystem::path& path) {

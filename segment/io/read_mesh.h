@@ -1,9 +1,9 @@
-// Reads a scan from a file as it stands: nothing is welded, shifted or scaled. PLY, STL, OBJ, OFF, glTF, GLB and 3MF.
+// Reads a scan from a PLY, STL, OBJ, OFF, glTF, GLB or 3MF file as it stands: nothing is welded, shifted or scaled.
 //
-// Coordinates are in the file's own unit with Z up; docs/formats.md says what is read of each format. The format is
-// told by the content, never by the name. Whatever the bytes, the answer is a mesh with finite coordinates and valid
-// indices or an InputError (mesh) that says what is wrong and at which line or byte
-// (tests/segment/io/read_mesh_test.cpp, tests/segment/io/damaged_test.cpp).
+// Coordinates are in the unit of the file with Z up; docs/formats.md lists what is read of each format. The content
+// determines the format, never the name. For all bytes the result is a mesh with finite coordinates and valid indices,
+// or an InputError (mesh) that states what is wrong and at which line or byte (tests/segment/io/read_mesh_test.cpp,
+// tests/segment/io/damaged_test.cpp).
 
 #pragma once
 
@@ -15,18 +15,20 @@
 
 namespace qchopper {
 
-// The bytes of a scan; "-" is standard input, to its end. Throws InputError (missing) if they cannot be read.
+// The bytes of a scan; "-" and "/dev/stdin" are standard input, to its end. Throws InputError (missing) if they cannot
+// be read, (mesh) if they are more than scan_limit.
 Bytes read_scan(const std::filesystem::path& path);
 
-// Throws InputError (missing) for a file that cannot be read, (mesh) for one that is wrong.
+// Throws as read_scan and parse_mesh do.
 RawMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 
-// The same from bytes in memory; `name` stands for the file in errors. Only a glTF file looks for others, in `folder`;
-// without a folder it is refused if it has any.
+// The same from bytes in memory; `name` stands for the file in messages. Only a glTF file names others, which are read
+// from `folder`; with an empty folder it is refused if it names any. Throws InputError (mesh) for a file that is
+// damaged or holds no faces, (missing) for a file beside it that cannot be read.
 RawMesh parse_mesh(const Bytes& bytes, const std::string& name, const std::filesystem::path& folder = {},
                    const ReadOptions& options = {});
 
-// The name and the folder to give to parse_mesh for the file at `path`.
+// The name and the folder to give to parse_mesh for the file at `path`; of "-" the folder is empty.
 std::string name_of_scan(const std::filesystem::path& path);
 std::filesystem::path folder_of(const std::filesystem::path& path);
 

@@ -1,3 +1,6 @@
+// One pass over the lines, as the Advanced Visualizer manual (Wavefront, 1990), appendix B1, defines them; faces that
+// name later points are added at the end. O(bytes); polygon.cpp states the cost of polygons.
+
 #include "segment/io/read_obj.h"
 
 #include <algorithm>
@@ -13,13 +16,13 @@
 namespace qchopper {
 namespace {
 
-// Everything that may begin a line besides v and f: B1 of the Advanced Visualizer manual (Wavefront, 1990).
-constexpr std::array<std::string_view, 38> passed_words{
+// Keywords of the format whose lines make no face and are ignored.
+constexpr std::array<std::string_view, 38> ignored_words{
     "vt",    "vn",    "vp",     "p",        "l",        "g",    "s",      "mg",        "o",      "deg",
     "bmat",  "step",  "cstype", "parm",     "trim",     "hole", "scrv",   "sp",        "end",    "con",
     "call",  "csh",   "bevel",  "c_interp", "d_interp", "lod",  "maplib", "usemap",    "usemtl", "mtllib",
     "ctech", "stech", "cdc",    "cdp",      "bzp",      "bsp",  "res",    "shadow_obj"};
-// What a curved surface is made of: nothing here makes triangles of it.
+// Keywords of curves and curved surfaces, which are not converted to triangles.
 constexpr std::array<std::string_view, 3> curved_words{"surf", "curv", "curv2"};
 
 template <std::size_t n>
@@ -27,9 +30,9 @@ bool has(const std::array<std::string_view, n>& words, std::string_view word) {
     return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-// The first word of a line that OBJ has not, but a program may have added: "attr", "xyzrgb". What begins with a number
-// or holds other bytes than a text is damage, and skipping it could lose a face.
-bool is_like_a_word(std::string_view word) {
+// Whether an unknown first word can be the keyword of another program: "attr", "xyzrgb". A word that begins like a
+// number or holds bytes that are no text is damage, and skipping its line could lose a face.
+bool is_like_a_keyword(std::string_view word) {
     const auto is_text = [](char c) { return c > 0x20 && c < 0x7f; };
     const char first = word.front();
     return std::all_of(word.begin(), word.end(), is_text) && (first < '0' || first > '9') && first != '-' &&
@@ -37,19 +40,15 @@ bool is_like_a_word(std::string_view word) {
 }
 
 bool is_obj_word(std::string_view word) {
-    return word == "v" || word == "f" || word == "fo" || word == "trace_obj" || has(passed_words, word) ||
+    return word == "v" || word == "f" || word == "fo" || word == "trace_obj" || has(ignored_words, word) ||
            has(curved_words, word);
-}
-
-std::string_view as_text(const Bytes& bytes) {
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 std::string quoted(std::string_view word) {
     return "\"" + std::string(word.substr(0, 40)) + "\"";
 }
 
-// Lines without comments; one that ends in a backslash goes on in the next.
+// Lines without comments; a line that ends in a backslash is joined with the next.
 class Lines {
  public:
     explicit Lines(std::string_view text) : text_(text) {}
@@ -57,23 +56,23 @@ class Lines {
     std::optional<std::string_view> next() {
         if (text_.at_end()) return {};
         number_ = next_number_;
-        std::string_view line = take();
+        std::string_view line = next_part();
         if (!line.ends_with('\\')) return line;
         joined_.clear();
         while (line.ends_with('\\')) {
             joined_ += line.substr(0, line.size() - 1);
             joined_ += ' ';
-            line = take();
+            line = next_part();
         }
         joined_ += line;
         return joined_;
     }
 
-    // Of the line that next() gave, from 1.
+    // Of the line that next() returned last, from 1.
     std::size_t number() const { return number_; }
 
  private:
-    std::string_view take() {
+    std::string_view next_part() {
         const std::string_view line = text_.rest_of_line();
         ++next_number_;
         return line.substr(0, line.find('#'));
@@ -83,13 +82,6 @@ class Lines {
     std::string joined_;
     std::size_t number_ = 1;
     std::size_t next_number_ = 1;
-};
-
-// Faces that name points further down; they are added when the whole file is read.
-struct EarlyFaces {
-    std::vector<std::uint32_t> corners;
-    std::vector<std::size_t> end;   // per face, where its corners end
-    std::vector<std::size_t> line;  // per face
 };
 
 class ObjReader {
@@ -104,7 +96,7 @@ class ObjReader {
         warn_of_unknown_lines();
         if (curved_ > 0) {
             scan_.warnings.push_back(std::to_string(curved_) +
-                                     " curved surfaces and curves were left out, the first in " + "line " +
+                                     " curved surfaces and curves were left out, the first in line " +
                                      std::to_string(first_curved_) + ": only faces are read.");
         }
         return std::move(scan_);
@@ -114,14 +106,14 @@ class ObjReader {
     void read_line(std::string_view line) {
         Text words(line);
         const std::string_view word = words.word();
-        if (word.empty() || has(passed_words, word) || word == "trace_obj") return;
+        if (word.empty() || has(ignored_words, word) || word == "trace_obj") return;
         if (word == "v") return read_point(words);
         if (word == "f" || word == "fo") return read_face(words);
         if (has(curved_words, word)) {
             if (curved_++ == 0) first_curved_ = lines_.number();
             return;
         }
-        if (!is_like_a_word(word)) refuse("begins with " + quoted(word) + ", which no OBJ line does");
+        if (!is_like_a_keyword(word)) refuse("begins with " + quoted(word) + ", which no OBJ line does");
         if (unknown_++ > 0) return;
         first_unknown_ = lines_.number();
         unknown_word_ = quoted(word);
@@ -135,7 +127,7 @@ class ObjReader {
                                  ", which begins with " + unknown_word_ + ".");
     }
 
-    // x y z; a weight or a colour may follow and means nothing to a face.
+    // x y z; a weight or a colour may follow and is ignored.
     void read_point(Text& words) {
         if (scan_.mesh.points.size() == most_points) refuse("more than 4 billion points");
         Vec3 point;
@@ -160,16 +152,15 @@ class ObjReader {
             corners_.push_back(corner(word));
             is_early |= corners_.back() >= scan_.mesh.points.size();
         }
-        if (!is_early) {
+        if (is_early) {
+            early_.keep(corners_, static_cast<std::int64_t>(lines_.number()));
+        } else {
             add_face(scan_, corners_);
-            return;
         }
-        early_.corners.insert(early_.corners.end(), corners_.begin(), corners_.end());
-        early_.end.push_back(early_.corners.size());
-        early_.line.push_back(lines_.number());
     }
 
-    // point, point/texture, point//normal or point/texture/normal, counted from 1, or from the last one backwards.
+    // The index of the point in point, point/texture, point//normal or point/texture/normal; numbers in the file count
+    // from 1, or backwards from -1, the last point so far.
     std::uint32_t corner(std::string_view word) const {
         std::string_view rest = word;
         std::optional<std::int64_t> first;
@@ -188,28 +179,24 @@ class ObjReader {
         if (!first || !rest.empty()) refuse("a corner cannot be " + quoted(word));
         const auto count = static_cast<std::int64_t>(scan_.mesh.points.size());
         const std::int64_t index = *first > 0 ? *first - 1 : count + *first;
-        if (*first == 0 || index < 0 || index >= static_cast<std::int64_t>(most_points)) refuse_point(*first, count);
+        if (*first == 0 || index < 0 || index >= static_cast<std::int64_t>(most_points))
+            refuse(names_point(*first, scan_.mesh.points.size()));
         return static_cast<std::uint32_t>(index);
     }
 
     void add_early_faces() {
         const std::size_t count = scan_.mesh.points.size();
-        std::size_t begin = 0;
         for (std::size_t f = 0; f < early_.end.size(); ++f) {
-            const std::span corners = std::span(early_.corners).subspan(begin, early_.end[f] - begin);
-            begin = early_.end[f];
-            for (const std::uint32_t c : corners) {
-                if (c >= count) refuse_at(early_.line[f], names_point(std::int64_t{c} + 1, count));
+            for (const std::uint32_t c : early_.corners_of(f)) {
+                if (c < count) continue;
+                refuse_at(static_cast<std::size_t>(early_.note[f]), names_point(std::int64_t{c} + 1, count));
             }
-            add_face(scan_, corners);
+            add_face(scan_, early_.corners_of(f));
         }
     }
 
     static std::string names_point(std::int64_t point, std::size_t count) {
         return "a face names point " + std::to_string(point) + ", but there are " + std::to_string(count);
-    }
-    [[noreturn]] void refuse_point(std::int64_t point, std::int64_t count) const {
-        refuse(names_point(point, static_cast<std::size_t>(count)));
     }
     [[noreturn]] void refuse(const std::string& why) const { refuse_at(lines_.number(), why); }
     [[noreturn]] void refuse_at(std::size_t line, const std::string& why) const {
@@ -221,7 +208,7 @@ class ObjReader {
     const std::string& name_;
     RawMesh scan_;
     std::vector<std::uint32_t> corners_;  // of the face that is being read
-    EarlyFaces early_;
+    EarlyFaces early_;                    // the note is the line
     std::size_t curved_ = 0;
     std::size_t first_curved_ = 0;
     std::size_t unknown_ = 0;

@@ -1,7 +1,9 @@
-// The OBJ side of read_mesh: points and faces of a Wavefront OBJ text; texture, normals and groups are passed over.
+// Reads the points and faces of a Wavefront OBJ text; textures, normals and groups are ignored. The OBJ part of
+// read_mesh.h.
 //
-// Polygons, negative numbers and faces that name later points are read. Our own reader, because every number is to
-// come out as it stands there and every fault with its line (docs/decisions/0013-text-formats-are-read-by-us.md).
+// Polygons, negative indices and faces that name later points are read. It is a reader of our own so that every number
+// is read as written and every fault has its line (docs/decisions/0013-text-formats-are-read-by-us.md,
+// tests/segment/io/read_obj_test.cpp).
 
 #pragma once
 
@@ -12,10 +14,11 @@
 
 namespace qchopper {
 
-// Whether the first line that says anything begins with a word of the format: OBJ has no other mark.
+// Whether the first word that is not in a comment is a keyword of the format: OBJ has no other mark.
 bool is_obj(const Bytes& bytes);
 
-// Throws InputError (mesh) for anything that is not such a file.
+// Throws InputError (mesh) with the line for a line that is damaged and for a face that names no point; `name` stands
+// for the file. A file without faces is read as such.
 RawMesh parse_obj(const Bytes& bytes, const std::string& name);
 
 }  // namespace qchopper

@@ -1,3 +1,5 @@
+// One pass over the lines, as the Geomview manual defines them. O(bytes); polygon.cpp states the cost of polygons.
+
 #include "segment/io/read_off.h"
 
 #include <cmath>
@@ -11,11 +13,7 @@
 namespace qchopper {
 namespace {
 
-std::string_view as_text(const Bytes& bytes) {
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-// [ST][C][N][4][n]OFF: what stands before OFF is said of every point.
+// [ST][C][N][4][n]OFF: the letters before OFF announce further numbers of every point.
 struct Keyword {
     bool is_off = false;
     bool has_more_dimensions = false;
@@ -23,19 +21,25 @@ struct Keyword {
 
 Keyword keyword_of(std::string_view word) {
     Keyword keyword;
-    const auto pass = [&](std::string_view letters) {
+    const auto remove = [&](std::string_view letters) {
         if (!word.starts_with(letters)) return false;
         word.remove_prefix(letters.size());
         return true;
     };
-    pass("ST");
-    pass("C");
-    pass("N");
-    const bool has_four = pass("4");
-    const bool has_n = pass("n");
+    remove("ST");
+    remove("C");
+    remove("N");
+    const bool has_four = remove("4");
+    const bool has_n = remove("n");
     keyword.has_more_dimensions = has_four || has_n;
     keyword.is_off = word == "OFF";
     return keyword;
+}
+
+// The next line of the text, without its comment.
+Text next_words(Text& text) {
+    const std::string_view line = text.rest_of_line();
+    return Text(line.substr(0, line.find('#')));
 }
 
 class OffReader {
@@ -49,8 +53,11 @@ class OffReader {
         read_counts(words);
         read_points();
         read_faces();
-        skip_empty_lines();
-        if (!text_.at_end()) refuse("more data follow than line " + std::to_string(counts_line_) + " announces");
+        while (!text_.at_end()) {
+            ++line_;
+            if (next_words(text_).word().empty()) continue;
+            refuse("more data follow than line " + std::to_string(counts_line_) + " announces");
+        }
         return std::move(scan_);
     }
 
@@ -67,7 +74,7 @@ class OffReader {
         }
     }
 
-    // In the line of the keyword or the next. The third count, of edges, means nothing and may be missing.
+    // In the line of the keyword or the next. The third count, of edges, is ignored and may be missing.
     void read_counts(Text words) {
         Text ahead = words;
         if (ahead.word().empty()) words = next_line("the counts");
@@ -76,14 +83,14 @@ class OffReader {
         const std::optional<std::int64_t> faces = integer(words.word());
         const std::string_view edges = words.word();
         if (!points || !faces || *points < 0 || *faces < 0 || !(edges.empty() || integer(edges))) {
-            refuse("the counts of points, faces and edges should stand here");
+            refuse("the counts of points, faces and edges are expected here");
         }
         points_ = static_cast<std::uint64_t>(*points);
         faces_ = static_cast<std::uint64_t>(*faces);
         if (points_ > most_points) refuse("more than 4 billion points");
-        // three digits with three ends for a point, a digit with its end for a face, at the very least
-        const std::uint64_t room = text_.left() + 1;
-        if (points_ > room / 6 || faces_ > room / 2 || 6 * points_ + 2 * faces_ > room) {
+        // three digits with a separator each for a point, one for a face, at the least
+        const std::uint64_t space = text_.left() + 1;
+        if (points_ > space / 6 || faces_ > space / 2 || 6 * points_ + 2 * faces_ > space) {
             refuse("announces " + std::to_string(points_) + " points and " + std::to_string(faces_) +
                    " faces, more than the file has room for");
         }
@@ -98,8 +105,8 @@ class OffReader {
                 const std::string_view word = words.word();
                 const std::optional<double> value = number(word);
                 if (!value) {
-                    refuse("point " + std::to_string(i) + " should have a coordinate where it " +
-                           (word.empty() ? "ends" : "says \"" + std::string(word.substr(0, 40)) + "\""));
+                    refuse("point " + std::to_string(i) + " should have a coordinate where the line " +
+                           (word.empty() ? "ends" : "has \"" + std::string(word.substr(0, 40)) + "\""));
                 }
                 if (!std::isfinite(*value)) {
                     refuse("point " + std::to_string(i) + " has a coordinate that is not a finite number");
@@ -138,30 +145,15 @@ class OffReader {
         return static_cast<std::uint32_t>(*corner);
     }
 
-    // The next line that says anything, without its comment.
+    // The next line that is not empty, without its comment.
     Text next_line(const std::string& wanted) {
         while (!text_.at_end()) {
             ++line_;
-            const std::string_view line = text_.rest_of_line();
-            const std::string_view said = line.substr(0, line.find('#'));
-            if (!Text(said).word().empty()) return Text(said);
+            const Text words = next_words(text_);
+            if (!Text(words).word().empty()) return words;
         }
         ++line_;
         refuse("the file ends before " + wanted);
-    }
-
-    void skip_empty_lines() {
-        while (!text_.at_end()) {
-            const Text before = text_;
-            const std::string_view line = text_.rest_of_line();
-            if (Text(line.substr(0, line.find('#'))).word().empty()) {
-                ++line_;
-                continue;
-            }
-            text_ = before;
-            ++line_;
-            return;
-        }
     }
 
     [[noreturn]] void refuse(const std::string& why) const {
@@ -183,8 +175,7 @@ class OffReader {
 bool is_off(const Bytes& bytes) {
     Text text(as_text(bytes));
     while (!text.at_end()) {
-        const std::string_view line = text.rest_of_line();
-        const std::string_view word = Text(line.substr(0, line.find('#'))).word();
+        const std::string_view word = next_words(text).word();
         if (!word.empty()) return keyword_of(word).is_off;
     }
     return false;

@@ -1,3 +1,5 @@
+// Fixed-size records are copied as they lie. O(bytes): one pass, bound by memory.
+
 #include "segment/io/read_plain_ply.h"
 
 #include <array>
@@ -12,7 +14,7 @@ namespace {
 
 struct VertexLayout {
     std::size_t size = 0;
-    std::array<std::size_t, 3> at{};  // where x, y and z lie
+    std::array<std::size_t, 3> at{};  // bytes from the start of a vertex to x, y and z
     PlyType type = PlyType::f32;      // of all three
 };
 
@@ -51,23 +53,23 @@ Value value_at(const char* at) {
     return value;
 }
 
-// False if a coordinate is not finite, or so large that their sum is not.
+// False if a coordinate, or the sum of the three, is not finite: then 0 times it is NaN.
 template <class Real>
 bool read_points(const VertexLayout& layout, const char* from, std::size_t count, std::vector<Vec3>& points) {
     reserve_huge(points, count);
-    double nothing = 0;
+    double zero = 0;
     for (std::size_t v = 0; v < count; ++v, from += layout.size) {
         const Vec3 p{value_at<Real>(from + layout.at[0]), value_at<Real>(from + layout.at[1]),
                      value_at<Real>(from + layout.at[2])};
-        nothing += 0 * (p.x + p.y + p.z);
+        zero += 0 * (p.x + p.y + p.z);
         points.push_back(p);
     }
-    return nothing == 0;
+    return zero == 0;
 }
 
-constexpr std::size_t triangle_size = 13;
+constexpr std::size_t triangle_size = 13;  // bytes: a count and three indices
 
-// False if a face is no triangle or a corner no point.
+// False if a face is no triangle or a corner is no index of a point.
 bool read_triangles(const char* from, std::size_t count, std::size_t points, std::vector<Triangle>& triangles) {
     reserve_huge(triangles, count);
     bool is_right = true;
@@ -91,7 +93,7 @@ std::optional<RawMesh> read_plain_ply(const PlyHeader& header, std::string_view 
     const std::uint64_t points = elements[0].count;
     const std::uint64_t triangles = elements[1].count;
     const std::size_t left = file.size() - header.size;
-    // no number that lies may overflow in the product
+    // false counts must not overflow the products
     if (points > left || triangles > left || points > most_points || triangles > most_triangles) return std::nullopt;
     if (left != points * layout->size + triangles * triangle_size) return std::nullopt;
     const char* const body = file.data() + header.size;

@@ -1,7 +1,7 @@
-// The quick way through the PLY file that most scanners write: binary little-endian, vertices of fixed size and then
-// triangles with 32-bit indices and nothing else.
+// Reads the PLY files that most scanners write at the speed of memory: binary little-endian, vertices of fixed size,
+// then triangles with 32-bit indices and nothing else.
 //
-// What it reads, parse_ply would read the same (tests/segment/io/read_plain_ply_test.cpp).
+// The result is that of parse_ply's general reader, bit for bit (tests/segment/io/read_plain_ply_test.cpp).
 
 #pragma once
 
@@ -13,7 +13,8 @@
 
 namespace qchopper {
 
-// Nothing for any other layout, and for a file with anything wrong in it: the careful reader says what.
+// Nothing for any other layout and for a file with a fault in it: the general reader then reports the fault.
+// Precondition: `header` is read_ply_header(file).
 std::optional<RawMesh> read_plain_ply(const PlyHeader& header, std::string_view file);
 
 }  // namespace qchopper

@@ -1,3 +1,6 @@
+// One pass over the elements, in the order of the header, after G. Turk, "The PLY Polygon File Format", 1994. O(bytes);
+// polygon.cpp states the cost of polygons.
+
 #include "segment/io/read_ply.h"
 
 #include <algorithm>
@@ -15,15 +18,6 @@
 namespace qchopper {
 namespace {
 
-constexpr const char* copy_again = "export or copy the file again";
-
-// Faces whose points have not been read yet.
-struct EarlyFaces {
-    std::vector<std::uint32_t> corners;
-    std::vector<std::size_t> end;   // per face, where its corners end
-    std::vector<std::int32_t> cap;  // per face
-};
-
 template <class Values>
 class PlyBody {
  public:
@@ -34,8 +28,8 @@ class PlyBody {
         scan_.format = header_.format;
         check_elements();
         for (const PlyElement& element : header_.elements) {
-            if (element.properties.empty() && element.name != "vertex") continue;  // nothing lies there
-            check_room(element);
+            if (element.properties.empty() && element.name != "vertex") continue;  // it has no data
+            check_count(element);
             if (element.name == "vertex") {
                 read_vertices(element, scan_.mesh.points);
             } else if (element.name == "face") {
@@ -43,10 +37,10 @@ class PlyBody {
             } else if (element.name == "tristrips") {
                 read_strips(element);
             } else {
-                pass_element(element);
+                skip_element(element);
             }
         }
-        if (!values_.is_used_up()) {
+        if (!values_.is_at_end()) {
             refuse(values_.place() + ": more data follow than the header announces");
         }
         add_early_faces();
@@ -69,8 +63,8 @@ class PlyBody {
         }
     }
 
-    // Before anything is reserved: does the file have as many bytes as the count asks for, at the very least?
-    void check_room(const PlyElement& element) const {
+    // Before memory is reserved: refuses a count that needs more bytes than the file has.
+    void check_count(const PlyElement& element) const {
         if (element.properties.empty()) return;
         std::uint64_t bytes = 0;
         for (const PlyProperty& property : element.properties) {
@@ -78,7 +72,7 @@ class PlyBody {
         }
         const std::uint64_t values = element.properties.size();
         const bool fits_64_bits = element.count <= std::numeric_limits<std::uint64_t>::max() / bytes;
-        if (fits_64_bits && values_.has_room(element.count * values, element.count * bytes)) return;
+        if (fits_64_bits && values_.can_hold(element.count * values, element.count * bytes)) return;
         refuse("line " + std::to_string(element.line) + " announces " + std::to_string(element.count) + " of \"" +
                element.name + "\", more than the file has room for");
     }
@@ -97,7 +91,7 @@ class PlyBody {
         for (std::uint64_t v = 0; v < element.count; ++v) {
             for (std::size_t i = 0; i < axis_of.size(); ++i) {
                 if (axis_of[i] < 0) {
-                    pass_property(element.properties[i], "vertex", v);
+                    skip_property(element.properties[i], "vertex", v);
                     continue;
                 }
                 const std::optional<double> value = values_.real(element.properties[i].type);
@@ -114,11 +108,7 @@ class PlyBody {
 
     void read_faces(const PlyElement& element) {
         check_corner_list(element, "face");
-        bool has_cap = false;
-        for (const PlyProperty& property : element.properties) {
-            if (is_cap(property)) has_cap = true;
-        }
-        has_cap_ = has_cap;
+        has_cap_ = std::any_of(element.properties.begin(), element.properties.end(), is_cap);
         scan_.mesh.triangles.reserve(element.count);
         std::int32_t cap = no_cap;
         for (std::uint64_t f = 0; f < element.count; ++f) {
@@ -132,11 +122,11 @@ class PlyBody {
                     }
                     cap = static_cast<std::int32_t>(*value);
                 } else {
-                    pass_property(property, "face", f);
+                    skip_property(property, "face", f);
                 }
             }
             values_.end_element();
-            take_face(cap);
+            add_or_keep_face(cap);
         }
     }
 
@@ -153,7 +143,7 @@ class PlyBody {
         return !property.is_list && is_integer(property.type) && property.name == "cap";
     }
 
-    // Into corners_.
+    // Fills corners_.
     void read_corners(const PlyProperty& property, std::uint64_t face) {
         const std::optional<std::int64_t> count = values_.whole(property.count_type);
         if (!count || *count < 0) refuse_value("face", face, "number of corners");
@@ -180,33 +170,25 @@ class PlyBody {
         return static_cast<std::uint32_t>(corner);
     }
 
-    // Polygons are split where their points lie, so a face that comes before them has to wait.
-    void take_face(std::int32_t cap) {
-        if (has_points()) {
-            add_face(scan_, corners_);
-            if (has_cap_) scan_.mesh.cap_of.resize(scan_.mesh.triangles.size(), cap);
-            return;
-        }
-        early_.corners.insert(early_.corners.end(), corners_.begin(), corners_.end());
-        early_.end.push_back(early_.corners.size());
-        early_.cap.push_back(cap);
+    // The face in corners_: now, or when its points are read.
+    void add_or_keep_face(std::int32_t cap) {
+        if (scan_.mesh.points.size() != point_count_) return early_.keep(corners_, cap);
+        add_face(scan_, corners_);
+        if (has_cap_) scan_.mesh.cap_of.resize(scan_.mesh.triangles.size(), cap);
     }
 
-    bool has_points() const { return scan_.mesh.points.size() == point_count_; }
-
     void add_early_faces() {
-        std::size_t begin = 0;
         for (std::size_t f = 0; f < early_.end.size(); ++f) {
-            add_face(scan_, std::span(early_.corners).subspan(begin, early_.end[f] - begin));
-            if (has_cap_) scan_.mesh.cap_of.resize(scan_.mesh.triangles.size(), early_.cap[f]);
-            begin = early_.end[f];
+            add_face(scan_, early_.corners_of(f));
+            if (!has_cap_) continue;
+            scan_.mesh.cap_of.resize(scan_.mesh.triangles.size(), static_cast<std::int32_t>(early_.note[f]));
         }
         // strips have no caps
         if (has_cap_) scan_.mesh.cap_of.resize(scan_.mesh.triangles.size(), no_cap);
     }
 
     // Each corner makes a triangle with the two before it; -1 begins a new strip. Triangles with a repeated corner
-    // only lead from one strip to the next.
+    // only connect two strips and are left out.
     void read_strips(const PlyElement& element) {
         check_corner_list(element, "strip");
         for (std::uint64_t s = 0; s < element.count; ++s) {
@@ -214,7 +196,7 @@ class PlyBody {
                 if (is_corner_list(property)) {
                     read_strip(property, s);
                 } else {
-                    pass_property(property, "strip", s);
+                    skip_property(property, "strip", s);
                 }
             }
             values_.end_element();
@@ -234,20 +216,20 @@ class PlyBody {
             }
             t = {t[1], t[2], checked(corner, strip, "strip")};
             if (++length < 3 || t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
-            const bool is_turned = length % 2 == 0;
-            scan_.mesh.triangles.push_back(is_turned ? Triangle{t[1], t[0], t[2]} : t);
+            const bool is_reversed = length % 2 == 0;
+            scan_.mesh.triangles.push_back(is_reversed ? Triangle{t[1], t[0], t[2]} : t);
             ++scan_.faces_in_file;
         }
     }
 
-    void pass_element(const PlyElement& element) {
+    void skip_element(const PlyElement& element) {
         for (std::uint64_t i = 0; i < element.count; ++i) {
-            for (const PlyProperty& property : element.properties) pass_property(property, element.name, i);
+            for (const PlyProperty& property : element.properties) skip_property(property, element.name, i);
             values_.end_element();
         }
     }
 
-    void pass_property(const PlyProperty& property, const std::string& element, std::uint64_t index) {
+    void skip_property(const PlyProperty& property, const std::string& element, std::uint64_t index) {
         std::int64_t count = 1;
         if (property.is_list) {
             const std::optional<std::int64_t> listed = values_.whole(property.count_type);
@@ -255,7 +237,7 @@ class PlyBody {
             count = *listed;
         }
         for (std::int64_t i = 0; i < count; ++i) {
-            if (!values_.pass(property.type)) refuse_value(element, index, property.name);
+            if (!values_.skip(property.type)) refuse_value(element, index, property.name);
         }
     }
 
@@ -265,7 +247,7 @@ class PlyBody {
     }
 
     [[noreturn]] void refuse(const std::string& why) const {
-        throw InputError(InputFault::mesh, name_ + ": " + why, copy_again);
+        throw InputError(InputFault::mesh, name_ + ": " + why, "export or copy the file again");
     }
 
     const PlyHeader& header_;
@@ -275,7 +257,7 @@ class PlyBody {
     std::uint64_t point_count_ = 0;
     bool has_cap_ = false;
     std::vector<std::uint32_t> corners_;  // of the face that is being read
-    EarlyFaces early_;
+    EarlyFaces early_;                    // the note is the cap
 };
 
 }  // namespace
@@ -286,7 +268,7 @@ bool is_ply(const Bytes& bytes) {
 }
 
 RawMesh parse_ply(const Bytes& bytes, const std::string& name) {
-    const std::string_view file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::string_view file = as_text(bytes);
     const PlyHeader header = read_ply_header(file, name);
     if (std::optional<RawMesh> scan = read_plain_ply(header, file)) return std::move(*scan);
     switch (header.format) {

@@ -1,4 +1,5 @@
-// The PLY side of read_mesh: ASCII and both binary orders, with any further elements and properties.
+// Reads PLY, as ASCII and in both binary orders; unknown elements and properties are skipped. The PLY part of
+// read_mesh.h (tests/segment/io/read_mesh_test.cpp).
 
 #pragma once
 
@@ -9,10 +10,11 @@
 
 namespace qchopper {
 
-// Whether the first line is "ply".
+// Whether the first word is "ply".
 bool is_ply(const Bytes& bytes);
 
-// Throws InputError (mesh) for anything that is not such a file.
+// Expects is_ply(bytes); any other bytes are read soundly or refused. Throws InputError (mesh), with the line or byte,
+// for a file that is damaged or has no faces; `name` stands for the file.
 RawMesh parse_ply(const Bytes& bytes, const std::string& name);
 
 }  // namespace qchopper

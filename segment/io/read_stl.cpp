@@ -1,3 +1,6 @@
+// Binary files are read at fixed offsets, text word by word. Welding while reading: corners are found in a hash table,
+// whose slots are prefetched in batches. O(bytes) expected.
+
 #include "segment/io/read_stl.h"
 
 #include <algorithm>
@@ -28,15 +31,11 @@ double float_at(const Bytes& bytes, std::size_t at) {
     return std::bit_cast<float>(u32_at(bytes, at));
 }
 
-std::string_view as_text(const Bytes& bytes) {
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 bool is_finite(Vec3 p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-// Reads the text of one file; every fault is thrown with the line where it is.
+// Reads the text of one file; every fault is refused with its line.
 class AsciiStl {
  public:
     AsciiStl(std::string_view text, const std::string& name) : text_(text), name_(name) {}
@@ -46,7 +45,7 @@ class AsciiStl {
         scan.format = MeshFormat::stl_ascii;
         for (std::string_view word = text_.word(); !word.empty(); word = text_.word()) {
             if (!equals_ignoring_case(word, "solid")) refuse("solid", word);
-            text_.rest_of_line();  // a name, or nothing
+            text_.rest_of_line();  // the name of the solid
             read_solid(scan.mesh);
         }
         scan.faces_in_file = scan.mesh.triangles.size();
@@ -103,9 +102,9 @@ class AsciiStl {
     }
 
     [[noreturn]] void refuse(std::string_view wanted, std::string_view got) const {
-        const std::string found = got.empty() ? "the file ends" : "it says \"" + std::string(got.substr(0, 40)) + "\"";
+        const std::string found = got.empty() ? "the file ends" : "it has \"" + std::string(got.substr(0, 40)) + "\"";
         throw InputError(InputFault::mesh,
-                         name_ + ": line " + std::to_string(text_.line()) + " of the ASCII STL should go on with " +
+                         name_ + ": line " + std::to_string(text_.line()) + " of the ASCII STL should continue with " +
                              std::string(wanted) + ", but " + found,
                          "export or copy the file again");
     }
@@ -132,7 +131,7 @@ class BinaryStl {
         const std::size_t usual = count_ / 2 + 2;  // of a closed surface
         reserve_huge(points, usual + usual / 16);
         PointTable table(usual);
-        constexpr std::uint32_t batch = 16;  // triangles whose slots are asked for ahead of their use
+        constexpr std::uint32_t batch = 16;  // triangles whose slots are prefetched together
         std::array<Vec3, 3 * batch> corners;
         std::array<std::uint64_t, 3 * batch> hash{};
         for (std::uint32_t begin = 0; begin < count_; begin += batch) {
@@ -185,7 +184,7 @@ bool is_binary_stl(const Bytes& bytes) {
 bool is_ascii_stl(const Bytes& bytes) {
     Text text(as_text(bytes));
     if (!equals_ignoring_case(text.word(), "solid")) return false;
-    // a binary file holds a zero within its first triangles, a text never does
+    // a binary file has a zero byte within its first triangles, a text has none
     const std::string_view start = as_text(bytes).substr(0, 1024);
     return std::find(start.begin(), start.end(), '\0') == start.end();
 }

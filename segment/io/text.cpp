@@ -1,3 +1,5 @@
+// A pointer moves over the text; numbers are read by std::from_chars. O(characters), nothing is copied.
+
 #include "segment/io/text.h"
 
 #include <charconv>
@@ -13,8 +15,8 @@ bool is_space(char c) {
 }
 
 std::string_view without_plus(std::string_view word) {
-    const bool apex_plus = word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+';
-    return apex_plus ? word.substr(1) : word;
+    const bool has_one_sign = word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+';
+    return has_one_sign ? word.substr(1) : word;
 }
 
 }  // namespace
@@ -47,8 +49,8 @@ std::optional<double> number(std::string_view word) {
     const auto [stop, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (stop != word.data() + word.size() || word.empty()) return {};
     if (fault == std::errc::result_out_of_range) {
-        // from_chars leaves the value alone here; strtod tells too small from too large, and an exponent reads the
-        // same in every locale, so only the digits that do not matter any more could differ
+        // from_chars leaves the value unset here; strtod returns 0 or infinity. It reads a decimal point, because the
+        // program never changes the locale
         return std::strtod(std::string(word).c_str(), nullptr);
     }
     if (fault != std::errc()) return {};

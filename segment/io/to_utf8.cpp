@@ -1,3 +1,5 @@
+// One copy of the text. O(bytes).
+
 #include "segment/io/to_utf8.h"
 
 namespace qchopper {
@@ -16,7 +18,7 @@ std::optional<Bytes> to_utf8(const Bytes& bytes) {
         const std::uint8_t high = bytes[is_big ? i : i + 1];
         text.push_back(high == 0 && low < 128 ? low : '?');
     }
-    if (bytes.size() % 2 == 1) text.push_back('?');  // half a character: the file was cut
+    if (bytes.size() % 2 == 1) text.push_back('?');  // half a character: the file was cut short
     return text;
 }
 

@@ -1,7 +1,7 @@
-// Takes the mark from the start of a text, and makes bytes of UTF-16.
+// Removes the byte order mark of a text and converts UTF-16 to bytes.
 //
-// Some programs on Windows save OBJ and PLY as UTF-16. What such a file says about a mesh is ASCII; other characters
-// stand in names and comments only and become question marks (tests/segment/io/unpack_test.cpp).
+// Some programs on Windows save OBJ and PLY as UTF-16. All that describes a mesh is ASCII; other characters occur in
+// names and comments only and become question marks (tests/segment/io/unpack_test.cpp).
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace qchopper {
 
-// Nothing where the bytes begin with no byte order mark: then they are right as they are.
+// Nothing if the bytes begin with no byte order mark: they need no conversion.
 std::optional<Bytes> to_utf8(const Bytes& bytes);
 
 }  // namespace qchopper

@@ -1,3 +1,6 @@
+// The model is written block by block into the ZIP, which reads it twice. O(points + triangles); memory for
+// one block and the packed file.
+
 #include "segment/io/write_3mf.h"
 
 #include <algorithm>
@@ -19,7 +22,7 @@ constexpr const char* relationships =
 <Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>
 )";
 
-// XML 1.0 has no place for control characters, however they are written.
+// XML 1.0 allows no control characters, not even as references: they become spaces.
 std::string escaped(const std::string& text) {
     std::string out;
     for (const char c : text) {
@@ -45,16 +48,11 @@ void put(std::string& out, Number value) {
     out.append(digits, end);
 }
 
-// The shortest digits that give the same double again; no "-0".
-void put_attribute(std::string& out, const char* name, double value) {
+// Doubles with the shortest digits that give the same double again; + 0 turns a negative zero into a positive one.
+template <class Number>
+void put_attribute(std::string& out, const char* name, Number value) {
     out += name;
-    put(out, value + 0.0);
-    out += '"';
-}
-
-void put_attribute(std::string& out, const char* name, std::uint32_t value) {
-    out += name;
-    put(out, value);
+    put(out, value + Number{0});
     out += '"';
 }
 
@@ -80,7 +78,7 @@ void put_triangles(std::string& out, const TriangleMesh& mesh, std::size_t from,
     }
 }
 
-// 3MF multiplies rows by the matrix: it stands turned over, the shift in the last row.
+// 3MF multiplies row vectors by the matrix: it is the transpose, with the shift in the last row.
 void put_item(std::string& out, std::size_t id, const Pose& pose) {
     out += "<item objectid=\"";
     put(out, id);
@@ -101,25 +99,25 @@ void put_item(std::string& out, std::size_t id, const Pose& pose) {
     out += "/>\n";
 }
 
-// The model as text, stretch by stretch: head, then points and triangles of one object after the other, then the end.
+// The model as text, block by block: head, then points and triangles of one object after the other, then the end.
 class Model {
  public:
     Model(std::span<const Solid3mf> solids, const Metadata3mf& metadata) : solids_(solids), metadata_(metadata) {}
 
     void next(std::string& out) {
         if (!has_begun_) {
-            begin(out);
+            put_head(out);
         } else if (solid_ < solids_.size()) {
-            go_on(out, *solids_[solid_].mesh);
+            put_block(out, *solids_[solid_].mesh);
         } else if (!has_ended_) {
-            end(out);
+            put_end(out);
         }
     }
 
  private:
-    static constexpr std::size_t block = 4096;
+    static constexpr std::size_t block = 4096;  // points or triangles
 
-    void begin(std::string& out) {
+    void put_head(std::string& out) {
         has_begun_ = true;
         out +=
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en-US\" "
@@ -130,8 +128,8 @@ class Model {
         out += "<resources>\n";
     }
 
-    // In a mesh, `at_` runs through the points and then through the triangles.
-    void go_on(std::string& out, const TriangleMesh& mesh) {
+    // In a mesh, `at_` counts the points and then the triangles.
+    void put_block(std::string& out, const TriangleMesh& mesh) {
         const std::size_t points = mesh.points.size();
         const std::size_t all = points + mesh.triangles.size();
         if (at_ == 0) {
@@ -155,7 +153,7 @@ class Model {
         }
     }
 
-    void end(std::string& out) {
+    void put_end(std::string& out) {
         has_ended_ = true;
         out += "</resources>\n<build>\n";
         for (std::size_t i = 0; i < solids_.size(); ++i) put_item(out, i + 1, solids_[i].pose);

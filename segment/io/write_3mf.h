@@ -1,7 +1,7 @@
 // Writes solids as one 3MF file (core specification 1.2): one object each, in millimetres.
 //
-// Points are written so that reading them gives the same doubles. Same solids, same bytes; the text goes into the
-// package in stretches and never lies in memory whole (tests/segment/io/write_3mf_test.cpp).
+// Points are written with all digits, so that reading gives the same doubles. The same solids give the same bytes, by
+// the same version of zlib. The text of the model is never in memory whole (tests/segment/io/write_3mf_test.cpp).
 
 #pragma once
 
@@ -18,11 +18,11 @@ namespace qchopper {
 
 struct Solid3mf {
     std::string name;                    // of the object
-    const TriangleMesh* mesh = nullptr;  // stays the caller's
+    const TriangleMesh* mesh = nullptr;  // not null; owned by the caller
     Pose pose;                           // of the build item: from the mesh to where it is to be made
 };
 
-// What a slicer shows: "Title", "Application", ... Names are those of the specification or hold a namespace.
+// Shown by slicers: "Title", "Application", ... Names are those of the specification or have a namespace.
 using Metadata3mf = std::vector<std::pair<std::string, std::string>>;
 
 Bytes to_3mf(std::span<const Solid3mf> solids, const Metadata3mf& metadata);

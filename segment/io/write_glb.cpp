@@ -1,3 +1,5 @@
+// Builds the scene as a tinygltf model, which writes it. O(points + triangles); memory for some copies of the file.
+
 #include "segment/io/write_glb.h"
 
 #include <tiny_gltf.h>
@@ -21,7 +23,8 @@ int add_view(tinygltf::Model& model, const std::vector<Number>& numbers, int tar
     view.byteLength = numbers.size() * sizeof(Number);
     view.target = target;
     data.resize(data.size() + view.byteLength);
-    std::memcpy(data.data() + view.byteOffset, numbers.data(), view.byteLength);  // glTF is little-endian, as we are
+    std::memcpy(data.data() + view.byteOffset, numbers.data(),
+                view.byteLength);  // glTF is little-endian, as the host must be
     model.bufferViews.push_back(view);
     return static_cast<int>(model.bufferViews.size()) - 1;
 }
@@ -48,7 +51,7 @@ int add_positions(tinygltf::Model& model, const TriangleMesh& mesh) {
     return static_cast<int>(model.accessors.size()) - 1;
 }
 
-// The triangles that are caps, or those that are not.
+// Adds the triangles that are caps, or those that are not.
 void add_primitive(tinygltf::Model& model, tinygltf::Mesh& to, const TriangleMesh& mesh, bool caps, int positions,
                    int material) {
     std::vector<std::uint32_t> corners;
@@ -71,8 +74,8 @@ void add_primitive(tinygltf::Model& model, tinygltf::Mesh& to, const TriangleMes
     to.primitives.push_back(primitive);
 }
 
-// Numbers of the materials; those of the first node serve all that look the same.
-int add_matt(tinygltf::Model& model, const std::string& name, std::array<double, 3> colour) {
+// Returns the index of the material; equal materials are added once.
+int add_material(tinygltf::Model& model, const std::string& name, std::array<double, 3> colour) {
     tinygltf::Material material;
     material.name = name;
     material.pbrMetallicRoughness.baseColorFactor = {colour[0], colour[1], colour[2], 1.0};
@@ -96,8 +99,8 @@ tinygltf::Value extras(const std::vector<GlbNote>& notes) {
 void add_node(tinygltf::Model& model, const GlbNode& from) {
     tinygltf::Mesh mesh;
     mesh.name = from.name;
-    const int surface = add_matt(model, "surface", from.surface);
-    const int cap = add_matt(model, "cap", from.cap);
+    const int surface = add_material(model, "surface", from.surface);
+    const int cap = add_material(model, "cap", from.cap);
     const int positions = add_positions(model, *from.mesh);
     add_primitive(model, mesh, *from.mesh, false, positions, surface);
     add_primitive(model, mesh, *from.mesh, true, positions, cap);
@@ -129,7 +132,7 @@ void check_size(const GlbScene& scene) {
     for (const GlbNode& node : scene.nodes) {
         bytes += 12.0 * static_cast<double>(node.mesh->points.size() + node.mesh->triangles.size());
     }
-    constexpr double most = 4.2e9;  // a chunk tells its length in 32 bits, and the JSON wants some room
+    constexpr double most = 4.2e9;  // the length of the file has 32 bits; the rest is left to the JSON
     if (bytes > most) {
         throw InputError(InputFault::use, "the pieces are too large for one GLB file, which ends at 4 GiB",
                          "export them one by one with --piece, or simplify them");

@@ -1,8 +1,8 @@
-// Writes meshes as GLB (glTF 2.0, binary), for any viewer: one node each, under a root that makes metres of mm.
+// Writes meshes as GLB (glTF 2.0, binary) for any viewer: one node each, under a root node that converts mm to metres.
 //
-// glTF wants metres and Y up: the root node turns and scales, the numbers inside stay millimetres with Z up, in single
-// precision about the node's own origin. Caps are a second primitive with a colour of their own. Same scene, same bytes
-// (tests/segment/io/write_glb_test.cpp).
+// glTF has metres and Y up: the root node rotates and scales; the numbers are millimetres with Z up, in single
+// precision about the origin of the node. Caps are a second primitive with a material of their own. The same scene
+// gives the same bytes (tests/segment/io/write_glb_test.cpp).
 
 #pragma once
 
@@ -22,8 +22,8 @@ using GlbNote = std::pair<std::string, std::variant<bool, int, double, std::stri
 
 struct GlbNode {
     std::string name;                                 // "piece/B"
-    const TriangleMesh* mesh = nullptr;               // in the coordinates of the node; stays the caller's
-    Vec3 origin;                                      // of the node
+    const TriangleMesh* mesh = nullptr;               // not null, about the origin of the node; owned by the caller
+    Vec3 origin;                                      // of the node, mm
     std::array<double, 3> surface{0.80, 0.72, 0.56};  // linear red, green, blue
     std::array<double, 3> cap{0.90, 0.85, 0.74};
     std::vector<GlbNote> notes;  // extras: {"qchopper": {...}}

@@ -1,3 +1,5 @@
+// Values are appended in the order of the header. O(points + triangles); the file is made in memory.
+
 #include "segment/io/write_ply.h"
 
 #include <bit>

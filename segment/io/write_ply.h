@@ -1,7 +1,7 @@
-// Writes a mesh as binary little-endian PLY with double coordinates.
+// Writes a mesh as binary little-endian PLY with double coordinates, in millimetres.
 //
-// A mesh with caps carries an int face property `cap` (TriangleMesh::cap_of). Reading it back gives the same bits
-// (tests/segment/io/write_mesh_test.cpp).
+// TriangleMesh::cap_of becomes the int face property `cap`, which a mesh without caps does not have. Reading the file
+// gives the same bits (tests/segment/io/write_mesh_test.cpp).
 
 #pragma once
 
@@ -10,6 +10,7 @@
 
 namespace qchopper {
 
+// Precondition: is_consistent(mesh).
 Bytes to_ply(const TriangleMesh& mesh);
 
 }  // namespace qchopper

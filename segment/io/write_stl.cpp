@@ -1,3 +1,5 @@
+// Triangles are written at fixed offsets. O(triangles); the file is made in memory.
+
 #include "segment/io/write_stl.h"
 
 #include <algorithm>
@@ -14,7 +16,7 @@ void put_u32(std::uint8_t* at, std::uint32_t value) {
 
 void put_vector(std::uint8_t* at, Vec3 v) {
     for (int axis = 0; axis < 3; ++axis) {
-        // + 0.0f: a negative zero would make equal meshes differ in their bytes
+        // + 0.0F turns a negative zero into a positive one: equal meshes have equal bytes
         put_u32(at + 4 * axis, std::bit_cast<std::uint32_t>(static_cast<float>(v[axis]) + 0.0F));
     }
 }

@@ -1,6 +1,6 @@
-// Writes a mesh as binary STL: single precision, one normal and three points per triangle.
+// Writes a mesh as binary STL: single precision, one normal and three points per triangle, in millimetres.
 //
-// Coordinates are rounded to float, so shift a mesh near the origin first. The header never begins with "solid"
+// Coordinates are rounded to float: the mesh should lie near the origin. The header does not begin with "solid"
 // (tests/segment/io/write_mesh_test.cpp).
 
 #pragma once
@@ -10,6 +10,7 @@
 
 namespace qchopper {
 
+// Preconditions: is_consistent(mesh), fewer than 2^32 triangles.
 Bytes to_stl(const TriangleMesh& mesh);
 
 }  // namespace qchopper

@@ -1,3 +1,8 @@
+// Ray casting along the axes: crossings are counted with their orientation (is_inside), or with their parity per shell
+// (shells_around). interior_point takes the middle of the longest segment inside along the lines of a grid, and then of
+// the segments along the axes through it. shells_around follows one ray per shell upwards, and passes over blocks of
+// triangles whose box is above none of them; O(triangles * rays) at worst.
+
 #include "segment/mesh/containment.h"
 
 #include <algorithm>
@@ -11,35 +16,37 @@
 namespace qchopper {
 namespace {
 
-// Where a line along an axis meets the surface: +1 where it comes in, -1 where it goes out.
+// Where a line along an axis crosses the surface.
 struct Crossing {
     double at = 0;
-    int turn = 0;
+    int depth_change = 0;  // 1 where the line enters the solid, -1 where it leaves it
 };
 
-// The stretch of a line between two crossings, inside the solid.
-struct Stretch {
+// The part of a line between two crossings, inside the solid.
+struct Segment {
     double low = 0;
     double high = 0;
     double length() const { return high - low; }
     double middle() const { return low + (high - low) / 2; }
 };
 
-// Lines along the axis w of space; u and v are the axes across them.
+// Lines along the coordinate axis w; u and v are the other axes.
 struct AxisLines {
     int w;
     int u = (w + 1) % 3;
     int v = (w + 2) % 3;
 
-    // Negative across, so that a line through the lower border of a face crosses it and one through the upper does not.
-    LineCoordinates seen(Vec3 p) const { return {-p[v], -p[u], p[w]}; }
+    // Negated across, so that a line through the lower border of a face crosses it and one through the upper does not.
+    LineCoordinates coordinates(Vec3 p) const { return {-p[v], -p[u], p[w]}; }
 
     bool is_crossed(const std::array<Vec3, 3>& corner, Vec3 through) const {
-        const LineCoordinates line = seen(through);
-        return line_crossing({seen(corner[0]), seen(corner[1]), seen(corner[2])}, line.height, line.side).has_value();
+        const LineCoordinates line = coordinates(through);
+        return line_crossing({coordinates(corner[0]), coordinates(corner[1]), coordinates(corner[2])}, line.height,
+                             line.side)
+            .has_value();
     }
 
-    // The position is taken from the triangle's plane. Nothing if that is seen edge-on: the line runs in it.
+    // The position is that in the triangle's plane. Nothing if the plane is parallel to the line.
     std::optional<Crossing> crossing(const std::array<Vec3, 3>& corner, Vec3 through) const {
         if (!is_crossed(corner, through)) return std::nullopt;
         const auto& [a, b, c] = corner;
@@ -50,26 +57,27 @@ struct AxisLines {
     }
 };
 
-std::vector<Stretch> stretches(std::vector<Crossing> crossings) {
+std::vector<Segment> segments(std::vector<Crossing> crossings) {
     std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) { return a.at < b.at; });
-    std::vector<Stretch> inside;
+    std::vector<Segment> inside;
     int depth = 0;
     for (std::size_t i = 0; i + 1 < crossings.size(); ++i) {
-        depth += crossings[i].turn;
+        depth += crossings[i].depth_change;
         if (depth > 0) inside.push_back({crossings[i].at, crossings[i + 1].at});
     }
     return inside;
 }
 
-std::vector<Stretch> along(const TriangleMesh& mesh, int axis, Vec3 through) {
+// The segments inside the solid of the line along an axis through a point, in their order.
+std::vector<Segment> segments_along(const TriangleMesh& mesh, int axis, Vec3 through) {
     std::vector<Crossing> crossings;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         if (const auto c = AxisLines{axis}.crossing(corners_of(mesh, t), through)) crossings.push_back(*c);
     }
-    return stretches(std::move(crossings));
+    return segments(std::move(crossings));
 }
 
-// The middle of the longest stretch of a grid of lines along z. The lines stand off the usual round coordinates.
+// The middle of the longest segment inside on a grid of lines along z. The offset keeps lines off round coordinates.
 std::optional<Vec3> longest_middle(const TriangleMesh& mesh, int lines) {
     const Box box = bounds(mesh);
     const auto place = [&](int axis, double i) {
@@ -98,7 +106,7 @@ std::optional<Vec3> longest_middle(const TriangleMesh& mesh, int lines) {
     double longest = 0;
     for (int i = 0; i < lines; ++i) {
         for (int j = 0; j < lines; ++j) {
-            for (const Stretch& s : stretches(std::move(crossings[line_at(i, j)]))) {
+            for (const Segment& s : segments(std::move(crossings[line_at(i, j)]))) {
                 if (s.length() <= longest) continue;
                 longest = s.length();
                 best = Vec3{place(0, i), place(1, j), s.middle()};
@@ -108,20 +116,20 @@ std::optional<Vec3> longest_middle(const TriangleMesh& mesh, int lines) {
     return best;
 }
 
-// Where the ray of one shell starts; all rays go up along z.
+// Where the ray of one shell starts; all rays run upwards along z.
 struct Start {
     Vec3 point;
     std::uint32_t shell = 0;
 };
 
-// The middle of the largest triangle of each shell that is asked about: never a point where two shells touch. Sorted by
+// The middle of the largest triangle of each selected shell: not a vertex or an edge, where shells may touch. Sorted by
 // x.
-std::vector<Start> ray_starts(const TriangleMesh& mesh, const Shells& shells, const std::vector<bool>& asked) {
+std::vector<Start> ray_starts(const TriangleMesh& mesh, const Shells& shells, const std::vector<bool>& is_selected) {
     std::vector<double> largest(shells.count(), -1);
     std::vector<Start> starts(shells.count());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const std::uint32_t shell = shells.shell_of[t];
-        if (!asked.empty() && !asked[shell]) continue;
+        if (!is_selected.empty() && !is_selected[shell]) continue;
         const double area = norm(area_vector(mesh, t));
         if (!(area > largest[shell])) continue;
         largest[shell] = area;
@@ -154,7 +162,7 @@ bool is_left_of(const Start& start, double x) {
     return start.point.x < x;
 }
 
-// Those that a triangle in this box may lie above, into `below`.
+// Writes into `below` the starts that may lie below a triangle in this box.
 void find_below(const std::vector<Start>& starts, const Box& box, std::vector<Start>& below) {
     below.clear();
     auto start = std::lower_bound(starts.begin(), starts.end(), box.min.x, is_left_of);
@@ -164,11 +172,11 @@ void find_below(const std::vector<Start>& starts, const Box& box, std::vector<St
     }
 }
 
-// Per shell, those that its ray meets an odd number of times.
+// One list per shell: the shells that its ray meets an odd number of times, ascending.
 std::vector<std::vector<std::uint32_t>> met_by_rays(const TriangleMesh& mesh, const Shells& shells,
                                                     const std::vector<Start>& starts) {
     std::vector<std::vector<std::uint32_t>> met(shells.count());
-    std::vector<Start> below;  // of the block in hand
+    std::vector<Start> below;  // the current block
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         if (t % triangles_per_block == 0) {
             find_below(starts, shells.block[t / triangles_per_block], below);
@@ -194,7 +202,7 @@ bool is_inside(const TriangleMesh& mesh, Vec3 point) {
     int depth = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto c = AxisLines{2}.crossing(corners_of(mesh, t), point);
-        if (c && c->at < point.z) depth += c->turn;
+        if (c && c->at < point.z) depth += c->depth_change;
     }
     return depth > 0;
 }
@@ -204,8 +212,8 @@ std::optional<Vec3> interior_point(const TriangleMesh& mesh) {
     std::optional<Vec3> point;
     for (int lines = 16; !point && lines <= 256; lines *= 4) point = longest_middle(mesh, lines);
     if (!point) return point;
-    for (const int axis : {0, 1, 2, 0, 1, 2}) {  // to the middle of the stretch it lies in, axis by axis
-        for (const Stretch& s : along(mesh, axis, *point)) {
+    for (const int axis : {0, 1, 2, 0, 1, 2}) {  // to the middle of the segment that it lies in, axis by axis
+        for (const Segment& s : segments_along(mesh, axis, *point)) {
             if ((*point)[axis] < s.low || (*point)[axis] > s.high) continue;
             (*point)[axis] = s.middle();
             break;
@@ -214,10 +222,11 @@ std::optional<Vec3> interior_point(const TriangleMesh& mesh) {
     return point;
 }
 
-IndexLists shells_around(const TriangleMesh& mesh, const Shells& shells, const std::vector<bool>& asked) {
-    assert(shells.shell_of.size() == mesh.triangles.size() && (asked.empty() || asked.size() == shells.count()));
+IndexLists shells_around(const TriangleMesh& mesh, const Shells& shells, const std::vector<bool>& is_selected) {
+    assert(shells.shell_of.size() == mesh.triangles.size() &&
+           (is_selected.empty() || is_selected.size() == shells.count()));
     std::vector<Start> starts;
-    if (shells.count() > 1) starts = ray_starts(mesh, shells, asked);
+    if (shells.count() > 1) starts = ray_starts(mesh, shells, is_selected);
     IndexLists around;
     for (const std::vector<std::uint32_t>& met : met_by_rays(mesh, shells, starts)) {
         around.values.insert(around.values.end(), met.begin(), met.end());

@@ -1,8 +1,8 @@
-// What lies inside what: points in solids, shells in shells.
+// Decides which points lie inside a solid and which shells inside others.
 //
-// mm. Straight lines along an axis are followed through the mesh; line_crossing.h decides which triangles they cross,
-// so a line never slips through an edge and never counts twice (tests/segment/mesh/containment_test.cpp). The mesh must
-// be closed. One pass over the triangles each, interior_point a few more.
+// mm. Precondition of all: the mesh is closed (edges.h); is_inside and interior_point need triangles that face outwards
+// as well. A line through an edge or a vertex is counted once (line_crossing.h,
+// tests/segment/mesh/containment_test.cpp).
 
 #pragma once
 
@@ -14,16 +14,17 @@
 
 namespace qchopper {
 
-// Triangles must face outwards. Of a point on the surface either may be said.
+// Whether the point lies inside the solid. For a point on the surface either may be returned. O(triangles).
 bool is_inside(const TriangleMesh& mesh, Vec3 point);
 
-// A point far from the surface, so that it is in the same solid also when that is scanned or meshed anew. Nothing only
-// if the mesh has no inside. Triangles must face outwards.
+// A point inside, far from the surface, so that it lies in the same solid also when that is scanned or meshed anew.
+// Nothing if none is found: the mesh has no volume, or is thinner than a grid of 256 x 256 lines. O(triangles) for each
+// of up to nine passes.
 std::optional<Vec3> interior_point(const TriangleMesh& mesh);
 
-// Per shell, the shells around it in ascending order. With `asked` only for the shells that are marked in it; the
-// others have none. Orientation does not matter: a shell is inside another one when a ray from it meets that an odd
-// number of times.
-IndexLists shells_around(const TriangleMesh& mesh, const Shells& shells, const std::vector<bool>& asked = {});
+// One list per shell: the shells around it, ascending. `shells` are those of the mesh. `is_selected` has one flag per
+// shell, or is empty: then all are selected; the lists of the others are empty. Orientation does not matter: a shell is
+// inside another one when a ray from it meets that an odd number of times. Two passes over the triangles.
+IndexLists shells_around(const TriangleMesh& mesh, const Shells& shells, const std::vector<bool>& is_selected = {});
 
 }  // namespace qchopper

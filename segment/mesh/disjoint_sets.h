@@ -1,6 +1,9 @@
-// Disjoint sets of numbers (Galler and Fischer 1964; path halving after Tarjan and van Leeuwen 1984).
+// Disjoint sets of numbers from 0.
 //
-// The root of a set is its smallest member, so results do not depend on the order in which sets were united.
+// The root of a set is its smallest member, so results do not depend on the order in which sets were united; a parent
+// is never larger than its child. Amortised O(log n) per operation. Trees after B. Galler and M. Fischer, "An improved
+// equivalence algorithm" (1964); path halving after R. Tarjan and J. van Leeuwen, "Worst-case analysis of set union
+// algorithms" (1984).
 
 #pragma once
 
@@ -18,11 +21,13 @@ struct DisjointSets {
 
     explicit DisjointSets(std::size_t size = 0) : parent(size) { std::iota(parent.begin(), parent.end(), 0U); }
 
+    // Adds a set of one member, and returns that.
     std::uint32_t add() {
         parent.push_back(static_cast<std::uint32_t>(parent.size()));
         return parent.back();
     }
 
+    // The smallest member of the set of a.
     std::uint32_t root(std::uint32_t a) {
         assert(a < parent.size());
         while (parent[a] != a) a = parent[a] = parent[parent[a]];

@@ -1,6 +1,7 @@
-// Branch and bound over the changed triangles, after M. Guthe, P. Borodin and R. Klein, "Fast and accurate Hausdorff
-// distance calculation between meshes" (2005): a triangle whose bound stays below what is found is dropped, the others
-// are split in four.
+// Branch and bound over the triangles, after M. Guthe, P. Borodin and R. Klein, "Fast and accurate Hausdorff distance
+// calculation between meshes" (2005): a triangle whose bound stays below the distance found is dropped, the others are
+// split in four. farthest_sample samples faces, as P. Cignoni, C. Rocchini and R. Scopigno do in "Metro: measuring
+// error on simplified surfaces" (1998). O(log triangles) per point on average; a triangle tree of `to` in memory.
 
 #include "segment/mesh/distance.h"
 
@@ -20,19 +21,20 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 constexpr std::size_t chunk = 1U << 17;
 
-using Places = std::array<Vec3, 3>;
+using TriangleCorners = std::array<Vec3, 3>;
 
-// A triangle, or a part of one, with what is known of it.
-struct Part {
-    Places corner;
+// A triangle, or a part of one, with the bounds of its distance.
+struct TrianglePart {
+    TriangleCorners corner;
     double found = 0;    // largest distance at a corner
     double at_most = 0;  // anywhere in it
-    Vec3 at;
+    Vec3 at{};           // the corner with the largest distance
 };
 
-// Distances are convex above one triangle of the other surface: where one is nearest to all corners, no inner point is
-// farther than a corner. Else no point is farther than a corner's distance plus the way from that corner.
-void look_at(Part& part, const TriangleTree& tree, const TriangleMesh& to) {
+// The distance to one triangle of the other surface is convex: where that triangle is nearest to all corners, no inner
+// point is farther than a corner. Otherwise no point is farther than a corner's distance plus its distance from that
+// corner.
+void compute_bounds(TrianglePart& part, const TriangleTree& tree, const TriangleMesh& to) {
     std::array<TriangleTree::Nearest, 3> nearest;
     part.found = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -42,50 +44,41 @@ void look_at(Part& part, const TriangleTree& tree, const TriangleMesh& to) {
             part.at = part.corner[k];
         }
     }
-    double by_way = 0;  // every inner point is nearest to some corner, at most 0.58 of the longest edge away
+    double longest_edge = 0;  // every inner point is nearest to some corner, at most 0.58 of the longest edge away
     double by_plane = infinite;
     for (std::size_t k = 0; k < 3; ++k) {
-        by_way = std::max(by_way, norm(part.corner[(k + 1) % 3] - part.corner[k]));
-        const Places target = corners_of(to, nearest[k].triangle);
+        longest_edge = std::max(longest_edge, norm(part.corner[(k + 1) % 3] - part.corner[k]));
+        const TriangleCorners target = corners_of(to, nearest[k].triangle);
         double above = 0;
         for (const Vec3& corner : part.corner) {
             above = std::max(above, norm(corner - closest_on_triangle(corner, target)));
         }
         by_plane = std::min(by_plane, above);
     }
-    // In a right or blunt triangle the farthest point from all corners lies on the longest edge: half of it. In an
-    // acute one it is the circumcentre, at most the longest edge over the root of three.
-    part.at_most = std::max(part.found, std::min(part.found + 0.578 * by_way, by_plane));
+    // In a right or obtuse triangle the point farthest from all corners lies on the longest edge, at half of it. In an
+    // acute one it is the circumcentre, at most the longest edge divided by the root of three away.
+    part.at_most = std::max(part.found, std::min(part.found + 0.578 * longest_edge, by_plane));
 }
 
-std::array<Part, 4> split(const Part& part) {
+std::array<TrianglePart, 4> split(const TrianglePart& part) {
     const auto& [a, b, c] = part.corner;
     const Vec3 ab = 0.5 * (a + b);
     const Vec3 bc = 0.5 * (b + c);
     const Vec3 ca = 0.5 * (c + a);
-    const auto made = [](Vec3 p, Vec3 q, Vec3 r) {
-        Part smaller;
-        smaller.corner = {p, q, r};
-        return smaller;
-    };
-    return {made(a, ab, ca), made(ab, b, bc), made(ca, bc, c), made(ab, bc, ca)};
+    return {TrianglePart{{a, ab, ca}}, TrianglePart{{ab, b, bc}}, TrianglePart{{ca, bc, c}},
+            TrianglePart{{ab, bc, ca}}};
 }
 
-// Whether the bounds are near enough that a part need not be split.
-bool is_settled(double at_most, double found, const DistanceOptions& options) {
-    return at_most <= found + std::max(options.tolerance * found, options.tolerance_mm);
-}
-
-// The corners of a triangle in an order that does not depend on how it is turned or where it begins.
-Places sorted_corners(const TriangleMesh& mesh, std::size_t t) {
-    Places corners = corners_of(mesh, t);
+// The corners of a triangle by their coordinates, whatever its orientation and first corner.
+TriangleCorners sorted_corners(const TriangleMesh& mesh, std::size_t t) {
+    TriangleCorners corners = corners_of(mesh, t);
     std::sort(corners.begin(), corners.end(), [](const Vec3& a, const Vec3& b) {
         return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
     });
     return corners;
 }
 
-std::uint64_t hash_of(const Places& corners) {
+std::uint64_t hash_of(const TriangleCorners& corners) {
     std::uint64_t h = 0;
     for (const Vec3& p : corners) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -97,24 +90,24 @@ std::uint64_t hash_of(const Places& corners) {
 }
 
 // Triangles by the hash of their corners, so that equal ones of two meshes are found.
-using Hashed = std::vector<std::pair<std::uint64_t, std::uint32_t>>;
+using TriangleHashes = std::vector<std::pair<std::uint64_t, std::uint32_t>>;
 
-Hashed hashed(const TriangleMesh& mesh) {
-    Hashed all(mesh.triangles.size());
+TriangleHashes triangle_hashes(const TriangleMesh& mesh) {
+    TriangleHashes all(mesh.triangles.size());
     for (std::uint32_t t = 0; t < all.size(); ++t) all[t] = {hash_of(sorted_corners(mesh, t)), t};
     std::sort(all.begin(), all.end());
     return all;
 }
 
 // The triangles of `mesh` that `other` does not have; ascending.
-std::vector<std::uint32_t> missing_in(const TriangleMesh& mesh, const Hashed& ours, const TriangleMesh& other,
-                                      const Hashed& theirs) {
+std::vector<std::uint32_t> missing_in(const TriangleMesh& mesh, const TriangleHashes& hashes, const TriangleMesh& other,
+                                      const TriangleHashes& other_hashes) {
     std::vector<std::uint32_t> missing;
-    auto begin = theirs.begin();
-    for (const auto& [hash, t] : ours) {
-        while (begin != theirs.end() && begin->first < hash) ++begin;
+    auto begin = other_hashes.begin();
+    for (const auto& [hash, t] : hashes) {
+        while (begin != other_hashes.end() && begin->first < hash) ++begin;
         bool is_there = false;
-        for (auto it = begin; !is_there && it != theirs.end() && it->first == hash; ++it) {
+        for (auto it = begin; !is_there && it != other_hashes.end() && it->first == hash; ++it) {
             is_there = sorted_corners(mesh, t) == sorted_corners(other, it->second);
         }
         if (!is_there) missing.push_back(t);
@@ -123,21 +116,22 @@ std::vector<std::uint32_t> missing_in(const TriangleMesh& mesh, const Hashed& ou
     return missing;
 }
 
-// Where the search stands: the largest distance found, and a bound on what was not looked into.
-void settle(Farthest& result, std::vector<Part>& open, const DistanceOptions& options) {
-    for (const Part& part : open) {
+// Updates the largest distance found, and drops the parts that need not be split; at_most then bounds those.
+void settle(Farthest& result, std::vector<TrianglePart>& open, const DistanceOptions& options) {
+    for (const TrianglePart& part : open) {
         if (part.found <= result.mm) continue;
         result.mm = part.found;
         result.at = part.at;
     }
-    std::erase_if(open, [&](const Part& part) {
-        const bool is_done = is_settled(part.at_most, result.mm, options);
-        if (is_done) result.at_most = std::max(result.at_most, part.at_most);
-        return is_done;
+    const double enough = result.mm + std::max(options.tolerance * result.mm, options.tolerance_mm);
+    std::erase_if(open, [&](const TrianglePart& part) {
+        const bool is_settled = part.at_most <= enough;
+        if (is_settled) result.at_most = std::max(result.at_most, part.at_most);
+        return is_settled;
     });
 }
 
-double longest_side(const Places& p) {
+double longest_side(const TriangleCorners& p) {
     return std::max({norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])});
 }
 
@@ -147,13 +141,13 @@ double mean_longest_side(const TriangleMesh& mesh) {
     return sum / static_cast<double>(mesh.triangles.size());
 }
 
-// Only the largest distance counts: a sample that is closer than that to a triangle which was nearest to one of the
-// last samples need not be asked for. Nearly none is.
+// The largest distance of the samples added. A sample that is closer than that to a triangle which was nearest to one
+// of the last samples cannot change it: nearly all of them, and they are not searched for in the tree.
 class LargestDistance {
  public:
     explicit LargestDistance(const TriangleMesh& to) : to_(to), tree_(to) {}
 
-    void look_at(Vec3 p) {
+    void add(Vec3 p) {
         for (std::size_t i = 0; i < nearest_.size(); ++i) {
             const Vec3 away = closest_on_triangle(p, corners_of(to_, nearest_[i])) - p;
             if (dot(away, away) > mm_ * mm_) continue;
@@ -175,15 +169,15 @@ class LargestDistance {
     double mm_ = 0;
 };
 
-// A grid of n steps along each side, and the middles of its upright cells.
-void look_at_face(LargestDistance& largest, const Places& p, int n) {
+// Adds a grid of n steps along each side, and the middles of its upright cells.
+void add_samples(LargestDistance& largest, const TriangleCorners& p, int n) {
     const Vec3 u = (1.0 / n) * (p[1] - p[0]);
     const Vec3 v = (1.0 / n) * (p[2] - p[0]);
     for (int i = 0; i <= n; ++i) {
         for (int k = 0; i + k <= n; ++k) {
             const Vec3 corner = p[0] + static_cast<double>(i) * u + static_cast<double>(k) * v;
-            largest.look_at(corner);
-            if (i + k < n) largest.look_at(corner + (1.0 / 3) * (u + v));
+            largest.add(corner);
+            if (i + k < n) largest.add(corner + (1.0 / 3) * (u + v));
         }
     }
 }
@@ -200,32 +194,32 @@ Farthest farthest(const TriangleMesh& from, std::span<const std::uint32_t> trian
         return result;
     }
     const TriangleTree tree(to);
-    const auto look_at_all = [&](std::vector<Part>& parts) {
+    const auto compute_all = [&](std::vector<TrianglePart>& parts) {
         context.check_cancelled();
-        parallel_for(0, parts.size(), [&](std::size_t i) { look_at(parts[i], tree, to); });
+        parallel_for(0, parts.size(), [&](std::size_t i) { compute_bounds(parts[i], tree, to); });
         settle(result, parts, options);
     };
-    // Most triangles are settled at once: not all of them need to be held.
-    std::vector<Part> open;
+    // In chunks: most triangles are settled at once, so that few have to be kept.
+    std::vector<TrianglePart> open;
     for (std::size_t begin = 0; begin < triangles.size(); begin += chunk) {
-        std::vector<Part> some(std::min(chunk, triangles.size() - begin));
+        std::vector<TrianglePart> some(std::min(chunk, triangles.size() - begin));
         for (std::size_t i = 0; i < some.size(); ++i) some[i].corner = corners_of(from, triangles[begin + i]);
-        look_at_all(some);
+        compute_all(some);
         open.insert(open.end(), some.begin(), some.end());
     }
     settle(result, open, options);
     std::size_t points = 3 * triangles.size();
     while (!open.empty() && points < options.most_points) {
-        std::vector<Part> smaller;
+        std::vector<TrianglePart> smaller;
         smaller.reserve(4 * open.size());
-        for (const Part& part : open) {
-            for (const Part& quarter : split(part)) smaller.push_back(quarter);
+        for (const TrianglePart& part : open) {
+            for (const TrianglePart& quarter : split(part)) smaller.push_back(quarter);
         }
         open = std::move(smaller);
-        look_at_all(open);
+        compute_all(open);
         points += 3 * open.size();
     }
-    for (const Part& part : open) result.at_most = std::max(result.at_most, part.at_most);
+    for (const TrianglePart& part : open) result.at_most = std::max(result.at_most, part.at_most);
     result.at_most = std::max(result.at_most, result.mm);
     return result;
 }
@@ -235,8 +229,8 @@ Deviation deviation(const TriangleMesh& scan, const TriangleMesh& result, const 
     std::vector<std::uint32_t> gone;
     std::vector<std::uint32_t> made;
     {
-        const Hashed in_scan = hashed(scan);
-        const Hashed in_result = hashed(result);
+        const TriangleHashes in_scan = triangle_hashes(scan);
+        const TriangleHashes in_result = triangle_hashes(result);
         gone = missing_in(scan, in_scan, result, in_result);
         made = missing_in(result, in_result, scan, in_scan);
     }
@@ -252,9 +246,9 @@ double farthest_sample(const TriangleMesh& from, const TriangleMesh& to, const C
     LargestDistance largest(to);
     for (std::size_t t = 0; t < from.triangles.size(); ++t) {
         if (t % 4096 == 0) context.check_cancelled();
-        const Places places = corners_of(from, t);
-        const double steps = std::ceil(longest_side(places) / std::max(spacing, 1e-12));
-        look_at_face(largest, places, std::clamp(static_cast<int>(std::min(steps, 1e6)), 2, most_steps));
+        const TriangleCorners corners = corners_of(from, t);
+        const double steps = std::ceil(longest_side(corners) / std::max(spacing, 1e-12));
+        add_samples(largest, corners, std::clamp(static_cast<int>(std::min(steps, 1e6)), 2, most_steps));
     }
     return largest.mm();
 }

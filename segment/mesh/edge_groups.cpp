@@ -1,3 +1,6 @@
+// Counting sort by the smaller end point, then a sort of the few half-edges of each point by the larger one.
+// O(triangles + points) while each point has few edges; around_edge is O(k log k) for k half-edges.
+
 #include "segment/mesh/edge_groups.h"
 
 #include <algorithm>
@@ -44,7 +47,7 @@ std::vector<AtAngle> around_edge(const TriangleMesh& mesh, std::span<const std::
     for (const std::uint32_t h : group) {
         const Vec3 d = side(h);
         const double angle = h == group[0] ? 0 : std::atan2(dot(v, d), dot(u, d));
-        sorted.push_back({std::isfinite(angle) ? angle : 0, h});  // lengths too large for their squares have none
+        sorted.push_back({std::isfinite(angle) ? angle : 0, h});  // the squares of its lengths overflow
     }
     std::sort(sorted.begin(), sorted.end(), [](const AtAngle& x, const AtAngle& y) {
         return x.angle != y.angle ? x.angle < y.angle : x.half_edge < y.half_edge;

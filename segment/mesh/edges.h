@@ -1,6 +1,7 @@
-// Which triangles meet at which edge, and whether the mesh is closed.
+// Pairs the opposite half-edges of a mesh, and counts the edges that keep it from being closed.
 //
-// Half-edge 3*t+k runs from corner k of triangle t to corner (k+1)%3.
+// Half-edge 3*t+k runs from corner k of triangle t to corner (k+1)%3. Twins are mutual, and the mesh is closed exactly
+// if every half-edge has one (tests/segment/mesh/edges_test.cpp).
 
 #pragma once
 
@@ -15,22 +16,22 @@ namespace qchopper {
 
 constexpr std::uint32_t no_twin = std::numeric_limits<std::uint32_t>::max();
 
-// What stands between a mesh and being closed. All counts are of undirected edges.
+// The edges that keep a mesh from being closed. All counts are of undirected edges.
 struct EdgeFaults {
-    std::size_t open = 0;              // one triangle only
-    std::size_t inconsistent = 0;      // two triangles that run the edge the same way
-    std::size_t non_manifold = 0;      // three triangles or more
-    std::uint32_t first_triangle = 0;  // a triangle at the first fault, for "where"
+    std::size_t open = 0;              // one half-edge only
+    std::size_t inconsistent = 0;      // two half-edges of the same direction
+    std::size_t non_manifold = 0;      // three half-edges or more
+    std::uint32_t first_triangle = 0;  // a triangle at the first of these edges, to report where; 0 if there is none
     bool operator==(const EdgeFaults&) const = default;
     bool is_closed() const { return open == 0 && inconsistent == 0 && non_manifold == 0; }
 };
 
-// For every half-edge the opposite one, or no_twin at an open, inconsistent or non-manifold edge.
-// Linear in the mesh. The mesh must hold fewer than 2^31/3 triangles.
 struct Edges {
-    std::vector<std::uint32_t> twin;
+    std::vector<std::uint32_t> twin;  // one per half-edge: the opposite one, or no_twin at an edge that is in `faults`
     EdgeFaults faults;
 };
+// A half-edge from a point to itself has no twin and counts as a fault. Precondition: the mesh is consistent and has
+// fewer than 2^31/3 triangles.
 Edges edges(const TriangleMesh& mesh);
 
 }  // namespace qchopper

@@ -1,6 +1,6 @@
 // Lists of indices, one after the other in one array: fans, loops, shells, half-edges of an edge.
 //
-// Invariant: `first` ascends from 0 to values.size().
+// Invariant: `first` ascends from 0 to values.size(). Fewer than 2^32 values in all. Access is O(1).
 
 #pragma once
 
@@ -14,7 +14,7 @@ namespace qchopper {
 
 struct IndexLists {
     std::vector<std::uint32_t> values;
-    std::vector<std::uint32_t> first{0};  // per list, and one more for the end
+    std::vector<std::uint32_t> first{0};  // one per list, and the end of the last one
 
     std::size_t size() const { return first.size() - 1; }
     bool empty() const { return size() == 0; }
@@ -22,7 +22,7 @@ struct IndexLists {
         assert(list < size());
         return std::span(values).subspan(first[list], first[list + 1] - first[list]);
     }
-    // The values appended since the last call become a list.
+    // Makes a list of the values that were appended since the last call.
     void end_list() { first.push_back(static_cast<std::uint32_t>(values.size())); }
 
     struct Iterator {

@@ -1,9 +1,9 @@
-// Where a straight line crosses a triangle: the one decision on which containment and cavity links stand.
+// Where a straight line crosses a triangle: the predicate of containment.h and solids.h.
 //
-// mm. Both triangles at an edge get the same answer to the last bit, and the rule "at or above is above" holds for
-// points at the height or side of the line too; so every closed surface crosses a line an even number of times, also
-// through vertices and along edges (tests/segment/mesh/containment_test.cpp). O(1). The rule is the half-open rule of
-// the crossing number (M. Shimrat, "Algorithm 112: position of point relative to polygon", 1962), applied twice.
+// mm. Both triangles at an edge get the same point of it to the last bit, and a corner at the height or side of the
+// line counts as above it; so a line crosses every closed surface an even number of times, also through vertices and
+// along edges (tests/segment/mesh/containment_test.cpp). O(1). This is the half-open rule of the crossing number
+// (M. Shimrat, "Algorithm 112: position of point relative to polygon", 1962), applied twice.
 
 #pragma once
 
@@ -13,15 +13,15 @@
 
 namespace qchopper {
 
-// A point as a line sees it: its height and its side across the line, its position along it.
+// A point in the coordinates of a line: two across it, height and side, and its position along it.
 struct LineCoordinates {
     double height = 0;
     double side = 0;
     double along = 0;
 };
 
-// The point at which an edge passes a height, always computed from its upper end: one edge, one point. Precondition:
-// the ends lie on different sides of the height.
+// The point of an edge at a height, computed from its upper end whichever end is given first. Precondition: exactly one
+// end is at or above the height.
 inline LineCoordinates edge_at_height(const LineCoordinates& a, const LineCoordinates& b, double height) {
     const LineCoordinates& upper = a.height >= height ? a : b;
     const LineCoordinates& lower = a.height >= height ? b : a;
@@ -29,7 +29,7 @@ inline LineCoordinates edge_at_height(const LineCoordinates& a, const LineCoordi
     return {height, upper.side + f * (lower.side - upper.side), upper.along + f * (lower.along - upper.along)};
 }
 
-// The position at which the line at this height and side crosses the triangle; nothing if it passes beside it.
+// The position along the line at this height and side where it crosses the triangle; nothing if it does not.
 inline std::optional<double> line_crossing(const std::array<LineCoordinates, 3>& corner, double height, double side) {
     std::array<LineCoordinates, 2> end;
     std::size_t count = 0;

@@ -1,8 +1,9 @@
-// Points where surfaces only touch, and the border loops of an open mesh.
+// Finds and splits points where surfaces only touch, and follows the border loops of an open mesh.
 //
-// A point is non-manifold when the triangles around it fall into several fans that share no edge there. After
+// A point is non-manifold when the triangles around it form several fans that share no edge there. After
 // split_non_manifold_vertices every fan has a point of its own, so no border loop touches another
-// (tests/segment/mesh/manifold_test.cpp).
+// (tests/segment/mesh/manifold_test.cpp). Half-edges are numbered as in edges.h, and `edges` are always those of the
+// mesh. O(triangles + points), unpaired O(u log u) more for u half-edges without a twin.
 
 #pragma once
 
@@ -18,7 +19,7 @@
 namespace qchopper {
 
 // Counts the copies that split_non_manifold_vertices would make, leaving out points at non-manifold or inconsistent
-// edges: there the fans are not known.
+// edges: their fans are not defined. The reference for links.h.
 std::size_t count_non_manifold_vertices(const TriangleMesh& mesh, const Edges& edges);
 
 // The fan of the first triangle keeps the point, every other fan gets a copy of it at the end of the points.
@@ -32,12 +33,12 @@ struct Unpaired {
 };
 Unpaired unpaired(const TriangleMesh& mesh, const Edges& edges);
 
-// The open border as loops of half-edges, each loop in the order in which triangles that fill it would run backwards
-// along them: the start of one is the end of the next. Meant for a mesh without non-manifold vertices and non-manifold
-// edges; with them a loop ends where the way is not clear.
+// One list of half-edges per loop of the open border: the start of one half-edge is the end of the next, the
+// order in which triangles that fill the hole run along them. `open` is Unpaired::open of the mesh. At a non-manifold
+// vertex or edge a loop may end early.
 IndexLists border_loops(const TriangleMesh& mesh, std::span<const std::uint32_t> open);
 
-// Mean of the points of a loop.
+// Mean of the points of a loop of half-edges, which is not empty.
 Vec3 centre_of(const TriangleMesh& mesh, std::span<const std::uint32_t> loop);
 
 inline std::uint32_t start_of(const TriangleMesh& mesh, std::uint32_t half_edge) {

@@ -1,3 +1,5 @@
+// The volume is the sum of signed tetrahedra over a point of the mesh (divergence theorem). O(triangles + points).
+
 #include "segment/mesh/measure.h"
 
 #include <cassert>
@@ -15,7 +17,7 @@ Box bounds(const TriangleMesh& mesh) {
 double volume_mm3(const TriangleMesh& mesh) {
     assert(is_consistent(mesh));
     if (mesh.points.empty()) return 0;
-    const Vec3 origin = mesh.points.front();  // near the mesh: far from the world's origin the terms would cancel
+    const Vec3 origin = mesh.points.front();  // of the mesh: far from the origin the terms would cancel
     double six_volumes = 0;
     for (const Triangle& t : mesh.triangles) {
         six_volumes += dot(mesh.points[t[0]] - origin, cross(mesh.points[t[1]] - origin, mesh.points[t[2]] - origin));

@@ -1,3 +1,5 @@
+// G. Thürmer and C. Wüthrich, "Computing vertex normals from polygonal facets" (1998). O(triangles + points).
+
 #include "segment/mesh/normals.h"
 
 #include <cassert>

@@ -1,4 +1,4 @@
-// Vertex normals, each triangle weighted by its angle at the vertex (Thürmer and Wüthrich 1998).
+// Vertex normals: the normals of the triangles around, each weighted by its angle at the vertex.
 
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace qchopper {
 
-// Unit vectors, one per point; zero where all triangles around are degenerate.
+// Unit vectors, one per point; zero where there is no triangle around, or all are degenerate.
 std::vector<Vec3> vertex_normals(const TriangleMesh& mesh);
 
 }  // namespace qchopper

@@ -1,3 +1,7 @@
+// Points are sorted along the curve of G. Morton, "A computer oriented geodetic data base and a new technique in file
+// sequencing" (1966), by a radix sort of three digits; triangles by the first of their points, and then clusters are
+// formed greedily in that order. O(triangles + points).
+
 #include "segment/mesh/order.h"
 
 #include <algorithm>
@@ -34,7 +38,7 @@ struct Keyed {
     std::uint32_t point;
 };
 
-// Counting sort by one digit of the key after the other; ties keep their order.
+// Radix sort, by one digit of the key after the other; ties keep their order.
 void sort_by_key(std::vector<Keyed>& points) {
     auto other = huge<Keyed>(points.size());
     for (unsigned digit = 0; digit < 3; ++digit) {
@@ -47,7 +51,7 @@ void sort_by_key(std::vector<Keyed>& points) {
     }
 }
 
-// Per point its place along the curve.
+// One number per point: its place along the curve.
 std::vector<std::uint32_t> along_curve(const TriangleMesh& mesh) {
     const Box box = bounds(mesh);
     const Vec3 size = box.size();
@@ -66,45 +70,47 @@ std::vector<std::uint32_t> along_curve(const TriangleMesh& mesh) {
     return place;
 }
 
-// The same things in the order of their numbers, which are below `end`; ties keep their order.
-std::vector<std::uint32_t> sorted_by(const std::vector<std::uint32_t>& numbers, std::size_t end,
-                                     const std::vector<std::uint32_t>& things) {
+// The items in the order of their keys, which are below `end`; ties keep their order. `item_keys` has one entry per
+// item, at the item's value.
+std::vector<std::uint32_t> sorted_by(const std::vector<std::uint32_t>& item_keys, std::size_t end,
+                                     const std::vector<std::uint32_t>& items) {
     std::vector<std::uint32_t> first(end + 1, 0);
-    assert(numbers.size() == things.size());
-    for (const std::uint32_t n : numbers) {
-        assert(n < end);
-        ++first[n + 1];
+    assert(item_keys.size() == items.size());
+    for (const std::uint32_t key : item_keys) {
+        assert(key < end);
+        ++first[key + 1];
     }
-    for (std::size_t n = 1; n <= end; ++n) first[n] += first[n - 1];
-    auto result = huge<std::uint32_t>(things.size());
-    for (const std::uint32_t thing : things) result[first[numbers[thing]]++] = thing;
+    for (std::size_t key = 1; key <= end; ++key) first[key] += first[key - 1];
+    auto result = huge<std::uint32_t>(items.size());
+    for (const std::uint32_t item : items) result[first[item_keys[item]]++] = item;
     return result;
 }
 
-// Per triangle its patch. It joins the earliest patch at its corners that has room, or begins one.
+// One number per triangle: its cluster. In `order`, each triangle joins the earliest cluster at its corners that is not
+// full, or begins a new one. `count` receives the number of clusters.
 std::vector<std::uint32_t> divide(const TriangleMesh& mesh, const std::vector<std::uint32_t>& order,
                                   std::size_t& count) {
     std::vector<std::uint32_t> size;
-    std::vector<std::uint32_t> at_point(mesh.points.size(), none);
-    auto patch = huge<std::uint32_t>(mesh.triangles.size());
+    std::vector<std::uint32_t> at_point(mesh.points.size(), none);  // the cluster that a triangle at the point joins
+    auto cluster = huge<std::uint32_t>(mesh.triangles.size());
     for (const std::uint32_t t : order) {
         std::uint32_t chosen = none;
         for (const std::uint32_t v : mesh.triangles[t]) {
-            const std::uint32_t p = at_point[v];
-            if (p != none && size[p] < triangles_per_patch && p < chosen) chosen = p;
+            const std::uint32_t c = at_point[v];
+            if (c != none && size[c] < triangles_per_cluster && c < chosen) chosen = c;
         }
         if (chosen == none) {
             chosen = static_cast<std::uint32_t>(size.size());
             size.push_back(0);
         }
         ++size[chosen];
-        patch[t] = chosen;
+        cluster[t] = chosen;
         for (const std::uint32_t v : mesh.triangles[t]) {
-            if (at_point[v] == none || size[at_point[v]] >= triangles_per_patch) at_point[v] = chosen;
+            if (at_point[v] == none || size[at_point[v]] >= triangles_per_cluster) at_point[v] = chosen;
         }
     }
     count = size.size();
-    return patch;
+    return cluster;
 }
 
 }  // namespace
@@ -119,9 +125,9 @@ TriangleMesh in_memory_order(const TriangleMesh& mesh) {
         const Triangle& v = mesh.triangles[t];
         least[t] = std::min({place[v[0]], place[v[1]], place[v[2]]});
     }
-    std::size_t patches = 0;
+    std::size_t clusters = 0;
     order = sorted_by(least, mesh.points.size(), order);
-    const std::vector<std::uint32_t> patch = divide(mesh, order, patches);
+    const std::vector<std::uint32_t> cluster = divide(mesh, order, clusters);
     TriangleMesh result;
     reserve_huge(result.points, mesh.points.size());
     reserve_huge(result.triangles, mesh.triangles.size());
@@ -133,7 +139,7 @@ TriangleMesh in_memory_order(const TriangleMesh& mesh) {
         }
         return number[v];
     };
-    for (const std::uint32_t t : sorted_by(patch, patches, order)) {
+    for (const std::uint32_t t : sorted_by(cluster, clusters, order)) {
         const Triangle& v = mesh.triangles[t];
         const std::uint32_t a = numbered(v[0]);
         const std::uint32_t b = numbered(v[1]);

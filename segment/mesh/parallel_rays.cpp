@@ -1,3 +1,9 @@
+// The rays are parallel, so no ray tree is needed: the queries are sorted into a grid across the normal, and each
+// triangle visits the cells that its rectangle covers. Edge functions after J. Pineda, "A parallel algorithm for
+// polygon rasterization" (1988); a query on an edge belongs to one triangle by a symbolic shift, after H. Edelsbrunner
+// and E. Mücke, "Simulation of simplicity" (1990). The crossing of line_crossing.h would round to other last bits, and
+// divides twice per triangle and query before it rejects. O(points + triangles + queries in the cells covered).
+
 #include "segment/mesh/parallel_rays.h"
 
 #include <algorithm>
@@ -9,51 +15,46 @@
 #include "base/parallel.h"
 #include "segment/mesh/plane.h"
 #include "segment/mesh/plane_frame.h"
+#include "segment/mesh/polygon.h"
 
 namespace qchopper {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double cells_per_point = 2;
-constexpr std::size_t shares = 8;  // of the triangles, each with ways of its own: the least of them does not depend on
-                                   // how many threads there are
+constexpr std::size_t shares = 8;  // of the triangles, each with distances of its own: their least does not depend on
+                                   // the number of threads
 
-// A point seen along the normal: across it (u, v), and its height.
-struct Seen {
+// A point in coordinates across the normal (u, v), and its height along it.
+struct ProjectedPoint {
     double u;
     double v;
     double h;
 };
 
-Seen seen_along(Vec3 normal, const PlaneFrame& frame, Vec3 p) {
+ProjectedPoint projected(Vec3 normal, const PlaneFrame& frame, Vec3 p) {
     return {dot(frame.u, p), dot(frame.v, p), height(normal, p)};
 }
 
 struct GridPoint {
-    Seen at;
+    ProjectedPoint at;
     std::uint32_t query;
 };
 
-// The queries of one direction, sorted by cell. Few to a cell: a scan's triangles are small beside it.
-class Grid {
+// The queries of one direction, sorted by cell; about two cells per query.
+class RayGrid {
  public:
-    Grid(Vec3 normal, const PlaneFrame& frame, std::span<const RayQuery> queries, bool up) {
+    RayGrid(Vec3 normal, const PlaneFrame& frame, std::span<const RayQuery> queries, bool up) {
         std::vector<GridPoint> points;
         for (std::uint32_t q = 0; q < queries.size(); ++q) {
-            if (queries[q].up == up) points.push_back({seen_along(normal, frame, queries[q].from), q});
+            if (queries[q].up == up) points.push_back({projected(normal, frame, queries[q].from), q});
         }
         if (points.empty()) return;
-        double high_u = -infinite;
-        double high_v = -infinite;
-        low_u_ = low_v_ = infinite;
-        for (const GridPoint& p : points) {
-            low_u_ = std::min(low_u_, p.at.u);
-            low_v_ = std::min(low_v_, p.at.v);
-            high_u = std::max(high_u, p.at.u);
-            high_v = std::max(high_v, p.at.v);
-        }
-        const double wide = std::max(high_u - low_u_, 1e-9);
-        const double tall = std::max(high_v - low_v_, 1e-9);
+        Rectangle2 all;
+        for (const GridPoint& p : points) all.include({p.at.u, p.at.v});
+        low_ = all.min;
+        const double wide = std::max(all.max.x - low_.x, 1e-9);
+        const double tall = std::max(all.max.y - low_.y, 1e-9);
         const double cell = std::sqrt(wide * tall / (cells_per_point * static_cast<double>(points.size())));
         columns_ = std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(wide / cell) + 1, 1, 8192);
         rows_ = std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(tall / cell) + 1, 1, 8192);
@@ -69,7 +70,7 @@ class Grid {
 
     bool is_empty() const { return points_.empty(); }
 
-    // Every point in the cells that a rectangle touches.
+    // Calls visit(point) for every query in the cells that a rectangle touches.
     template <typename Visit>
     void each_in(double low_u, double low_v, double high_u, double high_v, const Visit& visit) const {
         const std::ptrdiff_t c0 = column(low_u);
@@ -86,18 +87,17 @@ class Grid {
     }
 
  private:
-    static std::ptrdiff_t whole(double x) {  // far away is far away, however far
+    static std::ptrdiff_t whole(double x) {  // clamped, so that it fits an integer however far away
         return static_cast<std::ptrdiff_t>(std::floor(std::clamp(x, -4.0, 16384.0)));
     }
-    std::ptrdiff_t column(double u) const { return whole((u - low_u_) * per_u_); }
-    std::ptrdiff_t row(double v) const { return whole((v - low_v_) * per_v_); }
-    std::size_t cell_of(const Seen& p) const {
+    std::ptrdiff_t column(double u) const { return whole((u - low_.x) * per_u_); }
+    std::ptrdiff_t row(double v) const { return whole((v - low_.y) * per_v_); }
+    std::size_t cell_of(const ProjectedPoint& p) const {
         return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(row(p.v), 0, rows_ - 1) * columns_ +
                                         std::clamp<std::ptrdiff_t>(column(p.u), 0, columns_ - 1));
     }
 
-    double low_u_ = 0;
-    double low_v_ = 0;
+    Point2 low_;  // least u and v of the queries
     double per_u_ = 0;
     double per_v_ = 0;
     std::ptrdiff_t columns_ = 0;
@@ -106,32 +106,32 @@ class Grid {
     std::vector<GridPoint> points_;
 };
 
-double turn(const Seen& a, const Seen& b, const Seen& p) {
+double turn(const ProjectedPoint& a, const ProjectedPoint& b, const ProjectedPoint& p) {
     return (b.u - a.u) * (p.v - a.v) - (b.v - a.v) * (p.u - a.u);
 }
 
-// On which side of a directed edge a point lies; computed from the smaller end point, so that two triangles at an edge
-// get opposite numbers to the last bit.
-double side(const Seen& a, const Seen& b, bool is_forward, const Seen& p) {
+// The edge function of a directed edge: positive on its left. Computed from the smaller end point, so that the two
+// triangles at an edge get opposite numbers to the last bit.
+double side(const ProjectedPoint& a, const ProjectedPoint& b, bool is_forward, const ProjectedPoint& p) {
     return is_forward ? turn(a, b, p) : -turn(b, a, p);
 }
 
-// The same for a point on the line: as if it lay a little to the right and much less above. So a point on an edge or a
-// vertex belongs to exactly one of the triangles around it.
-double side_beside(const Seen& a, const Seen& b) {
+// The sign of the same for a point on the line, as if it lay a little to the right and much less above. So a point on
+// an edge or a vertex belongs to exactly one of the triangles around it.
+double side_if_shifted(const ProjectedPoint& a, const ProjectedPoint& b) {
     return a.v != b.v ? a.v - b.v : b.u - a.u;
 }
 
-// One triangle over the grid: points under or over it that lie nearer than before.
-void pass_over(const Grid& grid, bool up, const Triangle& v, const Seen (&corner)[3], double most,
-               std::span<double> ways) {
+// Updates the distances of the queries below a triangle that faces up, or above one that faces down.
+void update_distances(const RayGrid& grid, bool up, const Triangle& v, const ProjectedPoint (&corner)[3], double most,
+                      std::span<double> distances) {
     const double low_u = std::min({corner[0].u, corner[1].u, corner[2].u});
     const double high_u = std::max({corner[0].u, corner[1].u, corner[2].u});
     const double low_v = std::min({corner[0].v, corner[1].v, corner[2].v});
     const double high_v = std::max({corner[0].v, corner[1].v, corner[2].v});
     const double low_h = std::min({corner[0].h, corner[1].h, corner[2].h}) - (up ? most : 0);
     const double high_h = std::max({corner[0].h, corner[1].h, corner[2].h}) + (up ? 0 : most);
-    const double sign = up ? 1 : -1;  // seen along the normal, what looks up runs counter-clockwise
+    const double sign = up ? 1 : -1;  // a triangle that faces up runs counter-clockwise in u and v
     grid.each_in(low_u, low_v, high_u, high_v, [&](const GridPoint& p) {
         if (p.at.u < low_u || p.at.u > high_u || p.at.v < low_v || p.at.v > high_v) return;
         if (p.at.h < low_h || p.at.h > high_h) return;
@@ -140,13 +140,14 @@ void pass_over(const Grid& grid, bool up, const Triangle& v, const Seen (&corner
             const std::size_t next = (k + 1) % 3;
             const bool is_forward = v[k] < v[next];
             weight[k] = sign * side(corner[k], corner[next], is_forward, p.at);
-            if (weight[k] < 0 || (weight[k] == 0 && sign * side_beside(corner[k], corner[next]) <= 0)) return;
+            if (weight[k] < 0 || (weight[k] == 0 && sign * side_if_shifted(corner[k], corner[next]) <= 0)) return;
         }
         const double sum = weight[0] + weight[1] + weight[2];
         if (sum <= 0) return;
         const double h = (weight[1] * corner[0].h + weight[2] * corner[1].h + weight[0] * corner[2].h) / sum;
-        const double way = sign * (h - p.at.h);
-        if (way >= 0 && way <= most && way < ways[p.query]) ways[p.query] = way;
+        const double distance = sign * (h - p.at.h);
+        double& least = distances[p.query];
+        if (distance >= 0 && distance <= most && distance < least) least = distance;
     });
 }
 
@@ -158,28 +159,29 @@ std::vector<double> ray_distances(const TriangleMesh& mesh, Vec3 normal, std::sp
     std::vector<double> least(queries.size(), infinite);
     if (queries.empty()) return least;
     const PlaneFrame frame = frame_across(normal);
-    const Grid grid_up(normal, frame, queries, true);
-    const Grid grid_down(normal, frame, queries, false);
-    auto seen = huge<Seen>(mesh.points.size());
+    const RayGrid grid_up(normal, frame, queries, true);
+    const RayGrid grid_down(normal, frame, queries, false);
+    auto points = huge<ProjectedPoint>(mesh.points.size());
     parallel_for(0, shares, [&](std::size_t s) {
-        const std::size_t end = seen.size() * (s + 1) / shares;
-        for (std::size_t p = seen.size() * s / shares; p < end; ++p)
-            seen[p] = seen_along(normal, frame, mesh.points[p]);
+        const std::size_t end = points.size() * (s + 1) / shares;
+        for (std::size_t p = points.size() * s / shares; p < end; ++p)
+            points[p] = projected(normal, frame, mesh.points[p]);
     });
-    std::vector<std::vector<double>> ways(shares);
+    std::vector<std::vector<double>> distances(shares);
     parallel_for(0, shares, [&](std::size_t s) {
-        ways[s].assign(queries.size(), infinite);
+        distances[s].assign(queries.size(), infinite);
         const std::size_t end = mesh.triangles.size() * (s + 1) / shares;
         for (std::size_t t = mesh.triangles.size() * s / shares; t < end; ++t) {
             const Triangle& v = mesh.triangles[t];
-            const Seen corner[3] = {seen[v[0]], seen[v[1]], seen[v[2]]};
-            // A way along the normal leaves through what looks up, one against it through what looks down.
-            const double looks_up = turn(corner[0], corner[1], corner[2]);
-            if (looks_up > 0 && !grid_up.is_empty()) pass_over(grid_up, true, v, corner, most, ways[s]);
-            if (looks_up < 0 && !grid_down.is_empty()) pass_over(grid_down, false, v, corner, most, ways[s]);
+            const ProjectedPoint corner[3] = {points[v[0]], points[v[1]], points[v[2]]};
+            // A ray along the normal leaves through a triangle that faces up, one against it through one that faces
+            // down.
+            const double facing = turn(corner[0], corner[1], corner[2]);
+            if (facing > 0 && !grid_up.is_empty()) update_distances(grid_up, true, v, corner, most, distances[s]);
+            if (facing < 0 && !grid_down.is_empty()) update_distances(grid_down, false, v, corner, most, distances[s]);
         }
     });
-    for (const std::vector<double>& share : ways) {
+    for (const std::vector<double>& share : distances) {
         for (std::size_t q = 0; q < least.size(); ++q) least[q] = std::min(least[q], share[q]);
     }
     return least;

@@ -1,8 +1,8 @@
-// How far one can go straight along or against a normal inside a closed mesh, for many points at once.
+// Distances from many points along or against one normal to where the rays leave a closed mesh.
 //
-// All ways of one normal are parallel, so no ray tree is needed: the points are sorted into a grid across the normal
-// and the triangles pass over it once. Exact to double rounding; lengths in mm. Held against the definition, one
-// triangle at a time (tests/segment/mesh/parallel_rays_test.cpp).
+// mm. Exact to double rounding: compared with the definition, one triangle at a time
+// (tests/segment/mesh/parallel_rays_test.cpp). The result does not depend on the number of threads. Precondition: the
+// mesh is closed (edges.h) and the normal is a unit vector.
 
 #pragma once
 
@@ -18,9 +18,9 @@ struct RayQuery {
     bool up = false;  // along the normal; false: against it
 };
 
-// Per query the distance to the first surface through which the way leaves the mesh; infinite if it meets none within
-// `most`.
-// A surface that the way would enter through is passed over, so a point on a face that goes inwards does not see it.
+// One distance per query: to the first surface through which the ray leaves the mesh; infinite if there is none within
+// `most`, which is at least 0. A surface through which the ray enters is ignored, so a ray that starts on a face and
+// runs inwards does not end there.
 std::vector<double> ray_distances(const TriangleMesh& mesh, Vec3 normal, std::span<const RayQuery> queries,
                                   double most);
 

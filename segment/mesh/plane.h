@@ -1,4 +1,4 @@
-// A plane n.p = offset; n is a unit vector, the offset a signed distance from the origin in mm.
+// The plane normal.p = offset: the normal is a unit vector, the offset the signed distance from the origin in mm.
 
 #pragma once
 
@@ -12,13 +12,14 @@ struct Plane {
     bool operator==(const Plane&) const = default;
 };
 
-// Height of a point along a normal. Which side of a cut a point lies on is decided by this one function alone, so
-// that every place that asks gets the same bits.
+// Height of a point along a normal, in mm. This function alone decides on which side of a cut a point lies, so that
+// every caller gets the same bits.
 inline double height(Vec3 normal, Vec3 point) {
     return dot(normal, point);
 }
 
-// The same plane with its first non-zero normal component positive and the normal of length 1.
+// The same plane with a normal of length 1 whose first non-zero component is positive. A plane that is so already keeps
+// its bits. Precondition: the normal is not zero.
 Plane canonical(const Plane& plane);
 
 }  // namespace qchopper

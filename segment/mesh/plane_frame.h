@@ -1,4 +1,6 @@
-// Two directions square to a normal and to each other: coordinates in a plane.
+// Two directions perpendicular to a normal and to each other: coordinates in a plane.
+//
+// The same normal always gives the same frame. O(1).
 
 #pragma once
 
@@ -9,13 +11,13 @@
 
 namespace qchopper {
 
-// u, v and the normal are right-handed; u and v are unit if the normal is.
+// u, v and the normal are right-handed. u is a unit vector, v is as long as the normal.
 struct PlaneFrame {
     Vec3 u;
     Vec3 v;
 };
 
-// Always the same frame for the same normal. Starts from the world axis that is farthest from it.
+// Starts from the world axis whose direction differs most from the normal's. Precondition: the normal is not zero.
 inline PlaneFrame frame_across(Vec3 normal) {
     const Vec3 size{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
     const Vec3 axis = size.x <= size.y && size.x <= size.z ? Vec3{1, 0, 0}

@@ -1,5 +1,5 @@
-// Crossed edges are named by their end above and their end below, the same from both triangles, and paired by sorting;
-// then loops are followed from triangle to triangle.
+// The two triangles at a crossed edge are paired by sorting the edges by their ends above and below, which both
+// triangles share; then the loops are the cycles from triangle to triangle.
 
 #include "segment/mesh/plane_section.h"
 
@@ -15,11 +15,9 @@ namespace {
 struct CrossedEdge {
     std::uint32_t above;
     std::uint32_t below;
-    std::uint32_t triangle;  // in PlaneSection::triangles
-    std::uint64_t name() const { return (static_cast<std::uint64_t>(above) << 32) | below; }
-    bool operator<(const CrossedEdge& b) const {
-        return name() != b.name() ? name() < b.name() : triangle < b.triangle;
-    }
+    std::uint32_t triangle;  // index in PlaneSection::triangles
+    std::uint64_t key() const { return (static_cast<std::uint64_t>(above) << 32) | below; }
+    bool operator<(const CrossedEdge& b) const { return key() != b.key() ? key() < b.key() : triangle < b.triangle; }
 };
 
 [[noreturn]] void throw_open(Vec3 at) {
@@ -40,8 +38,8 @@ std::vector<SectionTriangle> crossed_triangles(const TriangleMesh& mesh, std::sp
     return crossed;
 }
 
-// Pairs the two triangles at each crossed edge and computes its point once. Returns per crossed triangle the one that
-// the surface enters next.
+// Pairs the two triangles at each crossed edge and computes its point once. Returns one index per crossed triangle: the
+// one across its exit edge.
 std::vector<std::uint32_t> link_triangles(PlaneSection& section, const TriangleMesh& mesh, const Plane& plane) {
     const std::size_t count = section.triangles.size();
     std::vector<CrossedEdge> exits(count);
@@ -59,7 +57,7 @@ std::vector<std::uint32_t> link_triangles(PlaneSection& section, const TriangleM
     std::vector<std::uint32_t> next(count);
     const auto end = [&](std::uint32_t v) { return EdgeEnd{mesh.points[v], height(plane.normal, mesh.points[v])}; };
     for (std::uint32_t i = 0; i < count; ++i) {
-        if (exits[i].name() != entries[i].name()) throw_open(mesh.points[exits[i].above]);
+        if (exits[i].key() != entries[i].key()) throw_open(mesh.points[exits[i].above]);
         section.points[i] = edge_crossing(end(exits[i].above), end(exits[i].below), plane.offset);
         section.triangles[exits[i].triangle].exit_point = i;
         section.triangles[entries[i].triangle].entry_point = i;
@@ -95,7 +93,7 @@ std::vector<std::uint8_t> points_above(const TriangleMesh& mesh, const Plane& pl
     return is_above;
 }
 
-// The surface is followed from above to below, which runs clockwise: hence the reversal.
+// Through the exit edges the triangles run clockwise around material: each loop is reversed.
 PlaneSection plane_section(const TriangleMesh& mesh, const Plane& plane, std::span<const std::uint8_t> is_above) {
     assert(is_above.size() == mesh.points.size());
     PlaneSection section;

@@ -1,7 +1,7 @@
-// Where a plane crosses a mesh: the one place that the cut, the sweep and the outline share.
+// The section of a mesh by a plane, for the cut, the sweep and the outline.
 //
-// mm. Which side a point lies on is decided by height() in plane.h alone; at the plane's height counts as above. The
-// point of a crossed edge is computed from its upper end, so that both triangles, and every caller, get the same bits
+// mm. The side of a point is decided by height() in plane.h alone; a point at the plane's height is above. The point of
+// a crossed edge is computed from its upper end, so that both triangles, and every caller, get the same bits
 // (tests/segment/score/touching_test.cpp, tests/app/project/outline_test.cpp).
 
 #pragma once
@@ -18,11 +18,11 @@
 
 namespace qchopper {
 
-// How a plane crosses a triangle: one corner, the apex, lies alone on its side.
+// A crossed triangle: one corner, the apex, lies alone on its side of the plane.
 struct TriangleCrossing {
     std::uint32_t apex = 0;  // 0..2
     bool apex_is_above = false;
-    // The edges, by the corner that they start at, through which the surface leaves downwards and enters upwards.
+    // The edges, by the corner that they start at, that run downwards and upwards through the plane.
     std::uint32_t exit() const { return apex_is_above ? apex : (apex + 2) % 3; }
     std::uint32_t entry() const { return apex_is_above ? (apex + 2) % 3 : apex; }
 };
@@ -40,45 +40,48 @@ struct EdgeEnd {
     double height = 0;
 };
 
+// The point of an edge at the height `offset`. Precondition: the upper end is at or above it, the lower one below.
 inline Vec3 edge_crossing(const EdgeEnd& upper, const EdgeEnd& lower, double offset) {
     assert(upper.height >= offset && lower.height < offset);
     return upper.point + ((upper.height - offset) / (upper.height - lower.height)) * (lower.point - upper.point);
 }
 
+// The coordinates of a point in a plane frame at an origin.
 inline Point2 flattened(const PlaneFrame& frame, Vec3 origin, Vec3 point) {
     const Vec3 d = point - origin;
     return {dot(frame.u, d), dot(frame.v, d)};
 }
 
-// The cycles of a permutation, numbered by their first member.
+// The cycles of a permutation, in the order of their least members.
 struct Cycles {
     struct Cycle {
-        std::uint32_t first = 0;
+        std::uint32_t first = 0;  // the least member
         std::uint32_t size = 0;
     };
-    std::vector<std::uint32_t> cycle_of;  // per member
+    std::vector<std::uint32_t> cycle_of;  // one per member: the number of its cycle
     std::vector<Cycle> cycles;
 };
+// `next` has one entry per member: the one that follows. O(members).
 Cycles cycles(std::span<const std::uint32_t> next);
 
 struct SectionTriangle {
     std::uint32_t triangle = 0;
     TriangleCrossing crossing;
-    std::uint32_t exit_point = 0;  // in PlaneSection::points, on the edges of the crossing
-    std::uint32_t entry_point = 0;
+    std::uint32_t exit_point = 0;   // index in PlaneSection::points, on the exit edge
+    std::uint32_t entry_point = 0;  // on the entry edge
 };
 
 struct PlaneSection {
     std::vector<SectionTriangle> triangles;  // ascending
     std::vector<Vec3> points;                // one per crossed edge
-    std::vector<Loop> loops;                 // counter-clockwise around material seen against the normal
+    std::vector<Loop> loops;  // indices of points, counter-clockwise around material seen against the normal
 };
 
-// Per point of the mesh: 1 if it is above the plane, else 0.
+// One flag per point of the mesh: 1 if it is above the plane, else 0.
 std::vector<std::uint8_t> points_above(const TriangleMesh& mesh, const Plane& plane);
 
-// Empty where the plane misses. `is_above` is points_above of the same plane. Throws InputError if the mesh is open
-// where the plane passes. O(triangles + c log c) for c crossed triangles.
+// Empty if the plane misses the mesh. `is_above` is points_above of the same mesh and plane. Throws InputError (mesh)
+// if the mesh is open where the plane passes. O(triangles + c log c) for c crossed triangles.
 PlaneSection plane_section(const TriangleMesh& mesh, const Plane& plane, std::span<const std::uint8_t> is_above);
 
 }  // namespace qchopper

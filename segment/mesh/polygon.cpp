@@ -1,3 +1,5 @@
+// Shoelace formula and crossing number, both from corner to corner.
+
 #include "segment/mesh/polygon.h"
 
 namespace qchopper {

@@ -1,3 +1,6 @@
+// A loop lies where any of its points lies that is not on the other loop: inside it or outside, by the crossing number
+// (polygon.h). Pairs of loops are first sorted out by their bounding rectangles.
+
 #include "segment/mesh/polygon_nesting.h"
 
 #include <algorithm>
@@ -17,11 +20,11 @@ bool is_on(std::span<const Point2> points, const Loop& loop, Point2 p, double re
     return false;
 }
 
-// Tells of many points whether they are on a loop: its edges by the rows that they pass, as many rows as edges.
-// The rows run askew, because sides of built shapes run along the axes.
-class Outline {
+// Tests many points for whether they are on a loop, by its edges in rows. The rows are oblique, because the sides of
+// constructed shapes run along the axes.
+class PolygonOutline {
  public:
-    Outline(std::span<const Point2> points, const Loop& loop, double reach)
+    PolygonOutline(std::span<const Point2> points, const Loop& loop, double reach)
         : points_(points), loop_(loop), reach_(reach) {
         const auto [low, high] = std::minmax_element(loop.begin(), loop.end(), [&](std::uint32_t a, std::uint32_t b) {
             return across(points[a]) < across(points[b]);
@@ -32,7 +35,7 @@ class Outline {
             rows_.add(from - 2 * reach, to + 2 * reach, i);
         }
     }
-    bool has(Point2 p) const {
+    bool contains(Point2 p) const {
         const std::vector<std::uint32_t>& edges = rows_.at(across(p));
         return std::any_of(edges.begin(), edges.end(), [&](std::uint32_t i) {
             return is_on_segment(p, points_[loop_[i]], points_[loop_[next(i)]], reach_);
@@ -49,8 +52,8 @@ class Outline {
     EdgeRows rows_;
 };
 
-// A point well inside the loop: in the widest gap between the heights of its points, in the middle of the widest
-// stretch there. Nothing for a loop without breadth.
+// A point far inside the loop: in the widest gap between the heights of its points, in the middle of the widest segment
+// there. Nothing if that is not wider than `reach`.
 std::optional<Point2> interior_point(std::span<const Point2> points, const Loop& loop, double reach) {
     std::vector<double> heights;
     for (const std::uint32_t p : loop) heights.push_back(points[p].y);
@@ -78,32 +81,35 @@ std::optional<Point2> interior_point(std::span<const Point2> points, const Loop&
     return best;
 }
 
-enum class Place { outside, inside, same };
+enum class Containment { outside, inside, same };
 
-// Where a loop lies that does not cross the other one: any of its points tells that is not on the other loop; almost
-// always the first. Where all its points are, the middles of its edges are asked, then a point inside it.
-Place place(std::span<const Point2> points, const Loop& loop, const Loop& other, double reach) {
-    const auto by_point = [&](Point2 p) { return is_inside(points, other, p) ? Place::inside : Place::outside; };
+// Where a loop lies that does not cross the other one, by the first of its points that is not on the other loop, almost
+// always the first of all; else by the middle of an edge that is not; else by a point inside it.
+Containment containment(std::span<const Point2> points, const Loop& loop, const Loop& other, double reach) {
+    const auto by_point = [&](Point2 p) {
+        return is_inside(points, other, p) ? Containment::inside : Containment::outside;
+    };
     if (!is_on(points, other, points[loop.front()], reach)) return by_point(points[loop.front()]);
-    const Outline outline(points, other, reach);
+    const PolygonOutline outline(points, other, reach);
     for (const std::uint32_t p : loop) {
-        if (!outline.has(points[p])) return by_point(points[p]);
+        if (!outline.contains(points[p])) return by_point(points[p]);
     }
     for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++) {
         const Point2 a = points[loop[i]];
         const Point2 b = points[loop[j]];
         const Point2 middle{a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2};
-        if (!outline.has(middle)) return by_point(middle);
+        if (!outline.contains(middle)) return by_point(middle);
     }
     const std::optional<Point2> within = interior_point(points, loop, reach);
-    if (!within || !is_inside(points, other, *within)) return Place::outside;
-    const Outline own(points, loop, reach);
-    const bool is_same = std::all_of(other.begin(), other.end(), [&](std::uint32_t p) { return own.has(points[p]); });
-    return is_same ? Place::same : Place::inside;
+    if (!within || !is_inside(points, other, *within)) return Containment::outside;
+    const PolygonOutline own(points, loop, reach);
+    const bool is_same =
+        std::all_of(other.begin(), other.end(), [&](std::uint32_t p) { return own.contains(points[p]); });
+    return is_same ? Containment::same : Containment::inside;
 }
 
-// The loops around each loop. Of loops with the same outline (a solid that fills a cavity) the next one inwards is the
-// one that runs the right way round for its depth.
+// One list per loop: the loops around it. Loops with the same outline (a solid that fills a cavity) are nested in an
+// order in which the orientation of each fits its depth, as far as there is one.
 std::vector<std::vector<std::size_t>> loops_around(std::span<const Point2> points, std::span<const Loop> loops,
                                                    std::span<const double> area) {
     const std::size_t count = loops.size();
@@ -120,27 +126,27 @@ std::vector<std::vector<std::size_t>> loops_around(std::span<const Point2> point
     for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t j = 0; j < count; ++j) {
             if (j == i || !box[j].is_near(points[loops[i].front()], reach)) continue;
-            const Place where = place(points, loops[i], loops[j], reach);
-            if (where == Place::inside) around[i].push_back(j);
-            if (where == Place::same) same[i].push_back(j);
+            const Containment where = containment(points, loops[i], loops[j], reach);
+            if (where == Containment::inside) around[i].push_back(j);
+            if (where == Containment::same) same[i].push_back(j);
         }
     }
     for (std::size_t i = 0; i < count; ++i) {
         if (same[i].empty() || same[i].front() < i) continue;
         std::vector<std::size_t> rest{i};
         rest.insert(rest.end(), same[i].begin(), same[i].end());
-        std::vector<std::size_t> taken;
+        std::vector<std::size_t> nested;
         while (!rest.empty()) {
-            const bool is_material = (around[i].size() + taken.size()) % 2 == 0;
+            const bool is_material = (around[i].size() + nested.size()) % 2 == 0;
             auto next =
                 std::find_if(rest.begin(), rest.end(), [&](std::size_t k) { return (area[k] >= 0) == is_material; });
             if (next == rest.end()) next = rest.begin();
-            taken.push_back(*next);
+            nested.push_back(*next);
             rest.erase(next);
         }
-        for (std::size_t k = 1; k < taken.size(); ++k) {
-            around[taken[k]].insert(around[taken[k]].end(), taken.begin(),
-                                    taken.begin() + static_cast<std::ptrdiff_t>(k));
+        for (std::size_t k = 1; k < nested.size(); ++k) {
+            around[nested[k]].insert(around[nested[k]].end(), nested.begin(),
+                                     nested.begin() + static_cast<std::ptrdiff_t>(k));
         }
     }
     return around;
@@ -167,7 +173,7 @@ std::vector<CapRegion> nest(std::span<const Point2> points, std::span<const Loop
             const bool is_outer = region_of[j] != count;
             if (is_outer && (outer == count || std::abs(area[j]) < std::abs(area[outer]))) outer = j;
         }
-        if (outer == count) {  // loops that cross each other can be inside holes only: then it stands alone
+        if (outer == count) {  // possible only where loops cross each other: a region of its own
             regions.push_back({i, {}, false});
             continue;
         }

@@ -1,7 +1,7 @@
-// Which loops of a section are holes of which: the flat regions that a plane cuts out of a solid.
+// Polygon nesting: the flat regions that a plane cuts out of a solid, each an outer loop with its holes.
 //
-// Plane coordinates, mm. The cutter and the sweep ask this one function with the same points to the last bit, so they
-// agree, also where loops touch or cross (tests/segment/score/touching_test.cpp).
+// Plane coordinates, mm. The cut and the sweep call this one function with the same points to the last bit, so their
+// regions are the same, also where loops touch or cross (tests/segment/score/touching_test.cpp).
 
 #pragma once
 
@@ -17,11 +17,12 @@ namespace qchopper {
 struct CapRegion {
     std::size_t outer = 0;
     std::vector<std::size_t> holes;
-    bool is_simple = true;  // false: a loop runs the wrong way round for its nesting depth
+    bool is_simple = true;  // false: a loop is oriented against its nesting depth, or a hole has no outer loop
 };
 
-// Even-odd nesting: a loop inside an odd number of others is a hole of the smallest one around it. Loops may touch: a
-// point tells where its loop lies only if it is not on the other loop.
+// By the even-odd rule: a loop inside an odd number of others is a hole of the smallest outer loop around it. Every
+// loop is in exactly one region. Loops may touch. Precondition: every loop has three points or more. O(L^2 + L N) for L
+// loops of N points in all while few edges lie in one row.
 std::vector<CapRegion> nest(std::span<const Point2> points, std::span<const Loop> loops);
 
 }  // namespace qchopper

@@ -1,7 +1,8 @@
-// Rays against a mesh, by Embree.
+// Casts rays at a mesh.
 //
-// Rays are single precision inside; the tree is built around the mesh's own centre so that 3 m hold 0.001 mm.
-// Safe to ask from many threads at once.
+// mm. Rays are computed in single precision, about the centre of the mesh, so that the place of the mesh does not
+// matter (tests/segment/mesh/rays_test.cpp). first_hit may be called from many threads at once. The mesh need not be
+// kept.
 
 #pragma once
 
@@ -14,7 +15,7 @@
 namespace qchopper {
 
 struct RayHit {
-    double distance = 0;  // along the direction, in its unit
+    double distance = 0;  // in lengths of the direction
     std::uint32_t triangle = 0;
 };
 
@@ -25,7 +26,8 @@ class RayTree {
     RayTree(RayTree&&) noexcept;
     RayTree& operator=(RayTree&&) noexcept;
 
-    // The first surface that the ray meets, from either side.
+    // The first triangle that the ray meets, from either side; nothing if there is none. Precondition: the direction is
+    // not zero.
     std::optional<RayHit> first_hit(Vec3 origin, Vec3 direction) const;
 
  private:

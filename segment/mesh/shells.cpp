@@ -1,3 +1,5 @@
+// Disjoint sets of points, then one pass over the triangles for volumes and boxes. O(triangles + points).
+
 #include "segment/mesh/shells.h"
 
 #include <algorithm>
@@ -20,7 +22,7 @@ Shells shells(const TriangleMesh& mesh) {
         sets.unite(t[0], t[1]);
         sets.unite(t[0], t[2]);
     }
-    // a parent is never larger, so one pass makes it the root
+    // a parent is never larger than its child, so one pass in ascending order makes every parent the root
     for (std::uint32_t& parent : sets.parent) parent = sets.parent[parent];
     Shells result;
     result.shell_of.resize(mesh.triangles.size());
@@ -30,7 +32,7 @@ Shells shells(const TriangleMesh& mesh) {
         const std::size_t end = std::min(mesh.triangles.size(), begin + triangles_per_block);
         const Vec3 start = mesh.points[mesh.triangles[begin][0]];
         Box block{start, start};
-        Box run;  // of the triangles of one shell that follow each other
+        Box run;  // of consecutive triangles of one shell
         std::uint32_t shell_of_run = none;
         const auto end_run = [&] {
             if (shell_of_run == none) return;

@@ -1,5 +1,6 @@
-// Cavities: from the vertex of each that lies farthest along a direction square to the axis, a line is followed in that
-// direction. Boxes of consecutive triangles (Shells::block) keep most triangles from being looked at.
+// Cavities: a line from the vertex of each that is farthest along a direction perpendicular to the axis, in that
+// direction. All lines of one direction in one pass over the triangles; the boxes of blocks of triangles
+// (Shells::block) exclude most of them. O(triangles + blocks * log cavities), O(triangles * cavities) at worst.
 
 #include "segment/mesh/solids.h"
 
@@ -17,7 +18,7 @@ namespace qchopper {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-constexpr double touch_share = 1e-9;   // of the mesh: surfaces as near as this touch
+constexpr double touch_share = 1e-9;   // of the mesh: surfaces so close to each other touch
 constexpr double empty_share = 1e-12;  // of the cube of a shell's size: two sheets that coincide, in material or not
 
 // Lines along `along`, at constant height and side.
@@ -26,7 +27,8 @@ struct LineFrame {
     Vec3 along;
 };
 
-// One direction square to the axis, or another: a cavity whose farthest vertex touches another surface is asked again.
+// Directions perpendicular to the axis, by number: more than one, for cavities that touch another surface at their
+// farthest vertex.
 constexpr int directions = 6;
 LineFrame line_frame(Vec3 axis, int number) {
     const PlaneFrame across = frame_across(normalized(axis));
@@ -42,17 +44,17 @@ struct Query {
     CavityLink link;
     double nearest = std::numeric_limits<double>::infinity();       // of all surface
     double nearest_exit = std::numeric_limits<double>::infinity();  // of surface through which the line leaves material
-    bool is_touched = false;  // another surface at the vertex itself: what is around it there is not certain
+    bool is_touched = false;  // another surface at the vertex itself: the result is not certain
 };
 
-// From the farthest vertex of each cavity that is asked for, in the order of their heights.
+// From the farthest vertex of each selected shell, in the order of their heights.
 std::vector<Query> queries(const TriangleMesh& mesh, const Shells& shells, const LineFrame& frame, Vec3 axis,
-                           const std::vector<bool>& is_asked) {
+                           const std::vector<bool>& is_selected) {
     std::vector<std::uint32_t> farthest(shells.count(), none);
     std::vector<double> best(shells.count(), -std::numeric_limits<double>::infinity());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const std::uint32_t shell = shells.shell_of[t];
-        if (!is_asked[shell]) continue;
+        if (!is_selected[shell]) continue;
         for (const std::uint32_t v : mesh.triangles[t]) {
             const double along = dot(frame.along, mesh.points[v]);
             if (along <= best[shell]) continue;
@@ -71,7 +73,7 @@ std::vector<Query> queries(const TriangleMesh& mesh, const Shells& shells, const
     return result;
 }
 
-// Half the extent of a box along a direction, with room for rounding.
+// Half the extent of a box along a direction, with a margin for rounding.
 double reach(const Box& box, Vec3 d) {
     const Vec3 half = 0.5 * box.size();
     const Vec3 far{std::max(std::abs(box.min.x), std::abs(box.max.x)),
@@ -92,7 +94,7 @@ std::span<Query> queries_at(std::vector<Query>& all, const Box& box, Vec3 axis) 
     return {begin, end};
 }
 
-// Could the line of this query still find something nearer in the box?
+// Whether the line of this query may meet something nearer in the box.
 bool may_meet(const Query& query, const Box& box, const LineFrame& frame, double touch) {
     const Vec3 centre = box.centre();
     const double along = dot(frame.along, centre);
@@ -124,8 +126,8 @@ void try_triangle(Query& query, const TriangleMesh& mesh, const LineFrame& frame
 
 // Where the lines along one direction first leave material. One pass over the triangles.
 std::vector<Query> query_along(const TriangleMesh& mesh, const Shells& shells, const LineFrame& frame, Vec3 axis,
-                               const std::vector<bool>& is_asked, double touch) {
-    std::vector<Query> all = queries(mesh, shells, frame, axis, is_asked);
+                               const std::vector<bool>& is_selected, double touch) {
+    std::vector<Query> all = queries(mesh, shells, frame, axis, is_selected);
     for (std::size_t b = 0; b < shells.block.size(); ++b) {
         const std::size_t last = std::min(mesh.triangles.size(), (b + 1) * triangles_per_block);
         for (Query& query : queries_at(all, shells.block[b], axis)) {
@@ -144,19 +146,21 @@ std::vector<CavityLink> cavity_links(const TriangleMesh& mesh, const Shells& she
     assert(shells.shell_of.size() == mesh.triangles.size() && norm(axis) > 0);
     std::vector<CavityLink> result;
     if (shells.count() < 2) return result;
-    std::vector<bool> is_asked(shells.count());
+    std::vector<bool> is_selected(shells.count());
     Box all = shells.box.front();
     for (std::size_t shell = 0; shell < shells.count(); ++shell) {
-        is_asked[shell] = shells.volume[shell] <= empty_share * std::pow(norm(shells.box[shell].size()), 3);
+        is_selected[shell] = shells.volume[shell] <= empty_share * std::pow(norm(shells.box[shell].size()), 3);
         extend(all, shells.box[shell].min);
         extend(all, shells.box[shell].max);
     }
-    if (std::find(is_asked.begin(), is_asked.end(), true) == is_asked.end()) return result;
     const double touch = touch_share * norm(all.size());
+    const auto is_any_left = [&] {
+        return std::find(is_selected.begin(), is_selected.end(), true) != is_selected.end();
+    };
     std::vector<CavityLink> doubtful;
-    for (int number = 0; number < directions; ++number) {
+    for (int number = 0; number < directions && is_any_left(); ++number) {
         const LineFrame frame = line_frame(axis, number);
-        for (const Query& s : query_along(mesh, shells, frame, axis, is_asked, touch)) {
+        for (const Query& s : query_along(mesh, shells, frame, axis, is_selected, touch)) {
             // The line must leave material where it first meets surface; else the shell is inside out, not a cavity.
             if (s.link.triangle == none || s.nearest_exit > s.nearest + touch) continue;
             if (s.is_touched) {
@@ -165,12 +169,11 @@ std::vector<CavityLink> cavity_links(const TriangleMesh& mesh, const Shells& she
             }
             assert(shells.shell_of[s.link.triangle] != s.link.cavity);
             result.push_back(s.link);
-            is_asked[s.link.cavity] = false;
+            is_selected[s.link.cavity] = false;
         }
-        if (std::find(is_asked.begin(), is_asked.end(), true) == is_asked.end()) break;
     }
     for (const CavityLink& link : doubtful) {
-        if (is_asked[link.cavity]) result.push_back(link);
+        if (is_selected[link.cavity]) result.push_back(link);
     }
     return result;
 }
@@ -193,17 +196,10 @@ Solids solids(const Shells& shells, std::span<const std::array<std::uint32_t, 2>
 
 Solids solids(const TriangleMesh& mesh, const Shells& shells, Vec3 axis) {
     std::vector<std::array<std::uint32_t, 2>> pairs;
-    std::vector<bool> is_linked(shells.count());
     for (const CavityLink& link : cavity_links(mesh, shells, axis)) {
         pairs.push_back({link.cavity, shells.shell_of[link.triangle]});
-        is_linked[link.cavity] = true;
     }
-    Solids result = solids(shells, pairs);
-    for (std::size_t shell = 0; shell < shells.count(); ++shell) {
-        if (shells.volume[shell] < 0 && !is_linked[shell]) ++result.loose_cavities;
-    }
-    assert(result.count <= shells.count());
-    return result;
+    return solids(shells, pairs);
 }
 
 std::vector<std::uint32_t> solid_of_triangle(const Shells& shells, const Solids& solids) {

@@ -1,3 +1,5 @@
+// One pass over the triangles; 4 bytes per point for the new numbers.
+
 #include "segment/mesh/submesh.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Parts of a mesh: some of its triangles, with their caps.
+// Selects triangles of a mesh, with their caps, or divides a mesh into parts.
 //
 // Triangles keep their order. O(triangles + points), however many parts there are
 // (tests/segment/mesh/submesh_test.cpp).
@@ -15,7 +15,7 @@
 
 namespace qchopper {
 
-// Keeps the values that are marked, in their order.
+// Keeps the values whose flag is set, in their order. `is_kept` has one flag per value.
 template <class Value>
 void keep_marked(std::vector<Value>& values, const std::vector<bool>& is_kept) {
     assert(values.size() == is_kept.size());
@@ -26,11 +26,11 @@ void keep_marked(std::vector<Value>& values, const std::vector<bool>& is_kept) {
     values.resize(kept);
 }
 
-// Keeps the triangles that are marked. All points stay.
+// Keeps the triangles whose flag is set. `is_kept` has one flag per triangle. All points stay.
 void keep_triangles(TriangleMesh& mesh, const std::vector<bool>& is_kept);
 
-// One mesh per group; group_of says per triangle which of the `count` groups it is in. Only points in use, in the order
-// of their first use. Precondition: no two groups share a point.
+// One mesh per group. `group_of` has one entry per triangle: its group, below `count`. A mesh has the points that its
+// triangles use, in the order of their first use. Precondition: no two groups share a point.
 std::vector<TriangleMesh> submeshes(const TriangleMesh& mesh, std::span<const std::uint32_t> group_of,
                                     std::size_t count);
 

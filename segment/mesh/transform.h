@@ -1,4 +1,6 @@
-// A mesh in another frame.
+// Transforms a mesh to another frame.
+//
+// mm. Triangles and caps stay. O(points). Precondition: that of base/pose.h.
 
 #pragma once
 

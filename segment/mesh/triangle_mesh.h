@@ -1,7 +1,8 @@
-// The mesh that everybody shares: points and triangles that name them.
+// An indexed triangle mesh: points, and triangles as indices of points.
 //
-// Coordinates are doubles in millimetres. A triangle lists its corners counter-clockwise seen from outside.
-// A mesh is *closed* when every directed edge has exactly one opposite (tests/segment/mesh/edges_test.cpp).
+// Coordinates are doubles in millimetres. A triangle lists its corners counter-clockwise seen from outside. A mesh is
+// *closed* when every half-edge has exactly one opposite (edges.h, tests/segment/mesh/edges_test.cpp). All functions
+// here but is_consistent are O(1).
 
 #pragma once
 
@@ -18,23 +19,25 @@ namespace qchopper {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-// What cap_of says of a triangle that no cut has made.
+// The value of cap_of for a triangle that is of no cap.
 constexpr std::int32_t no_cap = -1;
 
 struct TriangleMesh {
     std::vector<Vec3> points;
     std::vector<Triangle> triangles;
-    std::vector<std::int32_t> cap_of;  // per triangle: number of the cut whose cap it belongs to; empty: no caps at all
+    std::vector<std::int32_t> cap_of;  // one per triangle: number of the cut whose cap it is of, or no_cap; or empty
     bool operator==(const TriangleMesh&) const = default;
 };
 
-// Does every corner name a point, and every triangle have its cap if there are caps? Always so; for asserts.
+// Whether every corner is the index of a point, and cap_of is empty or has one entry per triangle. Holds for every
+// mesh; meant for asserts. O(triangles).
 inline bool is_consistent(const TriangleMesh& mesh) {
-    const auto names_points = [&](const Triangle& t) { return std::max({t[0], t[1], t[2]}) < mesh.points.size(); };
+    const auto has_points = [&](const Triangle& t) { return std::max({t[0], t[1], t[2]}) < mesh.points.size(); };
     return (mesh.cap_of.empty() || mesh.cap_of.size() == mesh.triangles.size()) &&
-           std::all_of(mesh.triangles.begin(), mesh.triangles.end(), names_points);
+           std::all_of(mesh.triangles.begin(), mesh.triangles.end(), has_points);
 }
 
+// The points of the corners, in the order of the triangle.
 inline std::array<Vec3, 3> corners_of(const TriangleMesh& mesh, std::size_t triangle) {
     assert(triangle < mesh.triangles.size());
     const Triangle& t = mesh.triangles[triangle];
@@ -49,6 +52,7 @@ inline Vec3 area_vector(const TriangleMesh& mesh, std::size_t triangle) {
     return 0.5 * cross(mesh.points[t[1]] - a, mesh.points[t[2]] - a);
 }
 
+// The number of the cut whose cap the triangle is of, or no_cap.
 inline std::int32_t cap_of(const TriangleMesh& mesh, std::size_t triangle) {
     assert(mesh.cap_of.empty() || triangle < mesh.cap_of.size());
     return mesh.cap_of.empty() ? no_cap : mesh.cap_of[triangle];

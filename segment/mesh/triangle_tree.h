@@ -1,7 +1,8 @@
-// A tree of boxes over the triangles of a mesh: what is near a place, without looking at everything.
+// A bounding-volume tree over the triangles of a mesh, for triangles near a box and the point nearest to another.
 //
-// Boxes are single precision about the mesh's own centre. Rounding keeps the order of numbers, so boxes that meet in
-// double meet here too: nothing near is ever missed (tests/segment/mesh/triangle_tree_test.cpp).
+// mm. Boxes are single precision about the centre of the mesh. Rounding is monotonic, so boxes that meet in double
+// precision meet here too: no triangle is missed (tests/segment/mesh/triangle_tree_test.cpp). O(log triangles) per
+// query on average; 28 bytes per triangle, and 12 to 24 for the nodes.
 
 #pragma once
 
@@ -17,34 +18,36 @@ namespace qchopper {
 
 struct FloatBox {
     static constexpr float none = std::numeric_limits<float>::infinity();
-    std::array<float, 3> min{none, none, none};  // as it begins it holds nothing and meets nothing
+    std::array<float, 3> min{none, none, none};  // a new box is empty and meets nothing
     std::array<float, 3> max{-none, -none, -none};
 };
 
+// Whether two boxes have a point in common.
 inline bool do_meet(const FloatBox& a, const FloatBox& b) {
-    // without branches: three comparisons that fail at random cost more than six
+    // without branches: mispredicted ones cost more than the six comparisons
     const int meets = int{a.min[0] <= b.max[0]} & int{b.min[0] <= a.max[0]} & int{a.min[1] <= b.max[1]} &
                       int{b.min[1] <= a.max[1]} & int{a.min[2] <= b.max[2]} & int{b.min[2] <= a.max[2]};
     return meets != 0;
 }
 
-// The closest point of a triangle to a point (C. Ericson, "Real-Time Collision Detection", 2005, 5.1.5).
+// The point of a triangle that is closest to p. Of a degenerate triangle some point, perhaps not the closest.
 Vec3 closest_on_triangle(Vec3 p, const std::array<Vec3, 3>& triangle);
 
 struct TriangleTree {
     static constexpr std::size_t per_leaf = 4;
 
     Vec3 centre;
-    std::vector<std::uint32_t> order;   // triangles along a curve that fills space; per_leaf of them are a leaf
-    std::vector<FloatBox> of_triangle;  // in that order
+    std::vector<std::uint32_t> order;   // triangles along a space-filling curve; per_leaf of them are a leaf
+    std::vector<FloatBox> of_triangle;  // one per triangle, in that order
     std::vector<FloatBox> of_node;      // node 1 is the root, node n has the children 2n and 2n+1
     std::size_t leaves = 0;             // a power of two: node leaves + i is leaf i
 
     explicit TriangleTree(const TriangleMesh& mesh);
 
+    // The box of a triangle in the coordinates of the tree.
     FloatBox box_of(const std::array<Vec3, 3>& corners) const;
 
-    // Calls found(triangle) for every triangle whose box meets this one.
+    // Calls found(triangle) for every triangle whose box meets this one, which is in the coordinates of the tree.
     template <class Found>
     void for_each_near(const FloatBox& box, const Found& found) const {
         descend([&](const FloatBox& node) { return do_meet(node, box); },
@@ -59,7 +62,7 @@ struct TriangleTree {
         std::uint32_t triangle = 0;
     };
     // The nearest point of the surface, if it is closer than `within`; else the distance is infinite. `mesh` is the one
-    // that the tree was made of.
+    // that the tree was built from.
     Nearest nearest(const TriangleMesh& mesh, Vec3 p, double within = std::numeric_limits<double>::infinity()) const;
 
  private:

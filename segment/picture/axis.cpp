@@ -1,3 +1,5 @@
+// Steps of 1, 2 and 5 times a power of ten. O(ticks).
+
 #include "segment/picture/axis.h"
 
 #include <algorithm>
@@ -53,12 +55,12 @@ Ticks decades(PlotRange range) {
     return result;
 }
 
-PlotRange mended(PlotRange range) {
+PlotRange drawable_range(PlotRange range) {
     if (!std::isfinite(range.high - range.low) || range.low > range.high) return {0, 1};
     const double least = 1e-9 * std::max({std::abs(range.low), std::abs(range.high), 1e-6});
     if (range.high - range.low > least) return range;
-    const double room = std::max(std::abs(range.low) * 0.1, 0.5);
-    return {range.low - room, range.high + room};
+    const double margin = std::max(std::abs(range.low) * 0.1, 0.5);
+    return {range.low - margin, range.high + margin};
 }
 
 }  // namespace qchopper

@@ -1,5 +1,5 @@
-// Begun from Okabe and Ito's scheme (2008), then moved apart as seen with all and with two kinds of cones
-// (tests/segment/picture/colour_test.cpp). Not too dark, so that shading shows on all of them.
+// From M. Okabe and K. Ito, "Color Universal Design", 2008, with the distances enlarged for normal sight and for two
+// kinds of colour blindness. No colour is too dark for shading to show.
 
 #include <array>
 

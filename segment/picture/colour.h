@@ -1,4 +1,4 @@
-// Colours, 8 bits a channel, and those of pieces.
+// Colours with 8 bits per channel (sRGB), and the palette of the pieces.
 
 #pragma once
 
@@ -14,10 +14,11 @@ struct Rgb {
     bool operator==(const Rgb&) const = default;
 };
 
-// Twelve colours that stay apart for colour-blind eyes too, then again from the first.
+// Twelve colours that differ for colour-blind eyes too, then again from the first
+// (tests/segment/picture/colour_test.cpp).
 Rgb piece_colour(std::size_t index);
 
-// The natural colour for a mesh that is not a segmentation.
+// For a mesh that is not a segmentation.
 constexpr Rgb bone_colour{226, 214, 190};
 
 }  // namespace qchopper

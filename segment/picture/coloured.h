@@ -1,4 +1,4 @@
-// A mesh to be drawn, with its colour and place.
+// A mesh to be drawn, with its colour and its shift.
 
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace qchopper {
 
-struct Coloured {
-    const TriangleMesh* mesh = nullptr;  // stays the caller's
+struct ColouredMesh {
+    const TriangleMesh* mesh = nullptr;  // owned by the caller
     Rgb colour = bone_colour;
     Vec3 shift;  // mm, added to every point
 };

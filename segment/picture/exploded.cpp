@@ -1,15 +1,16 @@
+// One factor for all pieces, from the narrowest gap between the two sides of a cut. O(triangles + pieces squared).
+
 #include "segment/picture/exploded.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "segment/mesh/measure.h"
 
 namespace qchopper {
 namespace {
 
-// The middle of the surface: inside the convex hull of the piece, so on the piece's side of every cut that bounds it.
-Vec3 middle(const TriangleMesh& mesh) {
+// Lies in the convex hull of the piece, and so on its side of every cut that bounds it.
+Vec3 surface_centroid(const TriangleMesh& mesh) {
     Vec3 sum;
     double area = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -32,11 +33,12 @@ Box box_of_all(std::span<const Piece> pieces) {
     return bounds(corners);
 }
 
-// How far apart two pieces stand per unit of the factor, along the normal of a cut between them; 0: no such cut.
-double opening(const Piece& a, const Piece& b, Vec3 between) {
-    for (const Bound& bound : a.bounds) {
-        for (const Bound& other : b.bounds) {
-            if (bound.cut == other.cut && bound.above != other.above) return -dot(bound.up(), between);
+// The distance by which two pieces separate per unit of the factor, along the normal of a cut between them; 0 without
+// such a cut.
+double separation(const Piece& a, const Piece& b, Vec3 between) {
+    for (const HalfSpace& half_space : a.half_spaces) {
+        for (const HalfSpace& other : b.half_spaces) {
+            if (half_space.cut == other.cut && half_space.above != other.above) return -dot(half_space.up(), between);
         }
     }
     return 0;
@@ -48,12 +50,12 @@ std::vector<Vec3> exploded_shifts(std::span<const Piece> pieces, const ExplodeOp
     const Box whole = box_of_all(pieces);
     const double wanted = options.gap * norm(whole.size());
     std::vector<Vec3> from_centre;
-    for (const Piece& piece : pieces) from_centre.push_back(middle(*piece.mesh) - whole.centre());
+    for (const Piece& piece : pieces) from_centre.push_back(surface_centroid(*piece.mesh) - whole.centre());
     double factor = options.least_factor;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
-            const double opens = opening(pieces[i], pieces[k], from_centre[k] - from_centre[i]);
-            if (opens > 0) factor = std::max(factor, wanted / opens);
+            const double distance = separation(pieces[i], pieces[k], from_centre[k] - from_centre[i]);
+            if (distance > 0) factor = std::max(factor, wanted / distance);
         }
     }
     factor = std::min(factor, options.most_factor);
@@ -63,8 +65,8 @@ std::vector<Vec3> exploded_shifts(std::span<const Piece> pieces, const ExplodeOp
     return shifts;
 }
 
-std::vector<Coloured> coloured(std::span<const Piece> pieces, std::span<const Vec3> shifts) {
-    std::vector<Coloured> all;
+std::vector<ColouredMesh> coloured(std::span<const Piece> pieces, std::span<const Vec3> shifts) {
+    std::vector<ColouredMesh> all;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         all.push_back({pieces[i].mesh.get(), piece_colour(i), i < shifts.size() ? shifts[i] : Vec3{}});
     }

@@ -1,4 +1,4 @@
-// Pieces drawn apart, so that the caps between them show.
+// Moves pieces apart for a picture, so that the caps between them show.
 //
 // Millimetres. Pieces on the two sides of a cut move apart along its normal, never together
 // (tests/segment/picture/exploded_test.cpp).
@@ -15,14 +15,15 @@ namespace qchopper {
 
 struct ExplodeOptions {
     double gap = 0.08;           // wanted between neighbours, as a share of the diagonal of the whole
-    double least_factor = 0.25;  // of the way from the common centre to the piece, that it moves further out
-    double most_factor = 0.9;    // a fragment beside a cut would drive the others out of the picture
+    double least_factor = 0.25;  // a piece moves outwards by its distance from the common centre times the factor
+    double most_factor = 0.9;    // limits the factor where a small fragment beside a cut would ask for more
 };
 
-// One shift per piece, all of one factor: away from the common centre.
+// One shift per piece, all by the same factor, away from the common centre. Precondition: no mesh is null.
 std::vector<Vec3> exploded_shifts(std::span<const Piece> pieces, const ExplodeOptions& options = {});
 
-// What render_png takes: piece i in piece_colour(i), moved by shifts[i]. No shifts: in place.
-std::vector<Coloured> coloured(std::span<const Piece> pieces, std::span<const Vec3> shifts = {});
+// The input of render_png: piece i in piece_colour(i), moved by shifts[i], or in place if there are fewer shifts. The
+// meshes stay owned by the pieces.
+std::vector<ColouredMesh> coloured(std::span<const Piece> pieces, std::span<const Vec3> shifts = {});
 
 }  // namespace qchopper

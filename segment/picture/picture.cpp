@@ -1,3 +1,6 @@
+// One primary ray per sample and ambient rays where it hits; lines are drawn where neighbouring samples differ in piece
+// or cap. O(samples * (1 + ambient_rays)) rays, in parallel by rows; memory for all samples.
+
 #include "segment/picture/picture.h"
 
 #include <algorithm>
@@ -14,28 +17,28 @@
 namespace qchopper {
 namespace {
 
-constexpr std::uint32_t nothing = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_piece = std::numeric_limits<std::uint32_t>::max();
 
-// One ray of a pixel: what it saw and how bright.
-struct Sample {
-    std::uint32_t piece = nothing;
+// One ray of a pixel: what it hit and its linear colour.
+struct PixelSample {
+    std::uint32_t piece = no_piece;
     std::int32_t cap = no_cap;
     float r = 0;
     float g = 0;
     float b = 0;
 };
 
-// All rays of the picture, supersampling times finer than its pixels.
-struct Film {
+// All samples of the picture, row by row from the top: `supersampling` times as many in each direction as pixels.
+struct SampleImage {
     std::size_t width = 0;
     std::size_t height = 0;
-    std::vector<Sample> samples;
-    const Sample& at(std::size_t x, std::size_t y) const { return samples[y * width + x]; }
+    std::vector<PixelSample> samples;
+    const PixelSample& at(std::size_t x, std::size_t y) const { return samples[y * width + x]; }
 };
 
-void check(std::span<const Coloured> meshes, const PictureOptions& options) {
+void check(std::span<const ColouredMesh> meshes, const PictureOptions& options) {
     const auto refuse = [](const std::string& why) { throw InputError(InputFault::use, "no picture: " + why); };
-    const bool any = std::any_of(meshes.begin(), meshes.end(), [](const Coloured& one) {
+    const bool any = std::any_of(meshes.begin(), meshes.end(), [](const ColouredMesh& one) {
         return one.mesh != nullptr && !one.mesh->triangles.empty();
     });
     if (!any) refuse("there is no triangle to draw");
@@ -53,7 +56,8 @@ void check(std::span<const Coloured> meshes, const PictureOptions& options) {
     if (!(options.outline >= 0 && options.outline <= 20)) refuse("the outline must be 0 to 20 pixels");
 }
 
-Camera frame(const TriangleMesh& mesh, const PictureOptions& options) {
+// The camera that shows the whole mesh, with an empty border of options.frame.
+Camera camera_for(const TriangleMesh& mesh, const PictureOptions& options) {
     Camera camera;
     camera.forward = normalized(options.view);
     camera.right = cross(camera.forward, options.up);
@@ -65,10 +69,10 @@ Camera frame(const TriangleMesh& mesh, const PictureOptions& options) {
     Vec3 low{most, most, most};
     Vec3 high = -low;
     for (const Vec3& p : mesh.points) {
-        const Vec3 seen{dot(camera.right, p), dot(camera.up, p), dot(camera.forward, p)};
+        const Vec3 in_camera{dot(camera.right, p), dot(camera.up, p), dot(camera.forward, p)};
         for (int axis = 0; axis < 3; ++axis) {
-            low[axis] = std::min(low[axis], seen[axis]);
-            high[axis] = std::max(high[axis], seen[axis]);
+            low[axis] = std::min(low[axis], in_camera[axis]);
+            high[axis] = std::max(high[axis], in_camera[axis]);
         }
     }
     const Vec3 size = high - low;
@@ -76,79 +80,83 @@ Camera frame(const TriangleMesh& mesh, const PictureOptions& options) {
     camera.mm_per_pixel = std::max(size.x / (options.width * inner), size.y / (options.height * inner));
     if (!(camera.mm_per_pixel > 0)) camera.mm_per_pixel = 1;
     const Vec3 middle = 0.5 * (low + high);
-    const double before = low.z - 0.05 * norm(size) - 1;
-    camera.origin = middle.x * camera.right + middle.y * camera.up + before * camera.forward;
+    const double nearest = low.z - 0.05 * norm(size) - 1;
+    camera.origin = middle.x * camera.right + middle.y * camera.up + nearest * camera.forward;
     return camera;
 }
 
-Sample cast(const Scene& scene, const Camera& camera, const PictureOptions& options, std::size_t x, std::size_t y) {
+PixelSample cast_sample(const Scene& scene, const Camera& camera, const PictureOptions& options, std::size_t x,
+                        std::size_t y) {
     const double fine = options.supersampling;
     const double right = (static_cast<double>(x) + 0.5) / fine - options.width / 2.0;
     const double down = (static_cast<double>(y) + 0.5) / fine - options.height / 2.0;
     const Vec3 from =
         camera.origin + (camera.mm_per_pixel * right) * camera.right - (camera.mm_per_pixel * down) * camera.up;
-    const std::optional<SeenPoint> seen = scene.look(from, camera.forward);
+    const std::optional<SurfaceHit> hit = scene.cast_ray(from, camera.forward);
     const auto number = static_cast<std::uint32_t>(y * 131071 + x);
-    const Vec3 light = seen ? shade(scene, *seen, camera, options.ambient_rays, number) : to_linear(options.background);
-    Sample sample{nothing, no_cap, static_cast<float>(light.x), static_cast<float>(light.y),
-                  static_cast<float>(light.z)};
-    if (seen) {
-        sample.piece = scene.piece_of(seen->triangle);
-        sample.cap = scene.mesh().cap_of[seen->triangle];
+    const Vec3 colour = hit ? shade(scene, *hit, camera, options.ambient_rays, number) : to_linear(options.background);
+    PixelSample sample{no_piece, no_cap, static_cast<float>(colour.x), static_cast<float>(colour.y),
+                       static_cast<float>(colour.z)};
+    if (hit) {
+        sample.piece = scene.piece_of(hit->triangle);
+        sample.cap = scene.mesh().cap_of[hit->triangle];
     }
     return sample;
 }
 
-Film expose(const Scene& scene, const Camera& camera, const PictureOptions& options, const Context& context) {
-    Film film;
-    film.width = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.supersampling);
-    film.height = static_cast<std::size_t>(options.height) * static_cast<std::size_t>(options.supersampling);
-    film.samples.resize(film.width * film.height);
-    constexpr std::size_t band = 64;
-    for (std::size_t top = 0; top < film.height; top += band) {
+SampleImage cast_samples(const Scene& scene, const Camera& camera, const PictureOptions& options,
+                         const Context& context) {
+    SampleImage image;
+    image.width = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.supersampling);
+    image.height = static_cast<std::size_t>(options.height) * static_cast<std::size_t>(options.supersampling);
+    image.samples.resize(image.width * image.height);
+    constexpr std::size_t band = 64;  // rows between two checks for a cancel
+    for (std::size_t top = 0; top < image.height; top += band) {
         context.check_cancelled();
-        const std::size_t bottom = std::min(film.height, top + band);
+        const std::size_t bottom = std::min(image.height, top + band);
         parallel_for(top, bottom, [&](std::size_t y) {
-            for (std::size_t x = 0; x < film.width; ++x) {
-                film.samples[y * film.width + x] = cast(scene, camera, options, x, y);
+            for (std::size_t x = 0; x < image.width; ++x) {
+                image.samples[y * image.width + x] = cast_sample(scene, camera, options, x, y);
             }
         });
-        context.progress("rows drawn", bottom, film.height);
+        context.progress("rows drawn", bottom, image.height);
     }
-    return film;
+    return image;
 }
 
-// 1 inside, less where a border of the piece, or more faintly of a cap, runs within `radius` samples.
-double line_at(const Film& film, std::size_t x, std::size_t y, int radius) {
-    const Sample& here = film.at(x, y);
-    double keep = 1;
+// The factor of the outline: 1 without a line, less where a border of the piece, or of a cap, is within `radius`
+// samples.
+double outline_factor(const SampleImage& image, std::size_t x, std::size_t y, int radius) {
+    const PixelSample& here = image.at(x, y);
+    double factor = 1;
     for (int dy = -radius; dy <= radius; ++dy) {
         for (int dx = -radius; dx <= radius; ++dx) {
             if (dx * dx + dy * dy > radius * radius) continue;
             const auto nx = static_cast<std::ptrdiff_t>(x) + dx;
             const auto ny = static_cast<std::ptrdiff_t>(y) + dy;
-            if (nx < 0 || ny < 0 || nx >= static_cast<std::ptrdiff_t>(film.width) ||
-                ny >= static_cast<std::ptrdiff_t>(film.height)) {
+            if (nx < 0 || ny < 0 || nx >= static_cast<std::ptrdiff_t>(image.width) ||
+                ny >= static_cast<std::ptrdiff_t>(image.height)) {
                 continue;
             }
-            const Sample& there = film.at(static_cast<std::size_t>(nx), static_cast<std::size_t>(ny));
+            const PixelSample& there = image.at(static_cast<std::size_t>(nx), static_cast<std::size_t>(ny));
             if (there.piece != here.piece) return 0.16;
-            if (there.cap != here.cap) keep = 0.42;
+            if (there.cap != here.cap) factor = 0.42;
         }
     }
-    return keep;
+    return factor;
 }
 
-Rgb develop(const Film& film, const PictureOptions& options, std::size_t px, std::size_t py) {
+// The mean of the samples of a pixel.
+Rgb pixel_colour(const SampleImage& image, const PictureOptions& options, std::size_t px, std::size_t py) {
     const auto fine = static_cast<std::size_t>(options.supersampling);
     const int radius = static_cast<int>(std::lround(options.outline * options.supersampling / 2));
     Vec3 sum;
     bool empty = true;
     for (std::size_t y = py * fine; y < (py + 1) * fine; ++y) {
         for (std::size_t x = px * fine; x < (px + 1) * fine; ++x) {
-            const Sample& sample = film.at(x, y);
-            const bool drawn = sample.piece != nothing;
-            const double line = drawn && radius > 0 ? line_at(film, x, y, radius) : 1;
+            const PixelSample& sample = image.at(x, y);
+            const bool drawn = sample.piece != no_piece;
+            const double line = drawn && radius > 0 ? outline_factor(image, x, y, radius) : 1;
             sum = sum + line * Vec3{sample.r, sample.g, sample.b};
             empty = empty && !drawn;
         }
@@ -158,19 +166,19 @@ Rgb develop(const Film& film, const PictureOptions& options, std::size_t px, std
 
 }  // namespace
 
-Bytes render_png(std::span<const Coloured> meshes, const PictureOptions& options, const Context& context) {
+Bytes render_png(std::span<const ColouredMesh> meshes, const PictureOptions& options, const Context& context) {
     check(meshes, options);
-    std::vector<Coloured> drawn;
+    std::vector<ColouredMesh> drawn;
     std::copy_if(meshes.begin(), meshes.end(), std::back_inserter(drawn),
-                 [](const Coloured& one) { return one.mesh != nullptr; });
+                 [](const ColouredMesh& one) { return one.mesh != nullptr; });
     const Scene scene(drawn);
-    const Camera camera = frame(scene.mesh(), options);
-    const Film film = expose(scene, camera, options, context);
+    const Camera camera = camera_for(scene.mesh(), options);
+    const SampleImage image = cast_samples(scene, camera, options, context);
     const auto width = static_cast<std::size_t>(options.width);
     const auto height = static_cast<std::size_t>(options.height);
     std::vector<Rgb> pixels(width * height);
     parallel_for(0, height, [&](std::size_t y) {
-        for (std::size_t x = 0; x < width; ++x) pixels[y * width + x] = develop(film, options, x, y);
+        for (std::size_t x = 0; x < width; ++x) pixels[y * width + x] = pixel_colour(image, options, x, y);
     });
     return to_png(pixels, options.width, options.height);
 }

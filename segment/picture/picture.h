@@ -1,7 +1,7 @@
-// The picture of meshes as PNG, by casting rays. No GPU, no window.
+// Renders meshes as a PNG by casting rays. No GPU, no window.
 //
-// The view is orthographic and framed on its own, so that everything shows whole. Same input, same bytes, whatever
-// the number of threads (tests/segment/picture/picture_test.cpp).
+// Millimetres. The projection is orthographic and the frame is chosen so that all is in the picture. The same input
+// gives the same bytes for any number of threads (tests/segment/picture/picture_test.cpp).
 
 #pragma once
 
@@ -16,7 +16,7 @@ namespace qchopper {
 struct PictureOptions {
     int width = 1200;  // pixels
     int height = 900;
-    Vec3 view{-0.55, 0.75, -0.38};  // from the eye to the thing; any length
+    Vec3 view{-0.55, 0.75, -0.38};  // the direction of the view; any length
     Vec3 up{0, 0, 1};
     Rgb background{250, 250, 248};
     int supersampling = 2;  // rays per pixel: this squared
@@ -25,7 +25,8 @@ struct PictureOptions {
     double frame = 0.06;    // empty border, as a share of the picture
 };
 
-// Throws InputError (use) if there is no triangle to draw or an option makes no sense; Cancelled if told to stop.
-Bytes render_png(std::span<const Coloured> meshes, const PictureOptions& options = {}, const Context& context = {});
+// A mesh that is null or empty is left out. Reports progress in rows of samples. Throws InputError (use) if there is no
+// triangle to draw or an option is out of its range, Cancelled if the context is cancelled.
+Bytes render_png(std::span<const ColouredMesh> meshes, const PictureOptions& options = {}, const Context& context = {});
 
 }  // namespace qchopper

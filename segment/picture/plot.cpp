@@ -1,3 +1,5 @@
+// Panels stand in a grid; each curve is one path, clipped to its panel. O(points + marks * points).
+
 #include "segment/picture/plot.h"
 
 #include <algorithm>
@@ -10,7 +12,7 @@
 namespace qchopper {
 namespace {
 
-// Room around the panels, in the unit of the picture.
+// Distances around the panels, in the unit of the picture.
 constexpr double left = 64;
 constexpr double right = 18;
 constexpr double between_columns = 22;
@@ -22,41 +24,41 @@ constexpr double column_title = 24;
 constexpr double mark_line = 14;  // labels of marks stand one below the other
 constexpr double top = 12;
 
-constexpr double letter = 6.2;   // width of one, about
-constexpr double dots_need = 4;  // room between points, below which curves are drawn without dots
+constexpr double letter_width = 6.2;  // about
+constexpr double space_per_dot = 4;   // curves with less space between points are drawn without dots
 
-// A place in the picture; one that cannot be drawn stays near, and short in the file.
+// A coordinate of the picture as text. NaN becomes 0 and large values are limited, so that the text is short.
 std::string at(double value) {
     return svg_number(std::isnan(value) ? 0 : std::clamp(value, -1e6, 1e6), 2);
 }
 
-// Keeps words readable where a mark passes.
+// A light border around letters, so that they can be read where a mark crosses them.
 constexpr const char* halo = "paint-order=\"stroke\" stroke=\"#fdfdfb\" stroke-width=\"4\"";
-constexpr const char* ink = "#222222";
-constexpr const char* faint = "#dcdcd6";
+constexpr const char* dark = "#222222";
+constexpr const char* grid_colour = "#dcdcd6";
 
-// Numbers beyond cannot be subtracted and divided safely; they are drawn as gaps.
-bool is_sane(double value) {
+// Larger numbers can overflow where they are subtracted and divided; they are drawn as gaps.
+bool is_drawable(double value) {
     return std::isfinite(value) && std::abs(value) < 1e200;
 }
 
 class Spread {
  public:
     void add(double value) {
-        if (!is_sane(value)) return;
+        if (!is_drawable(value)) return;
         range_.low = std::min(range_.low, value);
         range_.high = std::max(range_.high, value);
     }
     PlotRange widened(double share) const {
         const double more = share * (range_.high - range_.low);
-        return mended({range_.low - more, range_.high + more});
+        return drawable_range({range_.low - more, range_.high + more});
     }
 
  private:
     PlotRange range_{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 };
 
-// y of a curve at x, between its points; nothing outside or in a gap.
+// The y of a curve at x, interpolated; nothing outside the curve or in a gap.
 std::optional<double> value_at(const std::vector<PlotPoint>& curve, double x) {
     for (std::size_t i = 0; i < curve.size(); ++i) {
         if (curve[i].x == x && std::isfinite(curve[i].y)) return curve[i].y;
@@ -68,7 +70,7 @@ std::optional<double> value_at(const std::vector<PlotPoint>& curve, double x) {
     return std::nullopt;
 }
 
-// One panel's frame in the picture.
+// The frame of one panel in the picture, and the ranges of its axes.
 struct Panel {
     double x0, y0, width, height;
     PlotRange x, y;
@@ -78,7 +80,7 @@ struct Panel {
         if (is_logarithmic) return y0 + height * std::log(y.high / value) / std::log(y.high / y.low);
         return y0 + height * (y.high - value) / (y.high - y.low);
     }
-    bool is_drawn(double value) const { return is_sane(value) && (value > (is_logarithmic ? 1e-200 : -1e200)); }
+    bool is_drawn(double value) const { return is_drawable(value) && (value > (is_logarithmic ? 1e-200 : -1e200)); }
     bool is_above(double value) const { return value > y.high; }
     bool is_below(double value) const { return value < y.low; }
 };
@@ -110,7 +112,7 @@ class Drawing {
                at(width) + "\" height=\"" + at(height) + "\" viewBox=\"0 0 " + at(width) + " " + at(height) +
                "\" font-family=\"Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif\" font-size=\"11\" "
                "fill=\"" +
-               ink + "\">\n<title>" + svg_text(plot_.title) + "</title>\n<rect width=\"100%\" height=\"100%\" " +
+               dark + "\">\n<title>" + svg_text(plot_.title) + "</title>\n<rect width=\"100%\" height=\"100%\" " +
                "fill=\"#fdfdfb\"/>\n";
         heading();
         for (std::size_t r = 0; r < plot_.rows.size(); ++r) {
@@ -126,11 +128,11 @@ class Drawing {
         for (const auto& curve : row.curves) {
             for (const PlotPoint& p : curve) {
                 if (!row.is_logarithmic) spread.add(p.y);
-                if (row.is_logarithmic && p.y > 1e-200 && is_sane(p.y)) spread.add(std::log10(p.y));
+                if (row.is_logarithmic && p.y > 1e-200 && is_drawable(p.y)) spread.add(std::log10(p.y));
             }
         }
-        if (!row.is_logarithmic) return row.range ? mended(*row.range) : spread.widened(0.06);
-        if (row.range && row.range->low > 0) return mended(*row.range);
+        if (!row.is_logarithmic) return row.range ? drawable_range(*row.range) : spread.widened(0.06);
+        if (row.range && row.range->low > 0) return drawable_range(*row.range);
         const PlotRange powers = spread.widened(0.06);
         return {std::pow(10.0, powers.low), std::pow(10.0, powers.high)};
     }
@@ -157,6 +159,12 @@ class Drawing {
                 svg_text(words) + "</text>\n";
     }
 
+    // The start of a tag for the panel's frame.
+    static std::string rectangle(const Panel& p) {
+        return "<rect x=\"" + at(p.x0) + "\" y=\"" + at(p.y0) + "\" width=\"" + at(p.width) + "\" height=\"" +
+               at(p.height) + "\"";
+    }
+
     void line(double x0, double y0, double x1, double y1, const std::string& style) {
         svg_ += "<path d=\"M" + at(x0) + " " + at(y0) + "L" + at(x1) + " " + at(y1) + "\" " + style + "/>\n";
     }
@@ -172,13 +180,12 @@ class Drawing {
     void draw(std::size_t r, std::size_t c) {
         const Panel p = panel(r, c);
         const PlotRow& row = plot_.rows[r];
-        svg_ += "<rect x=\"" + at(p.x0) + "\" y=\"" + at(p.y0) + "\" width=\"" + at(p.width) + "\" height=\"" +
-                at(p.height) + "\" fill=\"#ffffff\"/>\n";
+        svg_ += rectangle(p) + " fill=\"#ffffff\"/>\n";
         y_axis(p, c == 0);
         x_ticks(p, r + 1 == plot_.rows.size());
         for (std::size_t m = 0; m < plot_.columns[c].marks.size(); ++m) {
             const double from = r == 0 ? mark_y(m) + 3 : p.y0 - row_title;
-            upright(p, plot_.columns[c].marks[m], from);
+            draw_mark(p, plot_.columns[c].marks[m], from);
         }
         if (c < row.curves.size()) {
             curve(p, row, row.curves[c], "clip" + std::to_string(r) + "-" + std::to_string(c));
@@ -186,12 +193,11 @@ class Drawing {
                 const std::optional<double> y = value_at(row.curves[c], mark.x);
                 if (!y || !p.is_drawn(*y) || p.is_above(*y) || p.is_below(*y)) continue;
                 svg_ += "<circle cx=\"" + at(p.to_x(mark.x)) + "\" cy=\"" + at(p.to_y(*y)) + "\" r=\"3.6\" fill=\"" +
-                        (mark.is_dashed ? "#ffffff" : svg_colour(row.colour)) + "\" stroke=\"" + ink +
+                        (mark.is_dashed ? "#ffffff" : svg_colour(row.colour)) + "\" stroke=\"" + dark +
                         "\" stroke-width=\"1.2\"/>\n";
             }
         }
-        svg_ += "<rect x=\"" + at(p.x0) + "\" y=\"" + at(p.y0) + "\" width=\"" + at(p.width) + "\" height=\"" +
-                at(p.height) + "\" fill=\"none\" stroke=\"#888888\" stroke-width=\"0.8\"/>\n";
+        svg_ += rectangle(p) + " fill=\"none\" stroke=\"#888888\" stroke-width=\"0.8\"/>\n";
         if (c == 0) row_label(p, row);
     }
 
@@ -205,7 +211,7 @@ class Drawing {
         const Ticks t = p.is_logarithmic ? decades(p.y) : ticks(p.y, 4);
         for (const double value : t.values) {
             const double y = p.to_y(value);
-            line(p.x0, y, p.x0 + p.width, y, std::string("stroke=\"") + faint + "\" stroke-width=\"0.7\"");
+            line(p.x0, y, p.x0 + p.width, y, std::string("stroke=\"") + grid_colour + "\" stroke-width=\"0.7\"");
             if (has_numbers) text(p.x0 - 6, y + 3.8, t.text(value), "text-anchor=\"end\"");
         }
     }
@@ -214,31 +220,31 @@ class Drawing {
         const Ticks t = ticks(p.x, 5);
         for (const double value : t.values) {
             const double x = p.to_x(value);
-            line(x, p.y0, x, p.y0 + p.height, std::string("stroke=\"") + faint + "\" stroke-width=\"0.7\"");
+            line(x, p.y0, x, p.y0 + p.height, std::string("stroke=\"") + grid_colour + "\" stroke-width=\"0.7\"");
             if (has_numbers) text(x, p.y0 + p.height + 14, t.text(value), "text-anchor=\"middle\"");
         }
     }
 
-    // Base line of the label of a column's mark.
+    // The base line of the label of mark m of a column.
     double mark_y(std::size_t m) const { return column_top() + column_title + mark_line * static_cast<double>(m) + 9; }
 
-    void upright(const Panel& p, const PlotMark& mark, double from) {
+    void draw_mark(const Panel& p, const PlotMark& mark, double from) {
         line(p.to_x(mark.x), from, p.to_x(mark.x), p.y0 + p.height,
-             std::string("stroke=\"") + ink + "\" stroke-width=\"1\"" +
+             std::string("stroke=\"") + dark + "\" stroke-width=\"1\"" +
                  (mark.is_dashed ? " stroke-dasharray=\"4 3\"" : ""));
     }
 
     void curve(const Panel& p, const PlotRow& row, const std::vector<PlotPoint>& points, const std::string& clip) {
         const std::string colour = svg_colour(row.colour);
-        svg_ += "<clipPath id=\"" + clip + "\"><rect x=\"" + at(p.x0) + "\" y=\"" + at(p.y0) + "\" width=\"" +
-                at(p.width) + "\" height=\"" + at(p.height) + "\"/></clipPath>\n<g clip-path=\"url(#" + clip + ")\">\n";
+        svg_ +=
+            "<clipPath id=\"" + clip + "\">" + rectangle(p) + "/></clipPath>\n<g clip-path=\"url(#" + clip + ")\">\n";
         std::string path;
-        bool pen_is_down = false;
+        bool is_in_stroke = false;
         for (const PlotPoint& point : points) {
             if (p.is_drawn(point.y)) {
-                path += (pen_is_down ? "L" : "M") + at(p.to_x(point.x)) + " " + at(far_at_most(p, point.y));
+                path += (is_in_stroke ? "L" : "M") + at(p.to_x(point.x)) + " " + at(limited_y(p, point.y));
             }
-            pen_is_down = p.is_drawn(point.y);
+            is_in_stroke = p.is_drawn(point.y);
         }
         if (!path.empty()) {
             svg_ += "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + colour + "\" stroke-width=\"" + at(row.line) +
@@ -248,13 +254,13 @@ class Drawing {
         svg_ += "</g>\n";
     }
 
-    // Far outside the frame is as good as farther, and keeps the numbers in the file short.
-    static double far_at_most(const Panel& p, double value) {
+    // Far outside the frame the exact value does not matter; the numbers in the file stay short.
+    static double limited_y(const Panel& p, double value) {
         return std::clamp(p.to_y(value), p.y0 - 50 * p.height, p.y0 + 51 * p.height);
     }
 
     void dots(const Panel& p, const std::vector<PlotPoint>& points, const std::string& colour, double radius) {
-        if (p.width < dots_need * static_cast<double>(points.size())) return;
+        if (p.width < space_per_dot * static_cast<double>(points.size())) return;
         for (const PlotPoint& point : points) {
             if (!p.is_drawn(point.y)) continue;
             const double x = p.to_x(point.x);
@@ -270,7 +276,7 @@ class Drawing {
         }
     }
 
-    // Above the column its title and the labels of its marks; below it what x is.
+    // Above the column its title and the labels of its marks; below it the label of the x axis.
     void column_labels(std::size_t c) {
         if (plot_.rows.empty()) return;
         const Panel first = panel(0, c);
@@ -280,7 +286,7 @@ class Drawing {
              "text-anchor=\"middle\"");
         for (std::size_t m = 0; m < plot_.columns[c].marks.size(); ++m) {
             const PlotMark& mark = plot_.columns[c].marks[m];
-            const double wide = letter * static_cast<double>(mark.label.size());
+            const double wide = letter_width * static_cast<double>(mark.label.size());
             const double last_x = std::max(first.x0 + first.width - wide / 2, first.x0 + wide / 2);
             text(std::clamp(first.to_x(mark.x), first.x0 + wide / 2, last_x), mark_y(m), mark.label,
                  std::string("text-anchor=\"middle\" font-style=\"italic\" ") + halo);

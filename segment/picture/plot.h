@@ -1,7 +1,7 @@
-// A grid of line plots as SVG text: curves that share their x axis down a column and their y axis along a row.
+// Draws a grid of line plots as SVG text: curves share the x axis of their column and the y axis of their row.
 //
-// Made for print: light background, the fonts of the reader, nothing loaded from elsewhere. The text is valid XML
-// whatever the labels hold, and the same plot gives the same bytes (tests/segment/picture/plot_test.cpp).
+// For print: light background, fonts of the viewer, nothing loaded from elsewhere. The text is valid XML for any labels
+// and numbers, and the same plot gives the same bytes (tests/segment/picture/plot_test.cpp).
 
 #pragma once
 
@@ -20,7 +20,7 @@ struct PlotPoint {
     bool operator==(const PlotPoint&) const = default;
 };
 
-// An upright line through all rows of a column, and a dot where it meets the curves.
+// A vertical line through all rows of a column, and a dot where it meets the curves.
 struct PlotMark {
     double x = 0;
     std::string label;
@@ -33,14 +33,14 @@ struct PlotColumn {
     std::vector<PlotMark> marks;
 };
 
-// Curves of one colour. A value above or below the range leaves the frame and leaves a small arrow at its edge.
+// Curves of one colour. A value outside the range is drawn as a small arrow at the edge of the frame.
 struct PlotRow {
     std::string title;
     Rgb colour;
     double line = 1.4;                           // width of the curve
     bool is_logarithmic = false;                 // then values that are not positive are gaps
     std::optional<PlotRange> range;              // of y; nothing: of all that is drawn
-    std::vector<std::vector<PlotPoint>> curves;  // one per column, x ascending
+    std::vector<std::vector<PlotPoint>> curves;  // one per column or fewer, x ascending
 };
 
 struct Plot {
@@ -50,6 +50,7 @@ struct Plot {
     std::vector<PlotRow> rows;
 };
 
+// In units of the picture (CSS pixels).
 struct PlotOptions {
     double panel_width = 290;
     double panel_height = 104;

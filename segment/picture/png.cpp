@@ -1,3 +1,5 @@
+// libpng's simplified API. O(pixels).
+
 #include "segment/picture/png.h"
 
 #include <png.h>
@@ -8,7 +10,7 @@
 namespace qchopper {
 
 Bytes to_png(const std::vector<Rgb>& pixels, int width, int height) {
-    static_assert(sizeof(Rgb) == 3, "rows are handed to libpng as they lie");
+    static_assert(sizeof(Rgb) == 3, "libpng reads the rows in place");
     assert(pixels.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
@@ -18,7 +20,7 @@ Bytes to_png(const std::vector<Rgb>& pixels, int width, int height) {
     png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
     Bytes bytes(size);
     if (png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0, nullptr) == 0) {
-        throw std::bad_alloc();  // nothing else can fail with sizes that we chose ourselves
+        throw std::bad_alloc();  // with these sizes nothing else can fail
     }
     bytes.resize(size);
     return bytes;

@@ -1,4 +1,4 @@
-// Pixels to a PNG file in memory, 8 bits a channel. Same pixels, same bytes.
+// Encodes pixels as a PNG file in memory, 8 bits per channel. The same pixels give the same bytes.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace qchopper {
 
-// Rows from the top, each from the left; pixels.size() = width * height.
+// Rows from the top, each from the left. Preconditions: width and height are positive, pixels.size() is their product.
 Bytes to_png(const std::vector<Rgb>& pixels, int width, int height);
 
 }  // namespace qchopper

@@ -1,3 +1,6 @@
+// Embree finds what a ray meets; normals of points are blended over a triangle by Bui Tuong Phong, "Illumination for
+// Computer Generated Pictures", 1975, but not across sharp edges. Building: as Embree's tree, O(n log n) in triangles.
+
 #include "segment/picture/scene.h"
 
 #include <algorithm>
@@ -7,7 +10,7 @@
 namespace qchopper {
 namespace {
 
-constexpr double crease = 0.64;  // cosine of 50 degrees: sharper edges stay edges
+constexpr double crease = 0.64;  // cosine of 50 degrees; sharper edges are not smoothed
 
 std::vector<Vec3> point_normals(const TriangleMesh& mesh) {
     std::vector<Vec3> normals(mesh.points.size());
@@ -22,9 +25,9 @@ std::vector<Vec3> point_normals(const TriangleMesh& mesh) {
 
 }  // namespace
 
-TriangleMesh Scene::join(std::span<const Coloured> meshes) {
+TriangleMesh Scene::join(std::span<const ColouredMesh> meshes) {
     TriangleMesh all;
-    for (const Coloured& one : meshes) {
+    for (const ColouredMesh& one : meshes) {
         const auto first = static_cast<std::uint32_t>(all.points.size());
         for (const Vec3& p : one.mesh->points) all.points.push_back(p + one.shift);
         for (std::size_t t = 0; t < one.mesh->triangles.size(); ++t) {
@@ -36,9 +39,9 @@ TriangleMesh Scene::join(std::span<const Coloured> meshes) {
     return all;
 }
 
-Scene::Scene(std::span<const Coloured> meshes)
+Scene::Scene(std::span<const ColouredMesh> meshes)
     : mesh_(join(meshes)), normals_(point_normals(mesh_)), diagonal_(norm(bounds(mesh_).size())), rays_(mesh_) {
-    for (const Coloured& one : meshes) {
+    for (const ColouredMesh& one : meshes) {
         piece_of_.insert(piece_of_.end(), one.mesh->triangles.size(), static_cast<std::uint32_t>(colours_.size()));
         colours_.push_back(one.colour);
     }
@@ -60,23 +63,23 @@ Vec3 Scene::smooth_normal(std::uint32_t triangle, Vec3 at, Vec3 face_normal) con
     return normalized(blended);
 }
 
-std::optional<SeenPoint> Scene::look(Vec3 from, Vec3 direction) const {
+std::optional<SurfaceHit> Scene::cast_ray(Vec3 from, Vec3 direction) const {
     const std::optional<RayHit> hit = rays_.first_hit(from, direction);
     if (!hit) return std::nullopt;
-    SeenPoint seen;
-    seen.triangle = hit->triangle;
-    seen.at = from + hit->distance * direction;
-    seen.face_normal = normalized(area_vector(mesh_, hit->triangle));
-    seen.normal = smooth_normal(hit->triangle, seen.at, seen.face_normal);
-    if (dot(seen.face_normal, direction) > 0) {  // the inside of an open mesh
-        seen.face_normal = -seen.face_normal;
-        seen.normal = -seen.normal;
+    SurfaceHit point;
+    point.triangle = hit->triangle;
+    point.at = from + hit->distance * direction;
+    point.face_normal = normalized(area_vector(mesh_, hit->triangle));
+    point.normal = smooth_normal(hit->triangle, point.at, point.face_normal);
+    if (dot(point.face_normal, direction) > 0) {  // the inside of an open mesh
+        point.face_normal = -point.face_normal;
+        point.normal = -point.normal;
     }
-    return seen;
+    return point;
 }
 
-std::optional<double> Scene::blocked(const SeenPoint& point, Vec3 direction) const {
-    const Vec3 above = point.at + (5e-5 * diagonal_) * point.face_normal;  // rays are single precision
+std::optional<double> Scene::occluder_distance(const SurfaceHit& point, Vec3 direction) const {
+    const Vec3 above = point.at + (5e-5 * diagonal_) * point.face_normal;  // rays have single precision
     const std::optional<RayHit> hit = rays_.first_hit(above, direction);
     return hit ? std::optional<double>(hit->distance) : std::nullopt;
 }

@@ -1,3 +1,5 @@
+// One pass over the text; UTF-8 is checked as RFC 3629 defines it. O(characters).
+
 #include "segment/picture/svg.h"
 
 #include <algorithm>
@@ -8,8 +10,8 @@
 namespace qchopper {
 namespace {
 
-// Length of the UTF-8 character that begins here; 0 if none does or XML does not allow it.
-std::size_t character(const std::string& text, std::size_t i) {
+// The length of the UTF-8 character at `i`; 0 if there is none or XML does not allow it.
+std::size_t character_length(const std::string& text, std::size_t i) {
     const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
     const unsigned first = byte(i);
     if (first < 0x80) return first >= 0x20 && first != 0x7F ? 1 : 0;
@@ -50,7 +52,7 @@ std::string svg_colour(Rgb colour) {
 std::string svg_text(const std::string& text) {
     std::string result;
     for (std::size_t i = 0; i < text.size();) {
-        const std::size_t length = character(text, i);
+        const std::size_t length = character_length(text, i);
         if (length == 0)
             result += '?';
         else if (text[i] == '&')

@@ -1,5 +1,4 @@
-// The words of an SVG file: numbers, colours, and text that is valid XML whatever it holds
-// (tests/segment/picture/plot_test.cpp).
+// Formats numbers, colours and text for an SVG file, as valid XML for any input (tests/segment/picture/plot_test.cpp).
 
 #pragma once
 
@@ -9,7 +8,7 @@
 
 namespace qchopper {
 
-// Fixed decimals, a point whatever the locale, never "-0".
+// Fixed decimals, a decimal point in every locale, never "-0". Preconditions: the value is finite, 0 <= decimals <= 12.
 std::string svg_number(double value, int decimals);
 
 // "#5590e2"

@@ -1,14 +1,16 @@
-// Why this always ends with a closed manifold: at an edge of many faces any pairing of those that run along it one way
-// with those that run the other way makes every fan around a point a cycle, so the surface is closed. It can still not
-// be written with one number for each point where two pairs of one edge lie in the same fan at both ends of it: the
-// edge then has four faces. Exchanging the partners of two such pairs parts both fans, each into two with one of the
-// pairs; since fans only ever part, a pass over all edges takes out all of them. A fan of two faces would be two faces
-// on each other with opposite turns, and those are gone.
+// Pairs the faces at every edge by wedges of material and gives every fan of faces a point of its own. O(n log n) in
+// the triangles, apart from edges of very many faces.
+//
+// Proof that the result is a closed manifold: at an edge of many faces any pairing of those that run along it one way
+// with those that run the other way makes every fan around a point a cycle, so the surface is closed. One point for
+// each fan does not suffice where two pairs of one edge lie in the same fans at both ends of it: the edge then has four
+// faces. Exchanging the partners of two such pairs splits both fans, each into two with one of the pairs. Fans are only
+// ever split, so one pass over all edges removes all such cases. A fan of two faces would be two opposite faces with
+// the same corners, and those have been dropped.
 
 #include "segment/repair/balance.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -20,12 +22,13 @@
 #include "segment/mesh/manifold.h"
 #include "segment/mesh/submesh.h"
 #include "segment/repair/faces.h"
+#include "segment/repair/wedges.h"
 
 namespace qchopper {
 namespace {
 
-constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
-constexpr double same_angle = 1e-9;  // about an edge: what lies nearer is taken to lie on each other
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr double same_angle = 1e-9;  // about an edge: faces nearer than this count as coincident
 
 bool runs_up(const TriangleMesh& mesh, std::uint32_t h) {
     return start_of(mesh, h) < end_of(mesh, h);
@@ -43,7 +46,7 @@ bool is_balanced(const TriangleMesh& mesh, const IndexLists& groups) {
 class Pairing {
  public:
     explicit Pairing(TriangleMesh& mesh)
-        : mesh_(mesh), groups_(edge_groups(mesh)), partner_(3 * mesh.triangles.size(), nobody) {}
+        : mesh_(mesh), groups_(edge_groups(mesh)), partner_(3 * mesh.triangles.size(), none) {}
 
     ShellCounts run() {
         ShellCounts counts;
@@ -53,7 +56,7 @@ class Pairing {
         }
         number_fans();
         for (std::size_t g = 0; g < groups_.size(); ++g) {
-            if (groups_[g].size() > 2) part_pairs_of_one_edge(groups_[g]);
+            if (groups_[g].size() > 2) split_pairs_of_one_edge(groups_[g]);
         }
         counts.copies = give_every_fan_a_point();
         return counts;
@@ -70,31 +73,15 @@ class Pairing {
         partner_[b] = a;
     }
 
-    // Those that bound the same wedge of material: a face that runs down has material on its left, one that runs up on
-    // its right, so around the edge they match like brackets.
     void pair_wedges(std::span<const std::uint32_t> group) {
         if (group.size() == 2) return pair(group[0], group[1]);
-        std::vector<std::uint32_t> open;
-        std::vector<std::uint32_t> closing;  // of brackets that were opened before the ring was cut
-        for (const std::uint32_t h : ring_of(group)) {
-            if (!runs_up(mesh_, h)) {
-                open.push_back(h);
-            } else if (open.empty()) {
-                closing.push_back(h);
-            } else {
-                pair(open.back(), h);
-                open.pop_back();
-            }
-        }
-        assert(open.size() == closing.size());
-        for (const std::uint32_t h : closing) {
-            pair(open.back(), h);
-            open.pop_back();
-        }
+        for_each_wedge(
+            ring_of(group), [&](std::uint32_t h) { return runs_up(mesh_, h); },
+            [&](std::uint32_t down, std::uint32_t up) { pair(down, up); });
     }
 
-    // By angle. Of those that lie on each other first the ones that end a wedge, so that solids which touch there stay
-    // two, from the last to the first, so that a shell which is there twice stays two: brackets match inside out.
+    // The half-edges by angle. Of coincident faces those that end a wedge come first, so that solids which touch there
+    // stay separate, from the last to the first, so that two equal shells stay two: brackets match inside out.
     std::vector<std::uint32_t> ring_of(std::span<const std::uint32_t> group) const {
         const std::vector<AtAngle> ring = around_edge(mesh_, group);
         std::vector<std::uint32_t> result;
@@ -114,27 +101,27 @@ class Pairing {
     }
 
     void number_fans() {
-        fan_.assign(partner_.size(), nobody);
+        fan_.assign(partner_.size(), none);
         for (std::uint32_t corner = 0; corner < partner_.size(); ++corner) {
-            if (fan_[corner] == nobody) name_fan(corner, fans_++);
+            if (fan_[corner] == none) number_fan(corner, fans_++);
         }
     }
 
-    void name_fan(std::uint32_t corner, std::uint32_t name) {
-        for (; fan_[corner] != name; corner = next_in_fan(corner)) fan_[corner] = name;
+    void number_fan(std::uint32_t corner, std::uint32_t number) {
+        for (; fan_[corner] != number; corner = next_in_fan(corner)) fan_[corner] = number;
     }
 
-    // After two corners of one fan came into different ones: the smaller gets a new name, so that naming all fans anew
-    // is cheap however often they part.
-    void name_parted(std::uint32_t a, std::uint32_t b) {
+    // After a fan was split into those of corners a and b: the smaller gets a new number, so that the total cost stays
+    // O(n log n) however often fans are split.
+    void number_split(std::uint32_t a, std::uint32_t b) {
         std::uint32_t at = next_in_fan(a);
         for (std::uint32_t other = next_in_fan(b); at != a && other != b; at = next_in_fan(at)) {
             other = next_in_fan(other);
         }
-        name_fan(at == a ? a : b, fans_++);
+        number_fan(at == a ? a : b, fans_++);
     }
 
-    void part_pairs_of_one_edge(std::span<const std::uint32_t> group) {
+    void split_pairs_of_one_edge(std::span<const std::uint32_t> group) {
         std::vector<std::uint32_t> up;
         for (const std::uint32_t h : group) {
             if (runs_up(mesh_, h)) up.push_back(h);
@@ -157,22 +144,22 @@ class Pairing {
         const std::uint32_t d = partner_[b];
         pair(a, d);
         pair(b, c);
-        name_parted(a, b);
-        name_parted(c, d);
+        number_split(a, b);
+        number_split(c, d);
     }
 
     // The first fan keeps the point, every other one gets a copy.
     std::size_t give_every_fan_a_point() {
         const std::size_t before = mesh_.points.size();
-        std::vector<std::uint32_t> point_of(fans_, nobody);
+        std::vector<std::uint32_t> point_of(fans_, none);
         std::vector<bool> is_taken(before);
         for (std::uint32_t h = 0; h < partner_.size(); ++h) {
             std::uint32_t& corner = mesh_.triangles[h / 3][h % 3];
             std::uint32_t& point = point_of[fan_[h]];
-            if (point == nobody && is_taken[corner]) {
+            if (point == none && is_taken[corner]) {
                 point = static_cast<std::uint32_t>(mesh_.points.size());
                 mesh_.points.push_back(Vec3(mesh_.points[corner]));
-            } else if (point == nobody) {
+            } else if (point == none) {
                 point = corner;
                 is_taken[corner] = true;
             }

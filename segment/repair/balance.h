@@ -1,8 +1,8 @@
 // Makes closed shells of a mesh whose directed edges balance: each occurs as often as its reverse.
 //
-// Such a mesh is the boundary of something, however its faces meet, so nothing has to be added: it is enough to say
-// which two faces are neighbours at an edge of many. Faces are never turned or moved, so the signed volume stays
-// (tests/segment/repair/balance_test.cpp). Doing it, welding and doing it again is doing it once.
+// Such a mesh is the boundary of a volume, however its faces meet, so nothing has to be added: it is enough to pair the
+// faces at edges of more than two. Faces are never turned or moved, so the signed volume stays
+// (tests/segment/repair/balance_test.cpp). A weld and a second call change nothing.
 
 #pragma once
 
@@ -15,20 +15,20 @@
 
 namespace qchopper {
 
-// `found` are the edges of the mesh. Equal points must have been welded, which keeps the balance: a face that it
-// collapses has run along its edges there and back.
+// `found` are the edges of the mesh. Precondition: equal points are welded. That keeps the balance: the directed edges
+// of a collapsed face cancel.
 bool is_balanced(const TriangleMesh& mesh, const Edges& found);
 
 struct ShellCounts {
-    std::size_t cancelled = 0;    // faces that lie on each other and turn opposite ways: they go in pairs
+    std::size_t cancelled = 0;    // faces with the same corners and opposite orientation, dropped in pairs
     std::size_t edges_split = 0;  // edges of four faces or more
     std::size_t copies = 0;       // of points, at the end of the points
     bool operator==(const ShellCounts&) const = default;
 };
 
-// Needs a balanced mesh without collapsed faces. After it every edge has exactly two faces, which run along it in
-// opposite directions, and every point one fan of faces. Where every face has an opposite one, which encloses nothing,
-// the answer is nothing and the mesh stays.
+// Precondition: the mesh is balanced and has no collapsed faces. Postcondition: every edge has exactly two faces, which
+// run along it in opposite directions, and every point one fan of faces. Returns nothing and leaves the mesh as it is
+// where all faces cancel: such a mesh encloses nothing.
 std::optional<ShellCounts> close_balanced(TriangleMesh& mesh, SourceFaces* sources = nullptr);
 
 }  // namespace qchopper

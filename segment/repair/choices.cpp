@@ -1,3 +1,5 @@
+// Names of fills, and options from choices.
+
 #include "segment/repair/choices.h"
 
 #include <array>
@@ -14,8 +16,8 @@ RepairOptions options_of(const RepairChoices& choices) {
     options.weld_mm = choices.weld_mm;
     options.fill.fill = choices.fill;
     options.resolve_self_intersections = choices.resolve_self_intersections;
-    options.smooth_marks = choices.smooth_marks;
-    options.wrap_mm = choices.wrap_mm;
+    options.smooth_pen_grooves = choices.smooth_pen_grooves;
+    options.alpha_wrap_mm = choices.alpha_wrap_mm;
     return options;
 }
 

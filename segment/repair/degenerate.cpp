@@ -1,3 +1,6 @@
+// Edge flips at the longest edges of the degenerate triangles, in rounds, until none changes anything. O(triangles) to
+// find them and their neighbours, then about O(1) per flip.
+
 #include "segment/repair/degenerate.h"
 
 #include <algorithm>
@@ -13,7 +16,7 @@ namespace qchopper {
 namespace {
 
 constexpr double rounding = 1e-15;
-constexpr int most_rounds = 64;  // a row of such triangles goes one by one, from its ends
+constexpr int most_rounds = 64;  // of a row of such triangles each round removes those at its ends
 
 std::uint32_t next(std::uint32_t h) {
     return h % 3 == 2 ? h - 2 : h + 1;
@@ -121,7 +124,7 @@ class Removal {
         const int before = 1 + static_cast<int>(is_degenerate(mesh_, g / 3));
         const int after = static_cast<int>(is_flat(a, b, d)) + static_cast<int>(is_flat(b, c, d));
         const auto length = [&](std::uint32_t i, std::uint32_t j) { return norm(mesh_.points[i] - mesh_.points[j]); };
-        // Two of them in a row change places as long as their edges become shorter, so that there is an end to it.
+        // Two adjacent ones are flipped only while their common edge becomes shorter, so that the flips end.
         const bool helps = after < before || (before == 2 && length(b, d) < length(a, c));
         if (b == d || !helps || has_edge(previous(h), d)) return false;
         const std::uint32_t ab = twin_[next(h)];

@@ -1,9 +1,11 @@
+// The predicates of CGAL's exact-predicates kernel, after shared corners are matched by their coordinates. Floating
+// point with error bounds, exact arithmetic only where those do not decide.
+
 #include "segment/repair/exact_pair.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
 
-#include <cassert>
 #include <utility>
 
 namespace qchopper {
@@ -19,7 +21,7 @@ Kernel::Triangle_3 triangle(const Corners& t) {
     return {point(t[0]), point(t[1]), point(t[2])};
 }
 
-// Both triangles turned so that what they share stands first, in the same order.
+// Both triangles with their corners permuted: shared ones first, in the same order.
 struct Matched {
     Corners a;
     Corners b;

@@ -1,6 +1,6 @@
-// Exact answers about one or two triangles in space, whatever the rounding.
+// Exact predicates for one or two triangles in space, free of rounding errors.
 //
-// What "meet" means stands in self_intersections.h.
+// self_intersections.h defines "meet" (tests/segment/repair/self_intersections_test.cpp).
 
 #pragma once
 
@@ -15,8 +15,8 @@ using Corners = std::array<Vec3, 3>;
 // Whether the corners do not lie on one line.
 bool has_area(const Corners& triangle);
 
-// Whether two triangles meet elsewhere than in corners at the same place and the edges between those. Both must have an
-// area.
+// Whether two triangles meet elsewhere than in corners with equal coordinates and the edges between those.
+// Precondition: both have an area.
 bool do_meet(const Corners& a, const Corners& b);
 
 }  // namespace qchopper

@@ -1,7 +1,7 @@
-// Drops faces that say nothing: those that repeat another one, and flat double sheets.
+// Drops faces with the same corners as another one, and flat doubled components, which enclose nothing.
 //
 // Faces that stay keep their order, points keep theirs; a point that loses its last face is dropped by the next weld.
-// Doing it twice is doing it once (tests/segment/repair/faces_test.cpp).
+// A second call changes nothing (tests/segment/repair/faces_test.cpp).
 
 #pragma once
 
@@ -15,19 +15,21 @@
 namespace qchopper {
 
 struct RepeatedFaces {
-    std::size_t repeated = 0;   // with the corners of another one: one of them stays
-    std::size_t of_sheets = 0;  // of flat double sheets (a wall between two solids, a fin): both sides go
+    std::size_t repeated = 0;  // with the corners of another one, which stays
+    // Of flat doubled components (a wall between two solids, a fin): both sides are dropped.
+    std::size_t of_doubled_components = 0;
     bool operator==(const RepeatedFaces&) const = default;
 };
 
-// Equal points must have been welded. Of faces that turn the same way the first stays. Two that turn opposite ways both
-// go where the surface around them closes without them, and one of them stays where it needs one.
+// Precondition: equal points are welded. Of faces with the same orientation the first stays. Of two opposite ones both
+// are dropped where the surface around them closes without them, and one of them stays where it does not.
 RepeatedFaces drop_repeated_faces(TriangleMesh& mesh);
-// `found` are the edges of the mesh.
+// `found` are the edges of the mesh as it is passed.
 RepeatedFaces drop_repeated_faces(TriangleMesh& mesh, const Edges& found, SourceFaces* sources = nullptr);
 
-// Marks what stays when of faces with the same corners as many go that turn one way as turn the other; of the rest the
-// first stay. So each directed edge still occurs as often more than its reverse as it did.
+// One flag per triangle, true for those that stay when faces with the same corners cancel in pairs of opposite
+// orientation; of the rest the first stay. The difference between the numbers of every directed edge and its reverse
+// stays as it was.
 std::vector<bool> without_opposite_faces(const TriangleMesh& mesh);
 
 }  // namespace qchopper

@@ -1,5 +1,6 @@
 // P. Liepa, "Filling holes in meshes" (2003), as in CGAL: triangulate, refine to the density of the border, fair.
-// Fairing looks two rings deep into the surface, so only a strip around the loop is handed over.
+// Fairing reads two rings of the surface, so CGAL gets only a strip around the loop. O(points + triangles) of the mesh
+// to find the strip; the triangulation costs what it costs in fill_holes.cpp, fairing solves a sparse linear system.
 
 #include "segment/repair/fair_hole.h"
 
@@ -20,14 +21,14 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 
-constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 constexpr int rings = 3;
 constexpr std::size_t most_edges_for_full_search = 400;  // as in fill_holes.cpp
 
 struct Strip {
     Surface surface;
-    std::vector<std::uint32_t> number;  // of the mesh, per vertex of the surface
-    std::vector<std::uint32_t> vertex;  // of the surface, per point of the mesh
+    std::vector<std::uint32_t> number;  // per vertex of the surface the point of the mesh
+    std::vector<std::uint32_t> vertex;  // per point of the mesh the vertex of the surface, or none
 };
 
 std::vector<std::uint32_t> triangles_around(const TriangleMesh& mesh, std::span<const std::uint32_t> loop) {
@@ -49,12 +50,12 @@ std::vector<std::uint32_t> triangles_around(const TriangleMesh& mesh, std::span<
 
 std::optional<Strip> strip_around(const TriangleMesh& mesh, std::span<const std::uint32_t> loop) {
     Strip strip;
-    strip.vertex.assign(mesh.points.size(), nobody);
+    strip.vertex.assign(mesh.points.size(), none);
     for (const std::uint32_t t : triangles_around(mesh, loop)) {
         Surface::Vertex_index corner[3];
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t v = mesh.triangles[t][i];
-            if (strip.vertex[v] == nobody) {
+            if (strip.vertex[v] == none) {
                 const Vec3 p = mesh.points[v];
                 strip.vertex[v] = strip.surface.add_vertex({p.x, p.y, p.z});
                 strip.number.push_back(v);
@@ -66,7 +67,7 @@ std::optional<Strip> strip_around(const TriangleMesh& mesh, std::span<const std:
     return strip;
 }
 
-// Whether the new points stay about as near to the loop as the loop is wide.
+// Whether no new point is farther from the centre of the loop than three times the radius of the loop.
 bool is_near(const std::vector<Vec3>& points, const TriangleMesh& mesh, std::span<const std::uint32_t> loop) {
     const Vec3 centre = centre_of(mesh, loop);
     double radius = 0;
@@ -76,7 +77,7 @@ bool is_near(const std::vector<Vec3>& points, const TriangleMesh& mesh, std::spa
 
 }  // namespace
 
-std::optional<FairPatch> fair_hole(const TriangleMesh& mesh, std::span<const std::uint32_t> loop) {
+std::optional<FairFill> fair_hole(const TriangleMesh& mesh, std::span<const std::uint32_t> loop) {
     namespace pmp = CGAL::Polygon_mesh_processing;
     std::optional<Strip> strip = strip_around(mesh, loop);
     if (!strip) return std::nullopt;
@@ -91,25 +92,25 @@ std::optional<FairPatch> fair_hole(const TriangleMesh& mesh, std::span<const std
         surface, border, std::back_inserter(faces), std::back_inserter(vertices),
         pmp::parameters::fairing_continuity(1).do_not_use_cubic_algorithm(loop.size() > most_edges_for_full_search));
     if (faces.empty()) return std::nullopt;
-    FairPatch patch;
+    FairFill fill;
     std::sort(vertices.begin(), vertices.end());
-    strip->number.resize(surface.number_of_vertices(), nobody);
+    strip->number.resize(surface.number_of_vertices(), none);
     for (const Surface::Vertex_index v : vertices) {
         const Kernel::Point_3& p = surface.point(v);
         if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z())) return std::nullopt;
-        strip->number[v] = static_cast<std::uint32_t>(mesh.points.size() + patch.points.size());
-        patch.points.push_back({p.x(), p.y(), p.z()});
+        strip->number[v] = static_cast<std::uint32_t>(mesh.points.size() + fill.points.size());
+        fill.points.push_back({p.x(), p.y(), p.z()});
     }
-    if (!is_near(patch.points, mesh, loop)) return std::nullopt;
+    if (!is_near(fill.points, mesh, loop)) return std::nullopt;
     for (const Surface::Face_index face : faces) {
         Triangle triangle{};
         std::size_t i = 0;
         for (const Surface::Vertex_index v : surface.vertices_around_face(surface.halfedge(face))) {
             triangle[i++] = strip->number[v];
         }
-        patch.triangles.push_back(triangle);
+        fill.triangles.push_back(triangle);
     }
-    return patch;
+    return fill;
 }
 
 }  // namespace qchopper

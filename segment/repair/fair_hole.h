@@ -1,4 +1,4 @@
-// Closes one border loop with a refined and faired patch, which goes on as the surface around it bends.
+// Closes one border loop with a refined and faired fill, which continues the curvature of the surface around it.
 
 #pragma once
 
@@ -11,15 +11,15 @@
 
 namespace qchopper {
 
-// Points inside the hole, and triangles that name them after the points of the mesh: the first new one has the number
+// New points, and triangles over the points of the mesh followed by these: the first new point has the number
 // mesh.points.size().
-struct FairPatch {
+struct FairFill {
     std::vector<Vec3> points;
     std::vector<Triangle> triangles;
 };
 
-// `loop` is one of border_loops (manifold.h). Nothing if no such patch is found, or one that swings out farther than
-// the loop is wide.
-std::optional<FairPatch> fair_hole(const TriangleMesh& mesh, std::span<const std::uint32_t> loop);
+// `loop` is one of border_loops (manifold.h). Returns nothing if no fill is found, or one that reaches farther from the
+// centre of the loop than three times the radius of the loop. The mesh stays as it is.
+std::optional<FairFill> fair_hole(const TriangleMesh& mesh, std::span<const std::uint32_t> loop);
 
 }  // namespace qchopper

@@ -1,6 +1,7 @@
 // Borders are closed by the minimum-weight triangulation of P. Liepa, "Filling holes in meshes" (2003), as in CGAL.
-// OpenMesh holds the connectivity. CGAL rounds the points that it writes to an OpenMesh mesh to float; here it
-// writes none, and our own points never leave our own mesh.
+// It searches among the faces of the Delaunay tetrahedra of a loop first; where these do not close a loop of n <= 400
+// edges, among all triangles in O(n^3). The mesh is copied once: OpenMesh holds the connectivity. CGAL would round
+// points that it writes to an OpenMesh mesh to float; a flat fill writes none.
 
 #include "segment/repair/fill_holes.h"
 
@@ -23,18 +24,18 @@
 namespace qchopper {
 namespace {
 
-struct Doubles : OpenMesh::DefaultTraits {
+struct FillTraits : OpenMesh::DefaultTraits {
     using Point = OpenMesh::Vec3d;
     using Normal = OpenMesh::Vec3d;
 };
-using Surface = OpenMesh::TriMesh_ArrayKernelT<Doubles>;
+using Surface = OpenMesh::TriMesh_ArrayKernelT<FillTraits>;
 
 // Beyond this many edges only triangles of the Delaunay tetrahedra are tried: the search over all grows with n^3.
 constexpr std::size_t most_edges_for_full_search = 400;
 
-// False where the surface folds onto itself in a way that half-edges cannot tell.
+// Returns false where the mesh is no manifold that half-edges can hold.
 bool build(const TriangleMesh& mesh, Surface& surface) {
-    omerr().disable();  // it would print what the caller reports
+    omerr().disable();  // OpenMesh would print an error that the caller reports
     surface.reserve(mesh.points.size(), 3 * mesh.triangles.size() / 2 + 1, mesh.triangles.size());
     for (const Vec3& p : mesh.points) surface.add_vertex({p.x, p.y, p.z});
     for (const Triangle& t : mesh.triangles) {
@@ -44,7 +45,7 @@ bool build(const TriangleMesh& mesh, Surface& surface) {
     return true;
 }
 
-// The half-edge of the border that runs along this open edge, outside of the surface.
+// The border half-edge opposite to an open half-edge of the mesh.
 Surface::HalfedgeHandle border_half_edge(const Surface& surface, const TriangleMesh& mesh, std::uint32_t open) {
     return surface.find_halfedge(surface.vertex_handle(end_of(mesh, open)),
                                  surface.vertex_handle(start_of(mesh, open)));
@@ -72,7 +73,7 @@ std::vector<Triangle> flat_triangles(Surface& surface, const TriangleMesh& mesh,
     return triangles;
 }
 
-// The longest edge that the filling lays across the hole; its border does not count.
+// The longest edge of the filling that is not on the border of the hole.
 double longest_chord(const TriangleMesh& mesh, std::span<const std::uint32_t> loop,
                      const std::vector<Triangle>& filling) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> border;
@@ -96,7 +97,7 @@ class Filling {
         : mesh_(mesh), options_(options), flat_chord_(options.flat_chord_share * norm(bounds(mesh).size())) {}
 
     FilledHoles run(const IndexLists& loops, const Context& context) {
-        is_built_ = build(mesh_, surface_);
+        is_built_ = options_.fill != Fill::none && build(mesh_, surface_);
         for (const std::span<const std::uint32_t> loop : loops) {
             context.check_cancelled();
             if (!close(loop)) result_.left.push_back({centre_of(mesh_, loop), loop.size()});
@@ -122,7 +123,7 @@ class Filling {
         return !flat.empty() || (options_.fill != Fill::flat && fan(loop));
     }
 
-    // Where every way across is taken by an edge that is there: around a point in the middle.
+    // For loops across which no triangle fits, because its edge exists already: triangles around a point in the centre.
     bool fan(std::span<const std::uint32_t> loop) {
         if (loop.size() < 3) return false;
         const auto middle = static_cast<std::uint32_t>(mesh_.points.size() + points_.size());
@@ -132,14 +133,14 @@ class Filling {
     }
 
     bool fair(std::span<const std::uint32_t> loop) {
-        const std::optional<FairPatch> patch = fair_hole(mesh_, loop);
-        if (!patch) return false;
+        const std::optional<FairFill> fill = fair_hole(mesh_, loop);
+        if (!fill) return false;
         const auto own = static_cast<std::uint32_t>(mesh_.points.size());
-        for (Triangle t : patch->triangles) {
+        for (Triangle t : fill->triangles) {
             for (std::uint32_t& v : t) v += v < own ? 0 : static_cast<std::uint32_t>(points_.size());
             triangles_.push_back(t);
         }
-        points_.insert(points_.end(), patch->points.begin(), patch->points.end());
+        points_.insert(points_.end(), fill->points.begin(), fill->points.end());
         ++result_.faired;
         return true;
     }
@@ -159,13 +160,6 @@ class Filling {
 FilledHoles fill_holes(TriangleMesh& mesh, const FillOptions& options, const Context& context) {
     const IndexLists loops = border_loops(mesh, unpaired(mesh, edges(mesh)).open);
     if (loops.empty()) return {};
-    if (options.fill == Fill::none) {
-        FilledHoles result;
-        for (const std::span<const std::uint32_t> loop : loops) {
-            result.left.push_back({centre_of(mesh, loop), loop.size()});
-        }
-        return result;
-    }
     return Filling(mesh, options).run(loops, context);
 }
 

@@ -1,3 +1,7 @@
+// The minimum-weight triangulation of P. Liepa, "Filling holes in meshes" (2003), as in CGAL. It searches among the
+// faces of the Delaunay tetrahedra first; where these do not close a loop of n <= 200 points, among all triangles in
+// O(n^3).
+
 #include "segment/repair/fill_loop.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -26,7 +30,7 @@ std::vector<Triangle> fill_loop(const std::vector<Vec3>& loop, const std::vector
     std::vector<Triangle> triangles;
     for (const auto& [a, b, c] : found) {
         Triangle t{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)};
-        std::sort(t.begin(), t.end());  // ascending numbers run along the loop
+        std::sort(t.begin(), t.end());  // ascending positions run along the loop
         triangles.push_back(t);
     }
     return triangles;

@@ -8,9 +8,10 @@
 
 namespace qchopper {
 
-// The triangles of least bend and area (P. Liepa, "Filling holes in meshes", 2003, as in CGAL), named by the numbers of
-// the points in the loop; each runs along the loop in its direction. beyond[i] is the third corner of the triangle on
-// the other side of the edge from loop[i] to the next. Nothing if there is no such surface.
+// The triangles with the least dihedral angles and area (P. Liepa, "Filling holes in meshes", 2003, as in CGAL). Their
+// corners are positions in the loop, ascending, so each triangle is oriented as the loop runs. beyond[i], one per
+// point, is the third corner of the triangle on the other side of the edge from loop[i] to the next point. Empty if no
+// surface is found.
 std::vector<Triangle> fill_loop(const std::vector<Vec3>& loop, const std::vector<Vec3>& beyond);
 
 }  // namespace qchopper

@@ -1,6 +1,7 @@
+// Compares the volumes of the solids (solids.h). O(triangles + points).
+
 #include "segment/repair/fragments.h"
 
-#include <cstdint>
 #include <numeric>
 #include <vector>
 
@@ -10,8 +11,8 @@
 namespace qchopper {
 namespace {
 
-// Marks the triangles that are of no fragment.
-FragmentCounts find(const TriangleMesh& mesh, double volume_share, std::vector<bool>& is_kept) {
+// Sets in is_kept, one flag per triangle, those of no fragment.
+FragmentCounts find_fragments(const TriangleMesh& mesh, double volume_share, std::vector<bool>& is_kept) {
     FragmentCounts counts;
     is_kept.assign(mesh.triangles.size(), true);
     const Shells found = shells(mesh);
@@ -40,12 +41,12 @@ FragmentCounts find(const TriangleMesh& mesh, double volume_share, std::vector<b
 
 FragmentCounts count_fragments(const TriangleMesh& mesh, double volume_share) {
     std::vector<bool> is_kept;
-    return find(mesh, volume_share, is_kept);
+    return find_fragments(mesh, volume_share, is_kept);
 }
 
 FragmentCounts drop_fragments(TriangleMesh& mesh, double volume_share, SourceFaces* sources) {
     std::vector<bool> is_kept;
-    const FragmentCounts counts = find(mesh, volume_share, is_kept);
+    const FragmentCounts counts = find_fragments(mesh, volume_share, is_kept);
     if (counts.fragments > 0) keep_triangles(mesh, is_kept, sources);
     return counts;
 }

@@ -1,6 +1,6 @@
-// Finds the solids of a scan that are too small to become pieces: dust that the scanner saw.
+// Counts or drops the solids of a scan that are too small to become pieces, such as scanned dust.
 //
-// A fragment goes whole, with the cavities in it (tests/segment/repair/fragments_test.cpp).
+// A fragment is dropped with the cavities in it (tests/segment/repair/fragments_test.cpp).
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace qchopper {
 
-constexpr double fragment_share = 1e-5;  // of the volume: a solid with less is too small to be a piece
+constexpr double fragment_share = 1e-5;  // of the volume of the mesh: a solid with less is a fragment
 
 struct FragmentCounts {
     std::size_t fragments = 0;
@@ -19,10 +19,10 @@ struct FragmentCounts {
     double area_share = 0;  // of the surface of the mesh
 };
 
-// Solids with less volume than this share of the whole. The mesh must be closed and face outwards.
+// Counts solids with less volume than this share of the whole. Precondition: the mesh is closed and faces outwards.
 FragmentCounts count_fragments(const TriangleMesh& mesh, double volume_share);
 
-// The same counts, and the fragments are gone.
+// Drops them, and returns the same counts. Points stay.
 FragmentCounts drop_fragments(TriangleMesh& mesh, double volume_share, SourceFaces* sources = nullptr);
 
 }  // namespace qchopper

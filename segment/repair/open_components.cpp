@@ -1,7 +1,8 @@
+// Compares the scanned and the new area of every shell. O(triangles + points).
+
 #include "segment/repair/open_components.h"
 
 #include <cassert>
-#include <cstdint>
 #include <vector>
 
 #include "segment/mesh/shells.h"
@@ -9,9 +10,9 @@
 
 namespace qchopper {
 
-Sheets judge_sheets(TriangleMesh& mesh, SourceFaces& sources, double drop_share) {
+OpenComponents drop_open_components(TriangleMesh& mesh, SourceFaces& sources, double drop_share) {
     assert(sources.of.size() == mesh.triangles.size());
-    Sheets result;
+    OpenComponents result;
     const Shells found = shells(mesh);
     std::vector<double> scanned(found.count());
     std::vector<double> added(found.count());
@@ -23,20 +24,19 @@ Sheets judge_sheets(TriangleMesh& mesh, SourceFaces& sources, double drop_share)
         (is_added ? added : scanned)[found.shell_of[t]] += area;
         (is_added ? all_added : all_scanned) += area;
     }
-    std::vector<bool> is_sheet(found.count());
-    double in_sheets = 0;
+    std::vector<bool> is_open_component(found.count());
+    double in_open_components = 0;
     for (std::size_t s = found.count(); s-- > 0;) {
-        is_sheet[s] = added[s] > most_fill_of_surface * scanned[s];
-        if (!is_sheet[s]) continue;
+        is_open_component[s] = added[s] > most_fill_of_surface * scanned[s];
+        if (!is_open_component[s]) continue;
         ++result.left;
         result.first = found.box[s].centre();
-        in_sheets += scanned[s];
+        in_open_components += scanned[s];
     }
-    const bool goes = result.left > 0 && result.left < found.count() && in_sheets <= drop_share * all_scanned;
-    if (goes) {
+    if (result.left > 0 && result.left < found.count() && in_open_components <= drop_share * all_scanned) {
         std::vector<bool> is_kept(mesh.triangles.size());
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-            is_kept[t] = !is_sheet[found.shell_of[t]];
+            is_kept[t] = !is_open_component[found.shell_of[t]];
             if (is_kept[t]) continue;
             result.dropped_faces += sources.of[t] != new_face;
             if (sources.of[t] == new_face) all_added -= norm(area_vector(mesh, t));

@@ -1,6 +1,7 @@
-// Tells solids from sheets: any border can be closed somehow, but a sheet that is closed so has no inside.
+// Finds the open components among the shells of a filled mesh: any border can be closed somehow, but an open component
+// that is closed so has no inside. Small ones are dropped.
 //
-// A shell is a sheet when what closes its holes is larger than 80 % of what was scanned of it
+// A shell counts as an open component when what fills its holes has more than 80 % of the area that was scanned of it
 // (tests/segment/repair/open_components_test.cpp).
 
 #pragma once
@@ -12,19 +13,19 @@
 
 namespace qchopper {
 
-constexpr double most_fill_of_surface = 0.8;   // of a shell's area: beyond this it is a sheet, not a solid
-constexpr double open_component_share = 0.01;  // of the scanned surface: so much may go as open components
+constexpr double most_fill_of_surface = 0.8;   // of a shell's scanned area: with more it is an open component
+constexpr double open_component_share = 0.01;  // of the scanned area: open components of so much are dropped
 
-struct Sheets {
-    std::size_t dropped = 0;        // small ones beside a solid: taken away with what closed them
+struct OpenComponents {
+    std::size_t dropped = 0;        // with what filled their holes
     std::size_t dropped_faces = 0;  // of the scan
     std::size_t left = 0;
-    Vec3 first;  // the middle of the first one left
-    double added_area_share = 0;
+    Vec3 first;                   // centre of the box of the first one found
+    double added_area_share = 0;  // area of the new faces left, of that and the scanned area; 0 to 1
 };
 
-// Sheets go when all together have at most `drop_share` of the scanned
-// surface and something else is left.
-Sheets judge_sheets(TriangleMesh& mesh, SourceFaces& sources, double drop_share);
+// Drops all open components if together they have at most `drop_share` of the scanned area and another shell is left;
+// otherwise all stay. New triangles in `sources`, one per triangle, are what fills the holes.
+OpenComponents drop_open_components(TriangleMesh& mesh, SourceFaces& sources, double drop_share);
 
 }  // namespace qchopper

@@ -1,29 +1,29 @@
-// What repair() is to do; lengths are mm.
+// What repair() does; lengths are mm.
 
 #pragma once
 
 #include "segment/repair/fill_holes.h"
-#include "segment/repair/marks.h"
+#include "segment/repair/pen_grooves.h"
 
 namespace qchopper {
 
 struct RepairOptions {
-    double mm_per_unit = 1;            // what one unit of the mesh is
-    double weld_mm = 0;                // border points nearer than this become one; 0: off
-    bool drop_repeated = true;         // faces that lie on each other
+    double mm_per_unit = 1;            // length of one unit of the mesh, above 0
+    double weld_mm = 0;                // border points nearer than this are merged; 0: off
+    bool drop_repeated = true;         // faces that coincide with another one
     bool split = true;                 // edges of more than two faces, points where surfaces only touch
     bool orient = true;                // turn faces so that neighbours agree
     bool stitch = true;                // borders that coincide exactly
     bool remove_degenerate = true;     // faces whose corners lie on one line
     FillOptions fill;                  // holes
     bool drop_open_components = true;  // open surfaces beside the solid, of at most 1 % of its surface together
-    bool orient_outward = true;        // shells that are inside out
+    bool orient_outward = true;        // turn shells that are inside out
     bool drop_fragments = false;       // solids smaller than 1/100,000 of the volume; else they are counted
     bool resolve_self_intersections = false;
-    bool smooth_marks = false;
-    MarkOptions marks;               // used with smooth_marks
-    double wrap_mm = 0;              // last resort: wrap the scan with a ball of this radius; 0: off
-    bool measure_deviation = false;  // of a result that is a solid, or was meant to stay open
+    bool smooth_pen_grooves = false;
+    PenGrooveOptions pen_grooves;    // used with smooth_pen_grooves
+    double alpha_wrap_mm = 0;        // last resort: wrap the scan with a ball of this radius; 0: off
+    bool measure_deviation = false;  // of a result that is a solid, or of any result with Fill::none
 };
 
 }  // namespace qchopper

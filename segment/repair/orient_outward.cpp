@@ -1,3 +1,6 @@
+// A shell with an even number of shells around it (containment.h) should face outwards, one with an odd number inwards.
+// O(triangles + points), and the search for the shells around.
+
 #include "segment/repair/orient_outward.h"
 
 #include <algorithm>
@@ -16,15 +19,15 @@ namespace {
 
 constexpr double least_left = 1e-9;  // of the volume of all shells: less is rounding
 
-// Shells that turn together. One of them, the largest, tells what lies around them.
-struct Groups {
+// Shells that are turned together. The shells around a group are those around its largest one.
+struct ShellGroups {
     std::vector<std::uint32_t> group_of;  // per shell
-    std::vector<std::uint32_t> largest;   // per group: a shell
+    std::vector<std::uint32_t> largest;   // per group: the shell of largest absolute volume
     std::vector<double> volume;           // per group
 };
 
-Groups grouped(const Shells& found, std::vector<std::uint32_t> group_of) {
-    Groups groups{std::move(group_of), {}, {}};
+ShellGroups grouped(const Shells& found, std::vector<std::uint32_t> group_of) {
+    ShellGroups groups{std::move(group_of), {}, {}};
     for (std::uint32_t s = 0; s < found.count(); ++s) {
         const std::uint32_t g = groups.group_of[s];
         if (g >= groups.volume.size()) {
@@ -37,13 +40,13 @@ Groups grouped(const Shells& found, std::vector<std::uint32_t> group_of) {
     return groups;
 }
 
-Groups each_by_itself(const Shells& found) {
+ShellGroups each_by_itself(const Shells& found) {
     std::vector<std::uint32_t> group_of(found.count());
     std::iota(group_of.begin(), group_of.end(), 0);
     return grouped(found, std::move(group_of));
 }
 
-Groups touching(const TriangleMesh& mesh, const Shells& found) {
+ShellGroups touching(const TriangleMesh& mesh, const Shells& found) {
     TriangleMesh welded = mesh;
     if (weld(welded).collapsed > 0) return each_by_itself(found);
     const Shells together = shells(welded);  // numbered by their first triangle, as those of the mesh are
@@ -52,8 +55,8 @@ Groups touching(const TriangleMesh& mesh, const Shells& found) {
     return grouped(found, std::move(group_of));
 }
 
-// Which shells are to turn, when those of a group turn together.
-std::vector<bool> inside_out(const Shells& found, const Groups& groups, const IndexLists& around) {
+// One flag per shell: whether it is to be turned, when those of a group are turned together.
+std::vector<bool> inside_out(const Shells& found, const ShellGroups& groups, const IndexLists& around) {
     const auto around_group = [&](std::uint32_t g) {
         const std::span<const std::uint32_t> all = around[groups.largest[g]];
         std::vector<std::uint32_t> others(all.begin(), all.end());

@@ -1,3 +1,6 @@
+// Welds, settles, resolves, smooths and measures: the order of docs/repair.md. Memory: two more copies of the mesh, one
+// to measure the deviation and one to undo a resolving. The cost is that of the steps.
+
 #include "segment/repair/repair.h"
 
 #include <algorithm>
@@ -20,9 +23,9 @@ constexpr int most_resolvings = 4;
 
 void check(const RepairOptions& o) {
     const auto is_length = [](double x) { return std::isfinite(x) && x >= 0; };
-    if (!is_length(o.weld_mm) || !is_length(o.wrap_mm) || !std::isfinite(o.mm_per_unit) || !(o.mm_per_unit > 0) ||
+    if (!is_length(o.weld_mm) || !is_length(o.alpha_wrap_mm) || !std::isfinite(o.mm_per_unit) || !(o.mm_per_unit > 0) ||
         !is_length(o.fill.flat_chord_share)) {
-        throw InputError(InputFault::use, "lengths for the repair must be positive numbers in mm",
+        throw InputError(InputFault::use, "lengths for the repair must be finite and not negative, in mm",
                          "see qchopper repair --help");
     }
 }
@@ -47,8 +50,8 @@ class Repairing {
 
     Repaired run() {
         weld_points();
-        if (options_.wrap_mm > 0 && !mesh_.triangles.empty()) {
-            wrap_up();
+        if (options_.alpha_wrap_mm > 0 && !mesh_.triangles.empty()) {
+            alpha_wrap_scan();
         } else {
             settle(state_, options_, progress_);
             resolve();
@@ -73,7 +76,7 @@ class Repairing {
     bool is_closed() const { return edges(mesh_).faults.is_closed(); }
 
     void resolve() {
-        if (!options_.resolve_self_intersections || mesh_.triangles.empty() || report_.sheets > 0) return;
+        if (!options_.resolve_self_intersections || mesh_.triangles.empty() || report_.open_components_left > 0) return;
         for (int round = 0; round < most_resolvings; ++round) {
             progress_.begin("self-intersections resolved");
             const bool was_closed = is_closed();
@@ -83,7 +86,8 @@ class Repairing {
                 weld(mesh_, &sources_);
                 settle(state_, options_, progress_);
             }
-            if (was_closed && (!is_closed() || !(volume_mm3(mesh_) > 0) || report_.sheets > kept.report.sheets)) {
+            if (was_closed && (!is_closed() || !(volume_mm3(mesh_) > 0) ||
+                               report_.open_components_left > kept.report.open_components_left)) {
                 state_ = kept;
                 report_.resolving_undone = true;
                 if (!report_.resolved) report_.resolved = Resolved{};
@@ -91,12 +95,12 @@ class Repairing {
                 report_.resolved->left = now.pairs;
                 return;
             }
-            tell(now);
+            add(now);
             if (now.places == 0 || now.left == 0) return;
         }
     }
 
-    void tell(const Resolved& now) {
+    void add(const Resolved& now) {
         if (!report_.resolved) {
             report_.resolved = now;
             return;
@@ -110,25 +114,23 @@ class Repairing {
         all.where_left = now.where_left;
     }
 
-    // The thresholds of marks are mm.
+    // The limits of pen grooves are mm. Points that do not move keep their bits.
     void smooth() {
-        if (!options_.smooth_marks || mesh_.triangles.empty()) return;
-        progress_.begin("marks lifted");
+        if (!options_.smooth_pen_grooves || mesh_.triangles.empty()) return;
+        progress_.begin("pen grooves lifted");
         TriangleMesh in_mm = scaled(mesh_, options_.mm_per_unit);
         const std::vector<Vec3> before = in_mm.points;
-        report_.marks = smooth_marks(in_mm, options_.marks, context_);
+        report_.pen_grooves = smooth_pen_grooves(in_mm, options_.pen_grooves, context_);
         for (std::size_t v = 0; v < before.size(); ++v) {
             if (in_mm.points[v] != before[v]) mesh_.points[v] = (1 / options_.mm_per_unit) * in_mm.points[v];
         }
     }
 
-    void wrap_up() {
+    void alpha_wrap_scan() {
         progress_.begin("scan wrapped");
         const TriangleMesh in_mm = scaled(mesh_, options_.mm_per_unit);
-        WrapOptions wrapping;
-        wrapping.alpha_mm = options_.wrap_mm;
-        report_.wrapped = filled_in(wrapping, in_mm);
-        mesh_ = scaled(wrap(in_mm, wrapping, context_), 1 / options_.mm_per_unit);
+        report_.alpha_wrapped = filled_in({options_.alpha_wrap_mm, 0}, in_mm);
+        mesh_ = scaled(alpha_wrap(in_mm, *report_.alpha_wrapped, context_), 1 / options_.mm_per_unit);
         sources_.of.assign(mesh_.triangles.size(), new_face);
         const Outward counts = orient_outward(mesh_);
         report_.shells = counts.shells;
@@ -146,7 +148,8 @@ class Repairing {
         report_.open_edges = faults.open + faults.inconsistent + faults.non_manifold;
         if (report_.open_edges > 0) report_.first_open_edge = mesh_.points[mesh_.triangles[faults.first_triangle][0]];
         report_.volume = faults.is_closed() ? volume_mm3(mesh_) : 0;
-        // Nobody is told of a result that is refused, and for a sheet, which lies on what closes it, it takes long.
+        // A result that is refused needs none, and that of an open component, which coincides with what fills it, takes
+        // very long.
         if (!options_.measure_deviation || !(report_.is_solid() || options_.fill.fill == Fill::none)) return;
         const TriangleMesh before = scaled(std::move(before_), options_.mm_per_unit);
         DistanceOptions distance;

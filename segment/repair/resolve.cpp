@@ -1,13 +1,13 @@
-// The way of M. Attene, "A lightweight approach to repairing digitized polygon meshes" (2010), in small: take out,
-// close, look again, and widen what does not come out right.
+// The local step of M. Attene, "A lightweight approach to repairing digitized polygon meshes" (2010): remove the
+// intersecting triangles, fill the hole, check the filling exactly, and retry with a wider neighbourhood where it
+// fails. A pass costs a search for all intersections, O(triangles) and a triangulation of each loop that is tried
+// (fill_loop).
 
 #include "segment/repair/resolve.h"
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "segment/mesh/disjoint_sets.h"
 #include "segment/mesh/manifold.h"
@@ -16,25 +16,18 @@
 #include "segment/repair/exact_pair.h"
 #include "segment/repair/faces.h"
 #include "segment/repair/fill_loop.h"
-#include "segment/repair/patch.h"
 #include "segment/repair/self_intersections.h"
+#include "segment/repair/surface_region.h"
 
 namespace qchopper {
 namespace {
 
-constexpr std::size_t most_triangles_of_patch = 20'000;
+constexpr std::size_t most_triangles_of_region = 20'000;
 constexpr std::size_t most_edges_of_loop = 400;
-constexpr std::size_t most_places_told = 10;
+constexpr std::size_t most_places_listed = 10;
 
 std::size_t count_of(const SelfIntersections& found) {
     return found.pairs.size() + found.without_area.size();
-}
-
-void grow(Box& box, Vec3 p) {
-    for (int axis = 0; axis < 3; ++axis) {
-        box.min[axis] = std::min(box.min[axis], p[axis]);
-        box.max[axis] = std::max(box.max[axis], p[axis]);
-    }
 }
 
 bool do_meet(const Box& a, const Box& b) {
@@ -42,13 +35,13 @@ bool do_meet(const Box& a, const Box& b) {
            b.min.z <= a.max.z;
 }
 
-// Triangles that hang together through pairs that meet or through shared points.
-struct Place {
+// Intersecting triangles that are connected by pairs that meet or by shared points.
+struct IntersectionPlace {
     std::vector<std::uint32_t> triangles;  // ascending
 };
 
 // In the order of their first triangles.
-std::vector<Place> places_of(const TriangleMesh& mesh, const SelfIntersections& found) {
+std::vector<IntersectionPlace> places_of(const TriangleMesh& mesh, const SelfIntersections& found) {
     std::vector<std::uint32_t> triangles = found.without_area;
     for (const auto& [a, b] : found.pairs) {
         triangles.push_back(a);
@@ -69,7 +62,7 @@ std::vector<Place> places_of(const TriangleMesh& mesh, const SelfIntersections& 
     for (std::size_t i = 1; i < corners.size(); ++i) {
         if (corners[i].first == corners[i - 1].first) sets.unite(corners[i].second, corners[i - 1].second);
     }
-    std::vector<Place> places;
+    std::vector<IntersectionPlace> places;
     std::vector<std::size_t> place_of(triangles.size());
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         const std::uint32_t root = sets.root(i);
@@ -82,36 +75,36 @@ std::vector<Place> places_of(const TriangleMesh& mesh, const SelfIntersections& 
     return places;
 }
 
-// One pass over all places of a mesh. Places that come near one that was mended in this pass wait for the next.
-class Pass {
+// One pass over all places of a mesh. Places near one that was repaired in this pass wait for the next pass.
+class ResolvePass {
  public:
-    Pass(const TriangleMesh& mesh, const ResolveOptions& options)
-        : mesh_(mesh), options_(options), around_(mesh), tree_(mesh), is_kept_(mesh.triangles.size(), true) {
+    ResolvePass(const TriangleMesh& mesh, const ResolveOptions& options)
+        : mesh_(mesh), options_(options), incidence_(mesh), tree_(mesh), is_kept_(mesh.triangles.size(), true) {
         most_extent_ = options.most_extent * norm(bounds(mesh).size());
     }
 
-    // Whether the place came right.
-    bool mend(const Place& place) {
-        SurfacePatch patch(around_, place.triangles);
+    // Returns whether the place is repaired.
+    bool repair_place(const IntersectionPlace& place) {
+        SurfaceRegion region(incidence_, place.triangles);
         for (int round = 0; round < options_.rounds; ++round) {
-            if (round > 0) patch.grow();
-            patch.tidy();
-            const Box box = box_of(patch);
-            if (patch.triangles().size() > most_triangles_of_patch || norm(box.size()) > most_extent_) return false;
-            if (std::any_of(mended_.begin(), mended_.end(), [&](const Box& b) { return do_meet(b, box); }))
+            if (round > 0) region.grow();
+            region.tidy();
+            const Box box = box_of(region);
+            if (region.triangles().size() > most_triangles_of_region || norm(box.size()) > most_extent_) return false;
+            if (std::any_of(repaired_.begin(), repaired_.end(), [&](const Box& b) { return do_meet(b, box); }))
                 return false;
-            const std::optional<std::vector<Triangle>> filling = filling_of(patch);
+            const std::optional<std::vector<Triangle>> filling = filling_of(region);
             if (!filling) continue;
-            for (const std::uint32_t t : patch.triangles()) is_kept_[t] = false;
-            removed += patch.triangles().size();
+            for (const std::uint32_t t : region.triangles()) is_kept_[t] = false;
+            removed += region.triangles().size();
             added_.insert(added_.end(), filling->begin(), filling->end());
-            mended_.push_back(box);
+            repaired_.push_back(box);
             return true;
         }
         return false;
     }
 
-    // Into the mesh of this pass, which is over with that.
+    // Changes the mesh of this pass, which must not be used after that.
     void apply(TriangleMesh& mesh, SourceFaces* sources) const {
         keep_triangles(mesh, is_kept_, sources);
         mesh.triangles.insert(mesh.triangles.end(), added_.begin(), added_.end());
@@ -122,18 +115,18 @@ class Pass {
     std::size_t added() const { return added_.size(); }
 
  private:
-    Box box_of(const SurfacePatch& patch) const {
-        const Vec3 first = mesh_.points[mesh_.triangles[patch.triangles()[0]][0]];
+    Box box_of(const SurfaceRegion& region) const {
+        const Vec3 first = mesh_.points[mesh_.triangles[region.triangles()[0]][0]];
         Box box{first, first};
-        for (const std::uint32_t t : patch.triangles()) {
-            for (const std::uint32_t corner : mesh_.triangles[t]) grow(box, mesh_.points[corner]);
+        for (const std::uint32_t t : region.triangles()) {
+            for (const std::uint32_t corner : mesh_.triangles[t]) extend(box, mesh_.points[corner]);
         }
         return box;
     }
 
-    // Triangles that close the patch's borders and meet nothing.
-    std::optional<std::vector<Triangle>> filling_of(const SurfacePatch& patch) const {
-        const auto loops = patch.loops();
+    // Triangles that close the region's borders and meet no other triangle; nothing if none are found.
+    std::optional<std::vector<Triangle>> filling_of(const SurfaceRegion& region) const {
+        const auto loops = region.loops();
         if (!loops) return std::nullopt;
         std::vector<Triangle> filling;
         for (const auto& [loop] : *loops) {
@@ -142,7 +135,7 @@ class Pass {
             std::vector<Vec3> beyond;
             for (const std::uint32_t h : loop) {
                 points.push_back(mesh_.points[start_of(mesh_, h)]);
-                beyond.push_back(mesh_.points[opposite_corner(around_.twin[h])]);
+                beyond.push_back(mesh_.points[opposite_corner(incidence_.twin[h])]);
             }
             const std::vector<Triangle> triangles = fill_loop(points, beyond);
             if (triangles.size() + 2 != loop.size()) return std::nullopt;
@@ -151,7 +144,7 @@ class Pass {
                     {start_of(mesh_, loop[t[0]]), start_of(mesh_, loop[t[1]]), start_of(mesh_, loop[t[2]])});
             }
         }
-        if (!is_manifold(patch, filling) || meets_anything(patch, filling)) return std::nullopt;
+        if (!is_manifold(region, filling) || meets_anything(region, filling)) return std::nullopt;
         return filling;
     }
 
@@ -161,7 +154,7 @@ class Pass {
     }
 
     // Every directed edge at most once, together with the triangles that stay.
-    bool is_manifold(const SurfacePatch& patch, const std::vector<Triangle>& filling) const {
+    bool is_manifold(const SurfaceRegion& region, const std::vector<Triangle>& filling) const {
         std::vector<std::array<std::uint32_t, 2>> runs;
         for (const Triangle& t : filling) {
             for (std::size_t k = 0; k < 3; ++k) runs.push_back({t[k], t[(k + 1) % 3]});
@@ -170,8 +163,8 @@ class Pass {
         if (std::adjacent_find(runs.begin(), runs.end()) != runs.end()) return false;
         return std::all_of(runs.begin(), runs.end(), [&](const std::array<std::uint32_t, 2>& run) {
             bool is_free = true;
-            around_.for_each_at(run[0], [&](std::uint32_t t) {
-                if (patch.has(t)) return;
+            incidence_.for_each_at(run[0], [&](std::uint32_t t) {
+                if (region.has(t)) return;
                 const Triangle& other = mesh_.triangles[t];
                 for (std::size_t k = 0; k < 3; ++k) {
                     if (other[k] == run[0] && other[(k + 1) % 3] == run[1]) is_free = false;
@@ -181,7 +174,7 @@ class Pass {
         });
     }
 
-    bool meets_anything(const SurfacePatch& patch, const std::vector<Triangle>& filling) const {
+    bool meets_anything(const SurfaceRegion& region, const std::vector<Triangle>& filling) const {
         std::vector<Corners> corners;
         std::vector<FloatBox> boxes;
         for (const Triangle& t : filling) {
@@ -195,7 +188,7 @@ class Pass {
             }
             bool is_met = false;
             tree_.for_each_near(boxes[i], [&](std::uint32_t t) {
-                if (is_met || !is_kept_[t] || patch.has(t)) return;
+                if (is_met || !is_kept_[t] || region.has(t)) return;
                 const Corners other = corners_of(mesh_, t);
                 is_met = has_area(other) && qchopper::do_meet(corners[i], other);
             });
@@ -206,15 +199,15 @@ class Pass {
 
     const TriangleMesh& mesh_;
     const ResolveOptions& options_;
-    const PatchSurroundings around_;
+    const MeshIncidence incidence_;
     const TriangleTree tree_;
     std::vector<bool> is_kept_;
     double most_extent_ = 0;
-    std::vector<Box> mended_;  // around what was mended
+    std::vector<Box> repaired_;  // around the repaired places
     std::vector<Triangle> added_;
 };
 
-// Points that no triangle uses go; the others keep their order.
+// Drops points that were used and are no longer; the others keep their order. Returns their number.
 std::size_t drop_unused(TriangleMesh& mesh, const std::vector<bool>& was_used) {
     constexpr std::uint32_t gone = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> place(mesh.points.size(), gone);
@@ -237,8 +230,8 @@ std::size_t drop_unused(TriangleMesh& mesh, const std::vector<bool>& was_used) {
 
 std::vector<Vec3> some_places(const TriangleMesh& mesh, const SelfIntersections& found) {
     std::vector<Vec3> some;
-    for (const Place& place : places_of(mesh, found)) {
-        if (some.size() == most_places_told) break;
+    for (const IntersectionPlace& place : places_of(mesh, found)) {
+        if (some.size() == most_places_listed) break;
         const std::uint32_t first = place.triangles.front();
         const auto pair = std::find_if(found.pairs.begin(), found.pairs.end(),
                                        [&](const auto& p) { return p[0] == first || p[1] == first; });
@@ -262,19 +255,19 @@ Resolved resolve_self_intersections(TriangleMesh& mesh, const ResolveOptions& op
         for (const std::uint32_t corner : t) was_used[corner] = true;
     }
     for (std::size_t pass = 0; pass < options.passes && found.is_complete && result.left > 0; ++pass) {
-        Pass mending(mesh, options);
-        const std::vector<Place> places = places_of(mesh, found);
-        std::size_t mended = 0;
+        ResolvePass resolving(mesh, options);
+        const std::vector<IntersectionPlace> places = places_of(mesh, found);
+        std::size_t repaired = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
             context.check_cancelled();
-            mended += mending.mend(places[i]);
-            context.progress("self-intersecting places looked at", i + 1, places.size());
+            repaired += resolving.repair_place(places[i]);
+            context.progress("self-intersecting places tried", i + 1, places.size());
         }
-        if (mended == 0) break;
-        mending.apply(mesh, sources);
-        result.places += mended;
-        result.removed += mending.removed;
-        result.added += mending.added();
+        if (repaired == 0) break;
+        resolving.apply(mesh, sources);
+        result.places += repaired;
+        result.removed += resolving.removed;
+        result.added += resolving.added();
         found = self_intersections(mesh, limits, context);
         result.left = count_of(found);
     }

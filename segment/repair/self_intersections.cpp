@@ -1,6 +1,6 @@
-// Two subtrees of boxes are walked together (a tree against itself), nearly all pairs that come out are neighbours,
-// and a plane that parts them is found in plain double arithmetic with a bound on its error. What is left is decided
-// exactly.
+// A tree of boxes is traversed against itself. Nearly all pairs of triangles that it finds are neighbours, which a
+// plane separates: that is decided in double arithmetic with a bound on the rounding error, the rest exactly
+// (exact_pair.h). About O(n log n) for n triangles of a surface, O(n^2) where all boxes meet, which the limits end.
 
 #include "segment/repair/self_intersections.h"
 
@@ -15,10 +15,11 @@
 namespace qchopper {
 namespace {
 
-// Bounds on what rounding does to a dot product (2.2e-16 x 3) and to a determinant of differences, with room to spare.
+// Bounds on the relative rounding error of a dot product (2.2e-16 x 3) and of a determinant of differences, with a
+// margin.
 constexpr double dot_error = 4e-15;
 constexpr double determinant_error = 2e-14;
-// Below this products lose digits because they are too small for a double.
+// Products below this lose digits by underflow.
 constexpr double smallest = 1e-280;
 
 double sum_of(Vec3 a) {
@@ -90,10 +91,10 @@ bool are_apart(const Corners& a, const Corners& b) {
            is_beyond((b[0] - a[0]) + (b[1] - a[1]) + (b[2] - a[2]), a, b);
 }
 
-// So many subtrees are searched before the limits are looked at; each may take its share of them.
+// So many subtrees are searched before the limits are checked; each may reach its share of them.
 constexpr std::size_t per_wave = 16;
 
-// One search on its way.
+// One search for all pairs.
 class Searching {
  public:
     Searching(const TriangleMesh& mesh, const SelfIntersectionOptions& options)
@@ -103,20 +104,22 @@ class Searching {
         SelfIntersections result;
         if (tree_.leaves == 0) return result;
         find_without_area(result);
-        // Subtrees of one level against each other, in waves: where a limit ends the search must not depend on threads.
+        // Subtrees of one level against each other, in waves, so that the end at a limit does not depend on the
+        // threads.
         const std::size_t subtrees = std::min<std::size_t>(tree_.leaves, 1024);
-        std::size_t looks = 0;
+        std::size_t comparisons = 0;
         for (std::size_t begin = 0; begin < subtrees && result.is_complete; begin += per_wave) {
             context.check_cancelled();
             const std::size_t end = std::min(subtrees, begin + per_wave);
             std::vector<Task> wave(end - begin);
             parallel_for(begin, end, [&](std::size_t i) { search_from(subtrees, i, wave[i - begin]); });
             for (Task& task : wave) {
-                looks += task.looks;
+                comparisons += task.comparisons;
                 result.pairs.insert(result.pairs.end(), task.pairs.begin(), task.pairs.end());
                 result.is_complete &= !task.is_over;
             }
-            if (end < subtrees && (looks > options_.most_looks || result.pairs.size() > options_.most_pairs)) {
+            if (end < subtrees &&
+                (comparisons > options_.most_comparisons || result.pairs.size() > options_.most_pairs)) {
                 result.is_complete = false;
             }
             context.progress("places searched for self-intersections", end, subtrees);
@@ -128,8 +131,8 @@ class Searching {
  private:
     struct Task {
         std::vector<std::array<std::uint32_t, 2>> pairs;
-        std::size_t looks = 0;
-        bool is_over = false;  // it came to a limit by itself
+        std::size_t comparisons = 0;
+        bool is_over = false;  // it has reached its share of a limit
     };
 
     void find_without_area(SelfIntersections& result) {
@@ -150,7 +153,7 @@ class Searching {
         }
     }
 
-    // A subtree against itself and those after it.
+    // One subtree against itself and those after it.
     void search_from(std::size_t subtrees, std::size_t i, Task& task) const {
         within(subtrees + i, task);
         for (std::size_t j = i + 1; j < subtrees; ++j) between(subtrees + i, subtrees + j, task);
@@ -166,15 +169,15 @@ class Searching {
         }
         const auto [begin, end] = places(node);
         for (std::size_t i = begin; i < end; ++i) {
-            for (std::size_t j = i + 1; j < end; ++j) look(i, j, task);
+            for (std::size_t j = i + 1; j < end; ++j) compare(i, j, task);
         }
     }
 
     // Two nodes of one level.
     void between(std::size_t a, std::size_t b, Task& task) const {
-        ++task.looks;
-        task.is_over |=
-            task.pairs.size() > options_.most_pairs / per_wave || task.looks > options_.most_looks / per_wave;
+        ++task.comparisons;
+        task.is_over |= task.pairs.size() > options_.most_pairs / per_wave ||
+                        task.comparisons > options_.most_comparisons / per_wave;
         if (task.is_over || !do_meet(tree_.of_node[a], tree_.of_node[b])) return;
         if (a < tree_.leaves) {
             between(2 * a, 2 * b, task);
@@ -187,9 +190,9 @@ class Searching {
         const auto [begin_b, end_b] = places(b);
         for (std::size_t i = begin_a; i < end_a; ++i) {
             if (!do_meet(tree_.of_triangle[i], tree_.of_node[b])) continue;
-            for (std::size_t j = begin_b; j < end_b; ++j) look(i, j, task);
+            for (std::size_t j = begin_b; j < end_b; ++j) compare(i, j, task);
         }
-        task.looks += TriangleTree::per_leaf * TriangleTree::per_leaf;
+        task.comparisons += TriangleTree::per_leaf * TriangleTree::per_leaf;
     }
 
     std::pair<std::size_t, std::size_t> places(std::size_t leaf_node) const {
@@ -197,7 +200,7 @@ class Searching {
         return {std::min(begin, tree_.order.size()), std::min(begin + TriangleTree::per_leaf, tree_.order.size())};
     }
 
-    void look(std::size_t i, std::size_t j, Task& task) const {
+    void compare(std::size_t i, std::size_t j, Task& task) const {
         if (!do_meet(tree_.of_triangle[i], tree_.of_triangle[j])) return;
         const std::uint32_t a = tree_.order[i];
         const std::uint32_t b = tree_.order[j];

@@ -1,4 +1,4 @@
-// The steps of repair() that make closed shells of a surface, over and over until none of them makes work for another.
+// The steps of repair() that make closed shells of a surface, repeated until a pass over them changes nothing.
 
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace qchopper {
 
-// A scan on its way through the steps.
+// A scan during its repair.
 struct RepairState {
     TriangleMesh mesh;
     SourceFaces sources;  // of the mesh
@@ -23,13 +23,15 @@ struct RepairState {
 struct StepProgress {
     const Context& context;
     std::size_t steps = 0;  // begun so far
+    // Throws Cancelled if the context asks for it.
     void begin(const std::string& what) {
         context.check_cancelled();
         context.progress(what, ++steps, 0);
     }
 };
 
-// Equal points must have been welded. At most twelve passes; what they did is added to the report.
+// Precondition: equal points are welded, the mesh has no caps. At most twelve passes; their counts are added to the
+// report.
 void settle(RepairState& state, const RepairOptions& options, StepProgress& progress);
 
 }  // namespace qchopper

@@ -1,3 +1,6 @@
+// Puts every border point into the nearest group that can take it, in the order of the points; a grid of cells as large
+// as the tolerance finds the groups. O(triangles), and O(n log n) in the border points while cells hold few of them.
+
 #include "segment/repair/snap_borders.h"
 
 #include <algorithm>
@@ -15,13 +18,13 @@
 namespace qchopper {
 namespace {
 
-constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-using Cell = std::array<std::int64_t, 3>;
+using GridCell = std::array<std::int64_t, 3>;
 
-class Clusters {
+class PointGroups {
  public:
-    Clusters(const TriangleMesh& mesh, double tolerance)
+    PointGroups(const TriangleMesh& mesh, double tolerance)
         : mesh_(mesh), tolerance_(tolerance), neighbours_(mesh.points.size()) {
         const Edges found = edges(mesh);
         std::vector<bool> is_border(mesh.points.size());
@@ -41,38 +44,38 @@ class Clusters {
         }
     }
 
-    // Per cluster its points; the first is kept.
+    // Per group its points; the first is kept.
     std::vector<std::vector<std::uint32_t>> members;
 
  private:
-    Cell cell_of(Vec3 p) const {
+    GridCell cell_of(Vec3 p) const {
         const auto at = [&](double x) { return static_cast<std::int64_t>(std::floor(x / tolerance_)); };
         return {at(p.x), at(p.y), at(p.z)};
     }
 
-    bool takes(const std::vector<std::uint32_t>& cluster, std::uint32_t v) const {
-        return std::all_of(cluster.begin(), cluster.end(), [&](std::uint32_t m) {
+    bool can_take(const std::vector<std::uint32_t>& group, std::uint32_t v) const {
+        return std::all_of(group.begin(), group.end(), [&](std::uint32_t m) {
             return norm(mesh_.points[m] - mesh_.points[v]) <= tolerance_ &&
                    std::find(neighbours_[v].begin(), neighbours_[v].end(), m) == neighbours_[v].end();
         });
     }
 
-    // In the nearest cluster that takes it, or in one of its own.
+    // Adds the point to the nearest group that can take it, or makes a group of it.
     void place(std::uint32_t v) {
-        const Cell home = cell_of(mesh_.points[v]);
-        std::uint32_t best = nobody;
+        const GridCell home = cell_of(mesh_.points[v]);
+        std::uint32_t best = none;
         double nearest = std::numeric_limits<double>::infinity();
         for (std::int64_t i = 0; i < 27; ++i) {
             const auto cell = firsts_.find({home[0] + i % 3 - 1, home[1] + i / 3 % 3 - 1, home[2] + i / 9 - 1});
             if (cell == firsts_.end()) continue;
             for (const std::uint32_t c : cell->second) {
                 const double far = norm(mesh_.points[members[c].front()] - mesh_.points[v]);
-                if (far > nearest || (far == nearest && c > best) || !takes(members[c], v)) continue;
+                if (far > nearest || (far == nearest && c > best) || !can_take(members[c], v)) continue;
                 nearest = far;
                 best = c;
             }
         }
-        if (best != nobody) {
+        if (best != none) {
             members[best].push_back(v);
             return;
         }
@@ -83,7 +86,7 @@ class Clusters {
     const TriangleMesh& mesh_;
     double tolerance_;
     std::vector<std::vector<std::uint32_t>> neighbours_;
-    std::map<Cell, std::vector<std::uint32_t>> firsts_;  // clusters whose first point lies in the cell
+    std::map<GridCell, std::vector<std::uint32_t>> firsts_;  // groups whose first point lies in the cell
 };
 
 }  // namespace
@@ -92,9 +95,9 @@ SnapBorders weld_borders(TriangleMesh& mesh, double tolerance, SourceFaces* sour
     SnapBorders result;
     if (!(tolerance > 0) || edges(mesh).faults.open == 0) return result;
     std::vector<Vec3> moved = mesh.points;
-    for (const std::vector<std::uint32_t>& cluster : Clusters(mesh, tolerance).members) {
-        const Vec3 first = mesh.points[cluster.front()];
-        for (const std::uint32_t v : cluster) {
+    for (const std::vector<std::uint32_t>& group : PointGroups(mesh, tolerance).members) {
+        const Vec3 first = mesh.points[group.front()];
+        for (const std::uint32_t v : group) {
             result.farthest = std::max(result.farthest, norm(mesh.points[v] - first));
             moved[v] = first;
         }

@@ -1,7 +1,7 @@
-// Makes one point of border points that lie close together: for scans whose strips meet with a gap.
+// Merges border points that lie close together: for scans whose strips meet with a gap.
 //
-// Only ends of open edges move, each to the first of its cluster; no cluster is wider than the tolerance, and the ends
-// of one edge never become one. Points and triangles keep their order (tests/segment/repair/snap_borders_test.cpp).
+// Only ends of open edges move, each to the first of its group; no group is wider than the tolerance, and the ends of
+// one edge are never merged. Points and triangles keep their order (tests/segment/repair/snap_borders_test.cpp).
 
 #pragma once
 
@@ -13,11 +13,11 @@
 namespace qchopper {
 
 struct SnapBorders {
-    std::size_t welded = 0;  // points that became one with an earlier point
-    double farthest = 0;     // that one of them moved
+    std::size_t welded = 0;  // points merged with an earlier point
+    double farthest = 0;     // the largest distance that one of them moved, in units of the mesh
 };
 
-// Equal points must have been welded. The tolerance is in units of the mesh.
+// Precondition: equal points are welded. The tolerance is in units of the mesh; 0 changes nothing.
 SnapBorders weld_borders(TriangleMesh& mesh, double tolerance, SourceFaces* sources = nullptr);
 
 }  // namespace qchopper

@@ -1,3 +1,6 @@
+// A hash table of the points (point_table.h), then one pass over the triangles and one over the points. O(points +
+// triangles). Memory: 5 bytes per point, and 12 to 24 bytes in the table per different point.
+
 #include "segment/repair/weld.h"
 
 #include <algorithm>
@@ -14,10 +17,10 @@ namespace {
 
 // Per point, the first point with the same coordinates.
 std::vector<std::uint32_t> first_equal(const std::vector<Vec3>& points) {
-    constexpr std::size_t batch = 16;  // slots are asked for so many points ahead of their use
+    constexpr std::size_t batch = 16;  // slots are prefetched for so many points before they are used
     std::array<std::uint64_t, batch> hash{};
-    // How many points repeat is seen in the first part: six triangles of an STL file share a point, in a PLY file none
-    // may repeat.
+    // The share of repeated points, from which the size of the table follows, is measured on the first part: in an STL
+    // file six triangles repeat a point, in a PLY file there may be no repetition.
     const std::size_t sample = points.size() / 16;
     PointTable table(sample);
     std::vector<std::uint32_t> first;
@@ -39,7 +42,8 @@ std::vector<std::uint32_t> first_equal(const std::vector<Vec3>& points) {
     return first;
 }
 
-// Names the first of equal points everywhere, drops the triangles that this collapses and marks the points in use.
+// Replaces corners by the first of equal points, drops the triangles that this collapses and sets is_used of the points
+// of the others. Returns the number of dropped triangles.
 std::size_t drop_collapsed(TriangleMesh& mesh, const std::vector<std::uint32_t>& first,
                            std::vector<std::uint8_t>& is_used, SourceFaces* sources) {
     std::size_t kept = 0;
@@ -60,7 +64,7 @@ std::size_t drop_collapsed(TriangleMesh& mesh, const std::vector<std::uint32_t>&
     return collapsed;
 }
 
-// Closes the gaps that points without a triangle leave. `place` is memory that may be written over.
+// Drops the points that are not used. `place`, one per point, is memory that is overwritten.
 void drop_unused(TriangleMesh& mesh, const std::vector<std::uint8_t>& is_used, std::vector<std::uint32_t>& place) {
     std::uint32_t kept = 0;
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {

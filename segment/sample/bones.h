@@ -1,6 +1,7 @@
-// The fields of the specimens, and the boxes that hold them.
+// The fields of the specimens, and the boxes that contain them.
 //
-// Lengths in mm. x runs to the animal's left, y to its front, z up; the femur stands on its condyles.
+// Lengths in mm. x points to the left of the animal, y to its front, z up; the femur stands on its condyles. Each
+// box contains the isosurface (tests/segment/sample/sample_test.cpp).
 
 #pragma once
 
@@ -11,7 +12,7 @@ namespace qchopper {
 
 struct Bone {
     BoneField field;
-    Box box;                  // holds the surface with room to spare
+    Box box;                  // contains the isosurface with a margin
     double base_spacing = 0;  // a lattice cell that resolves every process and every wall
 };
 

@@ -1,4 +1,4 @@
-// The left thigh bone of a very large mammal.
+// A table of primitives: the left thigh bone of a very large mammal.
 
 #include "segment/sample/bones.h"
 
@@ -31,7 +31,7 @@ void add_shaft(std::vector<FieldPart>& parts) {
 void add_upper_end(std::vector<FieldPart>& parts) {
     parts.push_back(added(45, {cone({-10, 0, 1040}, 58, {-105, 14, 1112}, 43)}));
     parts.push_back(added(12, {ellipsoid({-142, 20, 1130}, {70, 70, 70})}));
-    parts.push_back(carved(8, {ball({-206, 6, 1152}, 15)}));  // where the ligament of the head holds
+    parts.push_back(carved(8, {ball({-206, 6, 1152}, 15)}));  // the fovea, for the ligament of the head
     parts.push_back(added(36, {cone({44, -8, 990}, 52, {78, -20, 1120}, 34)}));
     parts.push_back(
         added(24, {cone({72, -34, 1128}, 28, {84, 8, 1116}, 26), cone({86, 6, 1100}, 24, {70, 24, 1000}, 20)}));

@@ -1,5 +1,6 @@
 // Distances after I. Quilez, "Distance functions" (2013-2020): round cone, triangle, ellipsoid estimate; the joints are
-// his quadratic smooth minimum, which is an exact minimum where the two differ by more than the blend.
+// his quadratic smooth minimum, which is an exact minimum where the two differ by more than the blend. Tubes along the
+// splines of E. Catmull and R. Rom, "A class of local interpolating splines" (1974).
 
 #include "segment/sample/field.h"
 
@@ -19,7 +20,7 @@ double distance_to_cone(const FieldPrimitive& cone, Vec3 p) {
     const double slope = cone.r1 - cone.r2;
     const double straight2 = length2 - slope * slope;
     const Vec3 from_a = p - cone.a;
-    if (!(straight2 > 0)) {  // one ball holds the other
+    if (!(straight2 > 0)) {  // one ball contains the other
         return std::min(norm(from_a) - cone.r1, norm(p - cone.b) - cone.r2);
     }
     const double y = dot(from_a, axis);
@@ -52,7 +53,7 @@ double distance_to_plate(const FieldPrimitive& plate, Vec3 p) {
     return std::sqrt(d2) - plate.r1;
 }
 
-// Where the point lies in units of the half axes.
+// The point in units of the half axes.
 Vec3 in_half_axes(const FieldPrimitive& e, Vec3 p) {
     const Vec3 q = p - e.a;
     return {dot(e.b, q), dot(e.c, q), dot(e.d, q)};
@@ -99,7 +100,7 @@ double joined(double value, double distance, const FieldPart& part) {
     return part.is_added ? smooth_min(value, distance, part.blend) : -smooth_min(-value, distance, part.blend);
 }
 
-// A sine made of parabolas: no library function, so every machine gets the same bits.
+// A sine approximated by parabolas: no library function, so that every machine gets the same bits.
 double wave(double turns) {
     const double x = turns - std::floor(turns);
     return x < 0.5 ? 16 * x * (0.5 - x) : -16 * (x - 0.5) * (1 - x);
@@ -113,7 +114,7 @@ double texture_at(const Texture& texture, Vec3 p) {
     return texture.depth * (u * v + v * w + w * u) / 3;
 }
 
-// A margin for rounding when bounds decide what may be left out.
+// A margin for rounding where bounds decide which parts are omitted.
 constexpr double safe_mm = 1e-6;
 
 }  // namespace
@@ -131,10 +132,10 @@ double value_at(const BoneField& field, Vec3 point) {
     return value;
 }
 
-FieldRange range_in_ball(const BoneField& field, Vec3 centre, double radius, BoneField* local) {
+FieldRange range_in_ball(const BoneField& field, Vec3 centre, double radius, BoneField& local) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     FieldRange value{field.start, field.start};
-    if (local != nullptr) *local = {{}, field.textures, field.start};
+    local = {{}, field.textures, field.start};
     for (const FieldPart& part : field.parts) {
         std::vector<FieldRange> ranges;
         FieldRange nearest{infinity, infinity};
@@ -146,18 +147,17 @@ FieldRange range_in_ball(const BoneField& field, Vec3 centre, double radius, Bon
         const FieldRange before = value;
         value = {joined(value.low, part.is_added ? nearest.low : nearest.high, part),
                  joined(value.high, part.is_added ? nearest.high : nearest.low, part)};
-        if (local == nullptr) continue;
-        // seen as an addition: a carving is one with the signs of the value turned
+        // a carving is an addition to the value of opposite sign
         const FieldRange other = part.is_added ? before : FieldRange{-before.high, -before.low};
         if (nearest.low > other.high + part.blend + safe_mm) continue;  // too far to matter
         if (other.low > nearest.high + part.blend + safe_mm) {          // nothing before it matters
-            local->parts.clear();
-            local->start = part.is_added ? infinity : -infinity;
+            local.parts.clear();
+            local.start = part.is_added ? infinity : -infinity;
         }
-        local->parts.push_back({part.is_added, part.blend, {}});
+        local.parts.push_back({part.is_added, part.blend, {}});
         for (std::size_t i = 0; i < ranges.size(); ++i) {
             if (ranges[i].low > nearest.high + safe_mm) continue;
-            local->parts.back().primitives.push_back(part.primitives[i]);
+            local.parts.back().primitives.push_back(part.primitives[i]);
         }
     }
     for (const Texture& texture : field.textures) {
@@ -215,7 +215,7 @@ std::vector<FieldPrimitive> tube(const std::vector<TubeStation>& stations, int s
     TubeStation from = stations.front();
     for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
         for (int step = 1; step <= steps; ++step) {
-            // Catmull and Rom's spline, for the radius too
+            // the same spline for the radius
             const double t = static_cast<double>(step) / steps;
             const double w0 = -0.5 * t + t * t - 0.5 * t * t * t;
             const double w1 = 1 - 2.5 * t * t + 1.5 * t * t * t;

@@ -1,21 +1,27 @@
+// Seeds by farthest-point sampling, after T. Gonzalez, "Clustering to minimize the maximum intercluster distance"
+// (1985); a disc grows from each over the edges. O(triangles + holes * candidates), and O(d^2) for a disc of d
+// triangles.
+
 #include "segment/sample/punch.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
+#include "segment/mesh/submesh.h"
 
 namespace qchopper {
 namespace {
 
 constexpr std::size_t most_candidates = 20000;
-constexpr std::array<double, 4> patch_radius{0.012, 0.02, 0.008, 0.028};  // of the diagonal, taken in turn
+constexpr std::array<double, 4> disc_radius{0.012, 0.02, 0.008, 0.028};  // of the diagonal, used in turn
 
-// Points far from each other, each the farthest from those before it.
+// Points far from each other: each is the farthest from those before it.
 std::vector<std::uint32_t> spread(const TriangleMesh& mesh, std::size_t count, double& least_distance) {
     const std::size_t stride = mesh.points.size() / most_candidates + 1;
     std::vector<double> distance2((mesh.points.size() + stride - 1) / stride, std::numeric_limits<double>::max());
@@ -37,43 +43,44 @@ std::vector<std::uint32_t> spread(const TriangleMesh& mesh, std::size_t count, d
     return chosen;
 }
 
-// Grows one patch at a time; `gone` holds the triangles of all.
+// Grows one disc at a time, and collects the triangles outside all discs.
 class Punch {
  public:
     explicit Punch(const TriangleMesh& mesh)
         : mesh_(mesh),
           edges_(edges(mesh)),
           any_(mesh.points.size()),
-          gone_(mesh.triangles.size()),
+          is_kept_(mesh.triangles.size(), true),
           touched_(mesh.points.size()) {
         for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
             for (const std::uint32_t corner : mesh.triangles[t]) any_[corner] = t;
         }
     }
 
-    bool take(std::uint32_t seed, double radius) {
+    // False if there is no room for a disc.
+    bool add_disc(std::uint32_t seed, double radius) {
         // never less than the triangles around one point: those always make a disc
         for (double r = radius; r > 0.05 * radius; r *= 0.6) {
-            if (try_patch(grown(seed, r))) return true;
+            if (try_disc(grown(seed, r))) return true;
         }
-        return try_patch(grown(seed, 0));
+        return try_disc(grown(seed, 0));
     }
 
-    const std::vector<bool>& gone() const { return gone_; }
+    const std::vector<bool>& is_kept() const { return is_kept_; }
 
  private:
-    // The triangles around the seed, and those that hang together with them within the radius.
+    // The triangles around the seed, and those connected with them within the radius.
     std::vector<std::uint32_t> grown(std::uint32_t seed, double radius) const {
-        std::vector<std::uint32_t> patch{any_[seed]};
-        for (std::size_t i = 0; i < patch.size(); ++i) {
+        std::vector<std::uint32_t> disc{any_[seed]};
+        for (std::size_t i = 0; i < disc.size(); ++i) {
             for (std::uint32_t k = 0; k < 3; ++k) {
-                const std::uint32_t next = edges_.twin[3 * patch[i] + k] / 3;
+                const std::uint32_t next = edges_.twin[3 * disc[i] + k] / 3;
                 if (!belongs(next, seed, radius)) continue;
-                if (std::find(patch.begin(), patch.end(), next) == patch.end()) patch.push_back(next);
-                if (patch.size() > most_triangles) return patch;
+                if (std::find(disc.begin(), disc.end(), next) == disc.end()) disc.push_back(next);
+                if (disc.size() > most_triangles) return disc;
             }
         }
-        return patch;
+        return disc;
     }
 
     bool belongs(std::uint32_t triangle, std::uint32_t seed, double radius) const {
@@ -85,19 +92,19 @@ class Punch {
         return is_near;
     }
 
-    // A disc has Euler characteristic 1 and passes every border point once; it keeps off the other patches.
-    bool try_patch(const std::vector<std::uint32_t>& patch) {
-        std::vector<std::uint32_t> sorted = patch;
+    // A disc has Euler characteristic 1 and its border passes every point once; it has no point of another disc.
+    bool try_disc(const std::vector<std::uint32_t>& disc) {
+        std::vector<std::uint32_t> sorted = disc;
         std::sort(sorted.begin(), sorted.end());
-        const auto in_patch = [&](std::uint32_t t) { return std::binary_search(sorted.begin(), sorted.end(), t); };
+        const auto in_disc = [&](std::uint32_t t) { return std::binary_search(sorted.begin(), sorted.end(), t); };
         std::vector<std::uint32_t> points;
         std::vector<std::uint32_t> starts;  // of border edges
-        for (const std::uint32_t t : patch) {
+        for (const std::uint32_t t : disc) {
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const std::uint32_t corner = mesh_.triangles[t][k];
                 if (touched_[corner]) return false;
                 points.push_back(corner);
-                if (!in_patch(edges_.twin[3 * t + k] / 3)) starts.push_back(corner);
+                if (!in_disc(edges_.twin[3 * t + k] / 3)) starts.push_back(corner);
             }
         }
         const auto make_unique = [](std::vector<std::uint32_t>& list) {
@@ -108,9 +115,9 @@ class Punch {
         const std::size_t border = starts.size();
         make_unique(starts);
         if (starts.size() != border) return false;
-        const std::size_t edge_count = (3 * patch.size() + border) / 2;
-        if (points.size() + patch.size() != edge_count + 1) return false;
-        for (const std::uint32_t t : patch) gone_[t] = true;
+        const std::size_t edge_count = (3 * disc.size() + border) / 2;
+        if (points.size() + disc.size() != edge_count + 1) return false;
+        for (const std::uint32_t t : disc) is_kept_[t] = false;
         for (const std::uint32_t p : points) touched_[p] = true;
         return true;
     }
@@ -119,9 +126,9 @@ class Punch {
 
     const TriangleMesh& mesh_;
     Edges edges_;
-    std::vector<std::uint32_t> any_;  // per point, one of its triangles
-    std::vector<bool> gone_;
-    std::vector<bool> touched_;  // points of the patches so far
+    std::vector<std::uint32_t> any_;  // one per point: one of its triangles
+    std::vector<bool> is_kept_;
+    std::vector<bool> touched_;  // points of the discs so far
 };
 
 }  // namespace
@@ -132,29 +139,23 @@ int punch_holes(TriangleMesh& mesh, int holes) {
     const std::vector<std::uint32_t> seeds = spread(mesh, static_cast<std::size_t>(holes), apart);
     const double diagonal = norm(bounds(mesh).size());
     Punch punch(mesh);
-    int taken = 0;
+    int made = 0;
     for (const std::uint32_t seed : seeds) {
-        const double radius = patch_radius[static_cast<std::size_t>(taken) % patch_radius.size()] * diagonal;
-        taken += punch.take(seed, std::min(radius, apart / 4)) ? 1 : 0;
+        const double radius = disc_radius[static_cast<std::size_t>(made) % disc_radius.size()] * diagonal;
+        made += punch.add_disc(seed, std::min(radius, apart / 4)) ? 1 : 0;
     }
-    TriangleMesh open;
-    constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> place(mesh.points.size(), unused);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (punch.gone()[t]) continue;
-        for (const std::uint32_t corner : mesh.triangles[t]) place[corner] = 0;
-        open.triangles.push_back(mesh.triangles[t]);
+    keep_triangles(mesh, punch.is_kept());
+    std::vector<bool> is_used(mesh.points.size());
+    for (const Triangle& t : mesh.triangles) {
+        for (const std::uint32_t corner : t) is_used[corner] = true;
     }
-    for (std::size_t v = 0; v < place.size(); ++v) {
-        if (place[v] == unused) continue;
-        place[v] = static_cast<std::uint32_t>(open.points.size());
-        open.points.push_back(mesh.points[v]);
+    std::vector<std::uint32_t> number(mesh.points.size());
+    std::exclusive_scan(is_used.begin(), is_used.end(), number.begin(), 0U);
+    for (Triangle& t : mesh.triangles) {
+        for (std::uint32_t& corner : t) corner = number[corner];
     }
-    for (Triangle& t : open.triangles) {
-        for (std::uint32_t& corner : t) corner = place[corner];
-    }
-    mesh = std::move(open);
-    return taken;
+    keep_marked(mesh.points, is_used);
+    return made;
 }
 
 }  // namespace qchopper

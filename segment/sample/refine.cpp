@@ -1,3 +1,5 @@
+// Edges sorted by length; one whose two triangles are not split yet is split.
+
 #include "segment/sample/refine.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // Adds triangles to a closed mesh without changing its shape.
 //
-// (tests/segment/sample/refine_test.cpp)
+// Precondition: the mesh is closed (edges.h) and has no caps. Points and the order of triangles stay; new points come
+// last (tests/segment/sample/refine_test.cpp).
 
 #pragma once
 
@@ -10,9 +11,9 @@
 
 namespace qchopper {
 
-// Splits `count` edges in their middles, the longest first, no two of them of one triangle; each split adds two
-// triangles next to the ones they come from. Returns how many edges could be split: up to a third of the triangles
-// can be counted on.
+// Splits up to `count` edges in their middles, the longest first, no two of them of one triangle. Each split replaces
+// each of the two triangles at the edge by two, at its place in the order. Returns the number of edges split: `count`,
+// if that is at most a sixth of the triangles. O(n log n) for n triangles.
 std::size_t split_longest_edges(TriangleMesh& mesh, std::size_t count);
 
 }  // namespace qchopper

@@ -1,3 +1,6 @@
+// The isosurface on a base lattice; for more faces a finer lattice, for fewer faces the base surface with edges
+// collapsed.
+
 #include "segment/sample/sample.h"
 
 #include <array>
@@ -7,9 +10,9 @@
 #include "base/error.h"
 #include "segment/repair/self_intersections.h"
 #include "segment/sample/bones.h"
+#include "segment/sample/isosurface.h"
 #include "segment/sample/punch.h"
 #include "segment/sample/refine.h"
-#include "segment/sample/surface.h"
 #include "segment/simplify/collapse.h"
 
 namespace qchopper {
@@ -30,22 +33,18 @@ Bone bone_of(Specimen specimen) {
 }
 
 void check(const SampleOptions& options) {
-    if (options.faces < fewest_sample_faces || options.faces > most_sample_faces) {
-        throw InputError(InputFault::use, "a sample has " + std::to_string(fewest_sample_faces) + " to " +
-                                              std::to_string(most_sample_faces) + " faces, not " +
-                                              std::to_string(options.faces));
-    }
-    if (options.holes < 0 || options.holes > most_sample_holes) {
-        throw InputError(InputFault::use, "a sample has 0 to " + std::to_string(most_sample_holes) + " holes, not " +
-                                              std::to_string(options.holes));
-    }
-    if (options.marks < 0 || options.marks > most_sample_marks) {
-        throw InputError(InputFault::use, "a sample has 0 to " + std::to_string(most_sample_marks) + " marks, not " +
-                                              std::to_string(options.marks));
-    }
+    const auto check_range = [](auto value, auto least, auto most, const std::string& what) {
+        if (value >= least && value <= most) return;
+        throw InputError(InputFault::use, "a sample has " + std::to_string(least) + " to " + std::to_string(most) +
+                                              " " + what + ", not " + std::to_string(value));
+    };
+    check_range(options.faces, fewest_sample_faces, most_sample_faces, "faces");
+    check_range(options.holes, 0, most_sample_holes, "holes");
+    check_range(options.pen_grooves, 0, most_sample_pen_grooves, "pen grooves");
 }
 
-// The lattice that gives a little fewer triangles than asked for: their number goes with 1 / spacing squared, nearly.
+// The spacing that gives a little fewer triangles than `faces`: their number is about proportional to 1 / spacing
+// squared.
 double spacing_for(const Bone& bone, std::size_t faces, std::size_t base_faces, const Context& context) {
     constexpr double aim = 0.99;
     constexpr int most_tries = 6;
@@ -60,20 +59,20 @@ double spacing_for(const Bone& bone, std::size_t faces, std::size_t base_faces, 
     return spacing;
 }
 
-// Denser than the base lattice: a finer lattice, then single splits up to the very number.
+// More faces than on the base lattice: a finer lattice, then splits of edges up to the exact number.
 TriangleMesh dense(const Bone& bone, std::size_t faces, std::size_t base_faces, const Context& context) {
     double spacing = spacing_for(bone, faces, base_faces, context);
-    TriangleMesh mesh = surface(bone.field, bone.box, spacing, context);
+    TriangleMesh mesh = isosurface(bone.field, bone.box, spacing, context);
     while (mesh.triangles.size() > faces) {
         spacing *= 1.01;
-        mesh = surface(bone.field, bone.box, spacing, context);
+        mesh = isosurface(bone.field, bone.box, spacing, context);
     }
     while (mesh.triangles.size() < faces) split_longest_edges(mesh, (faces - mesh.triangles.size()) / 2);
     return mesh;
 }
 
-// Coarser than the base lattice: its surface with edges collapsed. A collapse does not look at what lies near by, so
-// the result is checked. False where it is no such surface of so many faces.
+// Fewer faces than on the base lattice. A collapse may let parts of the surface intersect, so the result is checked.
+// False if there is no surface of that many faces without an intersection.
 bool make_coarse(TriangleMesh& mesh, std::size_t faces, const Context& context) {
     CollapseLimits limits;
     limits.most_faces = faces;
@@ -90,27 +89,25 @@ std::optional<Specimen> specimen_named(std::string_view name) {
     return {};
 }
 
-TriangleMesh sample(Specimen specimen, const SampleOptions& options, const Context& context, DrawnMarks* drawn) {
+TriangleMesh sample(Specimen specimen, const SampleOptions& options, const Context& context, DrawnPenGrooves* drawn) {
     check(options);
     const std::size_t faces = options.faces - options.faces % 2;
     const Bone bone = bone_of(specimen);
-    TriangleMesh mesh = surface(bone.field, bone.box, bone.base_spacing, context);
+    TriangleMesh mesh = isosurface(bone.field, bone.box, bone.base_spacing, context);
     if (faces > mesh.triangles.size()) {
         mesh = dense(bone, faces, mesh.triangles.size(), context);
     } else if (faces < mesh.triangles.size() && !make_coarse(mesh, faces, context)) {
-        throw InputError(InputFault::use, "this specimen cannot be told with " + std::to_string(faces) + " faces",
-                         "ask for more");
+        throw InputError(InputFault::use, "this specimen cannot be represented by " + std::to_string(faces) + " faces",
+                         "give a larger number of faces");
     }
-    const int taken = punch_holes(mesh, options.holes);
-    if (taken < options.holes) {
+    const int holes = punch_holes(mesh, options.holes);
+    if (holes < options.holes) {
         throw InputError(InputFault::use,
-                         "there is room for " + std::to_string(taken) + " holes, not " + std::to_string(options.holes),
-                         "ask for more faces or fewer holes");
+                         "there is room for " + std::to_string(holes) + " holes, not " + std::to_string(options.holes),
+                         "give more faces or fewer holes");
     }
-    if (options.marks > 0) {
-        DrawOptions lines;
-        lines.marks = options.marks;
-        const DrawnMarks made = draw_marks(mesh, lines);
+    if (options.pen_grooves > 0) {
+        const DrawnPenGrooves made = draw_pen_grooves(mesh, {options.pen_grooves});
         if (drawn != nullptr) *drawn = made;
     }
     return mesh;

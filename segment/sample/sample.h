@@ -1,8 +1,7 @@
-// Specimens that the project makes itself: a vertebra, a femur and a skull that look like bones and are hard like
-// bones.
+// Makes synthetic specimens: a vertebra, a femur and a skull, with thin walls, handles and openings as real bones have.
 //
-// Lengths are millimetres. The shape does not depend on the number of faces, which sets the sampling density only.
-// Every specimen is closed, faces outwards, does not meet itself, and the same options give the same bytes
+// Lengths are millimetres. The number of faces sets the sampling density only, not the shape. Every specimen without
+// holes is closed, faces outwards and does not intersect itself; the same options give the same bytes
 // (tests/segment/sample/sample_test.cpp).
 
 #pragma once
@@ -13,7 +12,7 @@
 
 #include "base/context.h"
 #include "segment/mesh/triangle_mesh.h"
-#include "segment/sample/draw_marks.h"
+#include "segment/sample/draw_pen_grooves.h"
 
 namespace qchopper {
 
@@ -25,21 +24,22 @@ enum class Specimen {
 
 struct SampleOptions {
     std::size_t faces = 100000;  // of the closed specimen; an odd number means the even one below
-    int holes = 0;               // this many patches of faces are taken out, each leaves one border loop
-    int marks = 0;               // this many lines are drawn on it, each a narrow shallow dent (draw_marks.h)
+    int holes = 0;               // number of holes, each with one border loop (punch.h)
+    int pen_grooves = 0;         // number of pen grooves (draw_pen_grooves.h)
 };
 
 constexpr std::size_t fewest_sample_faces = 2000;
 constexpr std::size_t most_sample_faces = 50'000'000;
 constexpr int most_sample_holes = 100;
-constexpr int most_sample_marks = 100;
+constexpr int most_sample_pen_grooves = 100;
 
 // "vertebra", "femur" or "skull"; nothing for any other word.
 std::optional<Specimen> specimen_named(std::string_view name);
 
-// Throws InputError (use) for fewer than fewest_sample_faces or more than most_sample_faces, or for more holes than
-// the surface has room for. Marks change no triangle; `drawn` (may be null) tells of them.
+// Throws InputError (use) for a number of faces, holes or pen grooves outside these bounds, for too few faces for the
+// specimen, and for more holes than there is room for. Pen grooves change no triangle; `drawn`, if not null, receives
+// what was drawn. Throws Cancelled (base/context.h). O(faces log faces).
 TriangleMesh sample(Specimen specimen, const SampleOptions& options, const Context& context = {},
-                    DrawnMarks* drawn = nullptr);
+                    DrawnPenGrooves* drawn = nullptr);
 
 }  // namespace qchopper

@@ -1,4 +1,4 @@
-// The skull of a giant meat-eater, without its lower jaw.
+// A table of primitives: the skull of a giant carnivore, without its lower jaw.
 
 #include "segment/sample/bones.h"
 
@@ -43,7 +43,7 @@ void add_face(std::vector<FieldPart>& parts) {
     parts.push_back(carved(60, {cone({0, -120, -260}, 110, {0, 640, -210}, 70)}));  // the palate's vault
 }
 
-// From the cheek out and back to the ear: a handle on either side.
+// From the cheek outwards and back to the ear: a topological handle on either side.
 void add_cheek_arches(std::vector<FieldPart>& parts) {
     parts.push_back(added(50, both_sides(tube({{{200, 60, -20}, 64},
                                                {{300, -70, -46}, 52},

@@ -1,4 +1,4 @@
-// A lumbar vertebra of a large mammal.
+// A table of primitives: a lumbar vertebra of a large mammal.
 
 #include "segment/sample/bones.h"
 
@@ -50,7 +50,7 @@ void add_transverse_processes(std::vector<FieldPart>& parts) {
     parts.push_back(added(9, both_sides({cone({52, 18, 74}, 7, {66, 30, 66}, 5)})));  // accessory process
 }
 
-// Four facets: the front pair look inwards and up, the hind pair outwards and down.
+// Four facets: the front pair face inwards and up, the hind pair outwards and down.
 void add_facets(std::vector<FieldPart>& parts) {
     parts.push_back(added(12, both_sides(tube({{{38, -12, 100}, 13}, {{42, -38, 112}, 13}, {{42, -54, 120}, 13}}, 4))));
     parts.push_back(added(7, both_sides({ellipsoid({42, -54, 122}, {12.5, 5, 9}, {0, 24, 0}, 22),

@@ -1,19 +1,24 @@
-// What a cut would make: the ingredients from which all objectives follow without cutting again.
+// The evaluation of a cut: the values from which all objectives follow without cutting.
 //
-// A change of weights, thresholds or of the other pieces needs no new evaluation.
+// A change of weights, thresholds or of the other pieces needs no new evaluation
+// (tests/segment/search/evaluation_cache_test.cpp).
 
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace qchopper {
 
-// How one solid looks on one base: sums over its triangles off that base of |n.up| A, downward ones and all, by area
-// in mm2 and with every triangle counting 1.
+// BaseShare::cut of the cut that is being evaluated. The largest number, so that its base comes last.
+constexpr std::int32_t new_cut = std::numeric_limits<std::int32_t>::max();
+
+// One solid on one base: sums of |n.up| over its triangles that do not belong to the base, downward ones and all, each
+// weighted by area (mm2) and by 1. The sweep fills in only the kind that its objectives use.
 struct BaseShare {
-    std::int32_t cut = 0;
+    std::int32_t cut = 0;  // number of the cut that made the base
     double down_mm2 = 0;
     double all_mm2 = 0;
     double down_count = 0;
@@ -23,14 +28,14 @@ struct BaseShare {
 struct SolidEvaluation {
     std::size_t faces = 0;
     double volume_mm3 = 0;
-    bool above = false;
-    std::vector<BaseShare> bases;  // only cuts whose cap the solid still owns, ascending
+    bool above = false;            // it lies above the plane
+    std::vector<BaseShare> bases;  // of the cuts whose cap the solid owns, ascending
 };
 
 struct CutEvaluation {
     std::vector<SolidEvaluation> solids;  // those above first
     double cap_area_mm2 = 0;
-    double fragility = 0;  // in the form that was asked for
+    double fragility = 0;  // in the form of the objectives
 };
 
 }  // namespace qchopper

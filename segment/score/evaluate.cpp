@@ -1,3 +1,6 @@
+// Candidates are grouped by normal; each group is one sweep, and the groups run in parallel. The cost is that of the
+// sweeps (sweep.h) and of preparing the piece once (prepared.h).
+
 #include "segment/score/evaluate.h"
 
 #include <cassert>
@@ -18,9 +21,9 @@ struct Group {
 std::vector<Group> groups_of(std::span<const Candidate> candidates) {
     std::vector<Group> groups;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-        const bool goes_on = i > 0 && candidates[i].plane.normal == candidates[i - 1].plane.normal &&
-                             candidates[i].plane.offset > candidates[i - 1].plane.offset;
-        if (!goes_on) groups.push_back({i, i});
+        const bool continues = i > 0 && candidates[i].plane.normal == candidates[i - 1].plane.normal &&
+                               candidates[i].plane.offset > candidates[i - 1].plane.offset;
+        if (!continues) groups.push_back({i, i});
         groups.back().last = i + 1;
     }
     return groups;

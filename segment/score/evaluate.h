@@ -1,4 +1,6 @@
-// Evaluations many candidates at once, on all cores; the result does not depend on their number.
+// Evaluates many candidates at once, on all cores.
+//
+// The result is the same to the last bit for any number of threads (tests/segment/score/candidates_test.cpp).
 
 #pragma once
 
@@ -12,7 +14,9 @@
 
 namespace qchopper {
 
-// One evaluation per candidate, in their order.
+// One evaluation per candidate, in their order; nothing where the plane misses the piece. Preconditions: the piece is
+// closed; the planes are canonical and nudged off its vertices (nudge.h). Candidates of one normal that follow each
+// other with ascending offsets share a sweep. Reports progress in planes; throws Cancelled between sweeps.
 std::vector<std::optional<CutEvaluation>> evaluate_all(const Piece& piece, std::span<const Candidate> candidates,
                                                        const Objectives& objectives, const Context& context);
 

@@ -1,3 +1,6 @@
+// One pass over the faces or vertices. For thinness one ray per face that counts, all of one direction
+// (parallel_rays.h): O(triangles) and the rays; 48 bytes per face that counts.
+
 #include "segment/score/fragility.h"
 
 #include <cassert>
@@ -8,17 +11,18 @@
 #include "segment/score/thin_part.h"
 
 namespace qchopper {
+
 double thinness(const Piece& piece, const Plane& plane, double cap_area_mm2, double distance) {
     assert(cap_area_mm2 > 0 && distance >= 0);
     const TriangleMesh& mesh = *piece.mesh;
     std::vector<RayQuery> queries;
-    std::vector<double> weight;  // per query, what it adds if its way to the plane is free
-    std::vector<double> off;     // per query, its distance to the plane
+    std::vector<double> weight;  // per query, what it adds if its ray reaches the plane
+    std::vector<double> off;     // per query, the distance from the plane
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const double along = dot(normalized(area_vector(mesh, t)), plane.normal);
         if (std::abs(along) < nearly_parallel) continue;
-        const bool above = along > 0;  // only this side's part looks away from the plane
-        const Part part = part_of(mesh, t, plane, above);
+        const bool above = along > 0;  // only the part on this side faces away from the plane
+        const ThinPart part = thin_part(mesh, t, plane, above);
         if (part.corners == 0) continue;
         const Centroid c = centroid(part);
         const double distance_to_plane = std::abs(height(plane.normal, c.at) - plane.offset);
@@ -27,10 +31,10 @@ double thinness(const Piece& piece, const Plane& plane, double cap_area_mm2, dou
         weight.push_back(c.area * (1 - distance_to_plane / distance) * std::abs(along));
         off.push_back(distance_to_plane);
     }
-    const std::vector<double> ways = ray_distances(mesh, plane.normal, queries, distance);
+    const std::vector<double> free_lengths = ray_distances(mesh, plane.normal, queries, distance);
     double sum = 0;
     for (std::size_t q = 0; q < queries.size(); ++q) {
-        if (ways[q] >= off[q]) sum += weight[q];
+        if (free_lengths[q] >= off[q]) sum += weight[q];
     }
     return sum / cap_area_mm2;
 }

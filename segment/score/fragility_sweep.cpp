@@ -1,3 +1,7 @@
+// Faces or vertices in chunks of fixed size, in parallel; for each the offsets within the distance by binary search.
+// The rays of all offsets are one batch (parallel_rays.h). O(n log k + pairs of a face or vertex and a near offset) for
+// k offsets, and the rays; memory per ray, and for the thesis' form one sum per chunk and offset.
+
 #include "segment/score/fragility_sweep.h"
 
 #include <algorithm>
@@ -11,9 +15,10 @@
 namespace qchopper {
 namespace {
 
-constexpr std::size_t chunk = 8192;  // faces or vertices summed up by one task; fixed, so sums do not depend on threads
+// Faces or vertices of one task. Fixed, so that sums do not depend on the number of threads.
+constexpr std::size_t chunk = 8192;
 
-// Sums per offset over chunks of `count` things, in the order of the chunks.
+// Sums per offset over `count` items; the chunks are added up in their order.
 template <typename AddChunk>
 std::vector<double> sum_chunks(std::size_t count, std::size_t offsets, const AddChunk& add_chunk) {
     const std::size_t chunks = (count + chunk - 1) / chunk;
@@ -29,37 +34,38 @@ std::vector<double> sum_chunks(std::size_t count, std::size_t offsets, const Add
     return sum;
 }
 
-// One question: is the way from here to these planes free? A face that no plane crosses asks once for all of them.
+// A ray from a face, or from its part, towards planes. A face has one ray for all planes that do not cross it.
 struct ThinQuery {
-    RayQuery way;
+    RayQuery ray;
     double area;
     double along;
     std::uint32_t from;  // planes [from, to)
     std::uint32_t to;
 };
 
-// The questions of one face that is nearly parallel to the planes. Crossed by a plane it asks for its part there.
-void ask(std::vector<ThinQuery>& queries, const TriangleMesh& mesh, std::size_t triangle, Vec3 normal, double along,
-         std::span<const double> offsets, double distance) {
+// Adds the queries of one face that is nearly parallel to the planes: one for the whole face, and one for its part at
+// each plane that crosses it.
+void add_queries(std::vector<ThinQuery>& queries, const TriangleMesh& mesh, std::size_t triangle, Vec3 normal,
+                 double along, std::span<const double> offsets, double distance) {
     const Triangle& v = mesh.triangles[triangle];
     const double h[3] = {height(normal, mesh.points[v[0]]), height(normal, mesh.points[v[1]]),
                          height(normal, mesh.points[v[2]])};
     const double low = std::min({h[0], h[1], h[2]});
     const double high = std::max({h[0], h[1], h[2]});
     const bool above = along > 0;
-    const double room = distance + 1e-9 * (1 + std::abs(low));
+    const double reach = distance + 1e-9 * (1 + std::abs(low));
     const auto index = [&](auto it) { return static_cast<std::uint32_t>(it - offsets.begin()); };
     // Offsets up to `low` leave the face whole above the plane, those over `high` whole below; between, they cross it.
     const auto crossed_from = std::upper_bound(offsets.begin(), offsets.end(), low);
     const auto crossed_to = std::upper_bound(crossed_from, offsets.end(), high);
-    const auto whole_from = above ? std::lower_bound(offsets.begin(), crossed_from, low - room) : crossed_to;
-    const auto whole_to = above ? crossed_from : std::upper_bound(crossed_to, offsets.end(), high + room);
+    const auto whole_from = above ? std::lower_bound(offsets.begin(), crossed_from, low - reach) : crossed_to;
+    const auto whole_to = above ? crossed_from : std::upper_bound(crossed_to, offsets.end(), high + reach);
     if (whole_from != whole_to) {
-        const Centroid c = centroid(part_of(mesh, triangle, {normal, *whole_from}, above));
+        const Centroid c = centroid(thin_part(mesh, triangle, {normal, *whole_from}, above));
         if (c.area > 0) queries.push_back({{c.at, !above}, c.area, along, index(whole_from), index(whole_to)});
     }
     for (auto it = crossed_from; it != crossed_to; ++it) {
-        const Centroid c = centroid(part_of(mesh, triangle, {normal, *it}, above));
+        const Centroid c = centroid(thin_part(mesh, triangle, {normal, *it}, above));
         if (c.area > 0) queries.push_back({{c.at, !above}, c.area, along, index(it), index(it) + 1});
     }
 }
@@ -75,27 +81,27 @@ std::vector<double> sweep_thinness(const PreparedPiece& prepared, Vec3 normal, s
         for (std::size_t t = c * chunk; t < std::min(count, (c + 1) * chunk); ++t) {
             const Vec3 area = prepared.sums[t].area;
             const double projected = dot(area, normal);
-            // Cheap first, with room for rounding; the face itself decides by the same bits as the plain sum.
+            // A cheap test with a margin for rounding; the test below decides, by the same bits as the plain sum.
             if (projected * projected < 0.80 * dot(area, area)) continue;
             const double along = dot(normalized(area), normal);
-            if (std::abs(along) >= nearly_parallel) ask(by_chunk[c], mesh, t, normal, along, offsets, distance);
+            if (std::abs(along) >= nearly_parallel) add_queries(by_chunk[c], mesh, t, normal, along, offsets, distance);
         }
     });
     std::vector<RayQuery> queries;
     for (const auto& some : by_chunk) {
-        for (const ThinQuery& q : some) queries.push_back(q.way);
+        for (const ThinQuery& q : some) queries.push_back(q.ray);
     }
-    const std::vector<double> ways = ray_distances(mesh, normal, queries, distance);
-    assert(ways.size() == queries.size());
+    const std::vector<double> free_lengths = ray_distances(mesh, normal, queries, distance);
+    assert(free_lengths.size() == queries.size());
     std::vector<double> sums(offsets.size(), 0.0);
     std::size_t next = 0;
     for (const auto& some : by_chunk) {
         for (const ThinQuery& q : some) {
-            const double way = ways[next++];
-            const double h = height(normal, q.way.from);
+            const double free_length = free_lengths[next++];
+            const double h = height(normal, q.ray.from);
             for (std::uint32_t j = q.from; j < q.to; ++j) {
                 const double off = std::abs(h - offsets[j]);
-                if (off < distance && way >= off) sums[j] += q.area * (1 - off / distance) * std::abs(q.along);
+                if (off < distance && free_length >= off) sums[j] += q.area * (1 - off / distance) * std::abs(q.along);
             }
         }
     }
@@ -111,9 +117,9 @@ std::vector<double> sweep_thesis_fragility(const PreparedPiece& prepared, Vec3 n
             const double along = std::abs(dot(prepared.vertex_normals[v], normal));
             if (along < nearly_parallel) continue;
             const double h = height(normal, mesh.points[v]);
-            const double room = distance + 1e-9 * (1 + std::abs(h));
-            for (auto it = std::lower_bound(offsets.begin(), offsets.end(), h - room);
-                 it != offsets.end() && *it <= h + room; ++it) {
+            const double reach = distance + 1e-9 * (1 + std::abs(h));
+            for (auto it = std::lower_bound(offsets.begin(), offsets.end(), h - reach);
+                 it != offsets.end() && *it <= h + reach; ++it) {
                 const double off = std::abs(h - *it);
                 if (off <= distance) sums[static_cast<std::size_t>(it - offsets.begin())] += off * along;
             }

@@ -1,7 +1,8 @@
-// Both forms of fragility for all offsets of one normal in one pass over faces or vertices.
+// Measures both forms of fragility for all offsets of one normal in one pass over faces or vertices.
 //
-// Equal to fragility.h for each offset (tests/segment/score/sweep_test.cpp); one way per face serves all offsets
-// that do not cross it.
+// mm. Equal to fragility.h for each offset to 1e-9 (tests/segment/score/sweep_test.cpp), and the same bits for any
+// number of threads (tests/segment/score/candidates_test.cpp). One ray per face serves all offsets that do not cross
+// the face.
 
 #pragma once
 
@@ -12,10 +13,14 @@
 
 namespace qchopper {
 
-// Per offset the sum of thinness before it is divided by the cap area (mm2).
+// Both return one sum per offset. Preconditions: `offsets` ascending, the normal canonical (plane.h), `distance` not
+// negative.
+
+// Thinness before it is divided by the cap area: in mm2.
 std::vector<double> sweep_thinness(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
                                    double distance);
 
+// In mm. Precondition: `prepared` holds vertex normals (FragilityForm::thesis).
 std::vector<double> sweep_thesis_fragility(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
                                            double distance);
 

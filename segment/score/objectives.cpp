@@ -1,3 +1,5 @@
+// Ratios and sums over the pieces: O(pieces * bases).
+
 #include "segment/score/objectives.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// The four objectives of a cut and what is weighed with what (Nicholson 2016, section 4.2; spec: lower is better).
+// The four objectives of a cut and their weighted sum; lower is better (Nicholson 2016, section 4.2).
+//
+// Invariants: tests/segment/score/objectives_test.cpp.
 
 #pragma once
 
@@ -25,11 +27,11 @@ enum class FragilityForm {
 
 struct Objectives {
     Weights weights;
-    double face_ratio_threshold = 1.5;  // r: pieces this uneven cost nothing yet
+    double face_ratio_threshold = 1.5;  // r: up to this ratio of most to fewest faces the cost is 0
     FragilityForm fragility_form = FragilityForm::thinness;
-    double fragility_distance = 20;  // d, mm: how near to a plane surface counts
+    double fragility_distance = 20;  // d, mm: surface nearer to a plane counts
     bool undercut_by_area = true;    // false: every triangle counts 1 (thesis 5.3.1)
-    double fragment_volume_mm3 = 0;  // solids below are fragments and enter no objective
+    double fragment_volume_mm3 = 0;  // smaller solids are fragments and enter no objective
     bool operator==(const Objectives&) const = default;
 };
 
@@ -43,21 +45,22 @@ struct Terms {
     bool operator==(const Terms&) const = default;
 };
 
-// What a piece that is not being cut brings into the objectives.
+// The values of one piece that enter the objectives.
 struct PieceShare {
     std::size_t faces = 0;
     double undercut = 0.5;
 };
 
-// u(phi) for one base (spec 3.4). In [0, 1/2) by area.
+// The share of downward surface on one base, downward / all, by area or by count; 0 if there is none. In [0, 1/2) by
+// area for a closed solid (tests/segment/score/reference_test.cpp).
 double undercut(const BaseShare& share, bool by_area);
 // The least over the bases that the solid still owns; 1/2 if it owns none.
 double undercut(const SolidEvaluation& solid, bool by_area);
 
 PieceShare share(const SolidEvaluation& solid, const Objectives& objectives);
 
-// The terms of a cut with this evaluation beside the other pieces of the segmentation. Nothing if it leaves fewer than
-// two pieces that are more than fragments, or no cap area: then it is no candidate.
+// The terms of a cut with this evaluation, among the other pieces of the segmentation. Nothing if it leaves fewer than
+// two pieces, fragments not counted, or no cap area: then it is no candidate.
 std::optional<Terms> terms(const CutEvaluation& evaluation, std::span<const PieceShare> others,
                            const Objectives& objectives);
 

@@ -1,3 +1,6 @@
+// Independent passes over the triangles, in parallel: edges, shells, and sums with clusters. Memory per triangle 32
+// bytes of sums, 12 of edges, and per cluster the sums of every half-space.
+
 #include "segment/score/prepared.h"
 
 #include <algorithm>
@@ -13,9 +16,10 @@ namespace {
 
 std::vector<std::uint16_t> bases(const Piece& piece) {
     std::vector<std::uint16_t> result;
-    if (piece.mesh->cap_of.empty() || piece.bounds.empty()) return result;
+    if (piece.mesh->cap_of.empty() || piece.half_spaces.empty()) return result;
     std::map<std::int32_t, std::uint16_t> index;
-    for (std::size_t b = 0; b < piece.bounds.size(); ++b) index[piece.bounds[b].cut] = static_cast<std::uint16_t>(b);
+    for (std::size_t b = 0; b < piece.half_spaces.size(); ++b)
+        index[piece.half_spaces[b].cut] = static_cast<std::uint16_t>(b);
     result.reserve(piece.mesh->cap_of.size());
     for (const std::int32_t cap : piece.mesh->cap_of) {
         const auto it = cap == no_cap ? index.end() : index.find(cap);
@@ -33,7 +37,7 @@ std::vector<TriangleSums> triangle_sums(const TriangleMesh& mesh, Vec3 origin) {
     return sums;
 }
 
-// A cap takes its plane's normal: its triangles may be too thin to have one of their own.
+// A cap triangle has the normal of its plane: it may be too thin to have one of its own.
 std::vector<Vec3> unit_normals(const PreparedPiece& p) {
     std::vector<Vec3> unit(p.sums.size());
     for (std::size_t t = 0; t < unit.size(); ++t) {
@@ -43,13 +47,14 @@ std::vector<Vec3> unit_normals(const PreparedPiece& p) {
     return unit;
 }
 
-// What the triangles of each patch add to the old bases: the same for every normal.
+// The sums of each cluster on the bases of earlier cuts: the same for every normal.
 std::vector<BaseSums> base_sums(const PreparedPiece& p) {
     const std::size_t width = p.up.size();
-    std::vector<BaseSums> sums(width * p.patches.count());
-    for (std::size_t i = 0; width > 0 && i < p.patches.count(); ++i) {
+    std::vector<BaseSums> sums(width * p.clusters.count());
+    for (std::size_t i = 0; width > 0 && i < p.clusters.count(); ++i) {
         const std::span<BaseSums> row(sums.data() + i * width, width);
-        for (std::uint32_t k = p.patches.patch[i].first_triangle; k < p.patches.patch[i + 1].first_triangle; ++k) {
+        for (std::uint32_t k = p.clusters.cluster[i].first_triangle; k < p.clusters.cluster[i + 1].first_triangle;
+             ++k) {
             add_to_bases(row, p, k, 1, 1);
         }
     }
@@ -61,7 +66,7 @@ std::vector<BaseSums> base_sums(const PreparedPiece& p) {
 void add_to_bases(std::span<BaseSums> sums, const PreparedPiece& prepared, std::uint32_t triangle, double share,
                   double faces) {
     assert(sums.size() == prepared.up.size());
-    const Vec3 look = prepared.look(triangle);
+    const Vec3 weighted_normal = prepared.weighted_normal(triangle);
     const double weight = prepared.unit.empty() ? share : faces;
     const std::uint16_t own = prepared.base.empty() ? no_base : prepared.base[triangle];
     for (std::size_t b = 0; b < sums.size(); ++b) {
@@ -69,26 +74,26 @@ void add_to_bases(std::span<BaseSums> sums, const PreparedPiece& prepared, std::
             sums[b].faces += faces;
             continue;
         }
-        const double upwards = weight * dot(look, prepared.up[b]);
+        const double upwards = weight * dot(weighted_normal, prepared.up[b]);
         sums[b].up += upwards > 0 ? upwards : 0;
         sums[b].down += upwards < 0 ? -upwards : 0;
     }
 }
 
 PreparedPiece prepare(const Piece& piece, const Objectives& objectives) {
-    assert(piece.mesh && is_consistent(*piece.mesh) && piece.bounds.size() < no_base);
+    assert(piece.mesh && is_consistent(*piece.mesh) && piece.half_spaces.size() < no_base);
     const TriangleMesh& mesh = *piece.mesh;
     PreparedPiece p;
     p.piece = &piece;
     p.origin = mesh.points.empty() ? Vec3{} : mesh.points.front();
     p.base = bases(piece);
-    for (const Bound& bound : piece.bounds) p.up.push_back(bound.up());
-    // Three passes that know nothing of each other.
+    for (const HalfSpace& half_space : piece.half_spaces) p.up.push_back(half_space.up());
+    // Three independent passes.
     parallel_invoke({[&] { p.edges = edges(mesh); }, [&] { p.shells = shells(mesh); },
                      [&] {
                          p.sums = triangle_sums(mesh, p.origin);
                          if (!objectives.undercut_by_area) p.unit = unit_normals(p);
-                         p.patches = patches(mesh, p.sums, p.unit);
+                         p.clusters = clusters(mesh, p.sums, p.unit);
                          p.base_sums = base_sums(p);
                      }});
     assert(p.base.empty() || p.base.size() == mesh.triangles.size());

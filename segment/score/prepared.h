@@ -1,4 +1,6 @@
-// What the sweep needs to know of a piece whatever the normal: made once per piece, shared by all its normals.
+// Prepares a piece for the sweep: all that does not depend on the normal, computed once and shared by all normals.
+//
+// Lengths in mm. O(points + triangles * (1 + half-spaces)); memory in prepared.cpp.
 
 #pragma once
 
@@ -9,14 +11,15 @@
 #include "segment/cut/piece.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/shells.h"
+#include "segment/score/clusters.h"
 #include "segment/score/objectives.h"
-#include "segment/score/patches.h"
 
 namespace qchopper {
 
 constexpr std::uint16_t no_base = 0xFFFF;
 
-// What looks up and what looks down about one bound of the piece, by area (mm2) or by count, and the faces of its cap.
+// Sums for one half-space of the piece as the base: the weighted normals projected on its up direction, upward and
+// downward ones apart, by area (mm2) or by count; and the faces of its cap.
 struct BaseSums {
     double up = 0;
     double down = 0;
@@ -29,25 +32,28 @@ struct BaseSums {
 };
 
 struct PreparedPiece {
-    const Piece* piece = nullptr;  // stays the caller's
+    const Piece* piece = nullptr;  // not owned: must outlive this
     Vec3 origin;                   // of the cones: the first point
     Edges edges;
     Shells shells;
-    std::vector<TriangleSums> sums;
-    std::vector<Vec3> unit;  // per triangle, unit normals; only if undercut counts triangles
-    Patches patches;
-    std::vector<BaseSums> base_sums;   // per patch, and in it per bound
-    std::vector<Vec3> up;              // per bound of the piece, Bound::up()
-    std::vector<std::uint16_t> base;   // per triangle: index in piece->bounds of its cap, or no_base; empty: no caps
+    std::vector<TriangleSums> sums;  // per triangle
+    std::vector<Vec3> unit;          // per triangle, unit normals; only if undercut counts triangles
+    Clusters clusters;
+    std::vector<BaseSums> base_sums;   // per cluster, and in it per half-space of the piece
+    std::vector<Vec3> up;              // per half-space of the piece, HalfSpace::up()
+    std::vector<std::uint16_t> base;   // per triangle: the half-space that it is a cap of, or no_base; empty: no caps
     std::vector<Vec3> vertex_normals;  // only for the thesis' fragility
-    // What undercut multiplies with a direction: the area vector, or the unit normal if triangles are counted.
-    Vec3 look(std::size_t triangle) const { return unit.empty() ? sums[triangle].area : unit[triangle]; }
+    // The vector that undercut projects on a direction: the area vector, or the unit normal if triangles are counted.
+    Vec3 weighted_normal(std::size_t triangle) const { return unit.empty() ? sums[triangle].area : unit[triangle]; }
 };
 
-// Adds a triangle to the sums of every bound: `share` of its area, counted as `faces` triangles.
+// Adds a triangle to the sums of every half-space: `share` of its area, counted as `faces` triangles. `sums`: one per
+// half-space.
 void add_to_bases(std::span<BaseSums> sums, const PreparedPiece& prepared, std::uint32_t triangle, double share,
                   double faces);
 
+// Preconditions: the mesh is consistent (triangle_mesh.h), the piece has fewer than no_base half-spaces. An open mesh
+// is prepared too, but must not be swept (edges.faults).
 PreparedPiece prepare(const Piece& piece, const Objectives& objectives);
 
 }  // namespace qchopper

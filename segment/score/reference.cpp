@@ -1,8 +1,10 @@
+// Cuts, groups the triangles of each half by solid, and adds up each solid from the definitions. O(triangles * caps of
+// a solid) besides the cut.
+
 #include "segment/score/reference.h"
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 #include <map>
 
 #include "segment/cut/cut.h"
@@ -13,18 +15,17 @@
 namespace qchopper {
 namespace {
 
-constexpr std::int32_t new_cut = std::numeric_limits<std::int32_t>::max();
-
-// Unit normals of all triangles. A cap takes its plane's; a part of a triangle the whole triangle's, because a sliver
-// has none of its own. Zero for a triangle without area.
-std::vector<Vec3> triangle_normals(const TriangleMesh& mesh, const std::vector<Bound>& bounds,
+// Unit normals of all triangles. A cap triangle has its plane's, a part of a triangle that of the whole one (`parent`,
+// in the mesh `parents`): a sliver has none of its own. Zero for a triangle without area.
+std::vector<Vec3> triangle_normals(const TriangleMesh& mesh, const std::vector<HalfSpace>& half_spaces,
                                    const std::vector<std::uint32_t>* parent, const TriangleMesh* parents) {
     std::vector<Vec3> normals(mesh.triangles.size());
     for (std::size_t t = 0; t < normals.size(); ++t) {
         const std::int32_t cap = cap_of(mesh, t);
-        const auto bound = std::find_if(bounds.begin(), bounds.end(), [&](const Bound& b) { return b.cut == cap; });
-        if (bound != bounds.end())
-            normals[t] = -bound->up();
+        const auto half_space =
+            std::find_if(half_spaces.begin(), half_spaces.end(), [&](const HalfSpace& h) { return h.cut == cap; });
+        if (half_space != half_spaces.end())
+            normals[t] = -half_space->up();
         else
             normals[t] = normalized(parent != nullptr ? area_vector(*parents, (*parent)[t]) : area_vector(mesh, t));
     }
@@ -34,11 +35,11 @@ std::vector<Vec3> triangle_normals(const TriangleMesh& mesh, const std::vector<B
 // Adds up the solids of one mesh, given as a solid number per triangle.
 std::vector<SolidEvaluation> measure_solids(const TriangleMesh& mesh, const std::vector<Vec3>& normals,
                                             const std::vector<std::uint32_t>& solid_of, std::size_t count,
-                                            const std::vector<Bound>& bounds) {
+                                            const std::vector<HalfSpace>& half_spaces) {
     assert(normals.size() == mesh.triangles.size() && solid_of.size() == mesh.triangles.size());
     std::vector<SolidEvaluation> solids(count);
     std::vector<std::map<std::int32_t, BaseShare>> bases(count);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {  // which caps does each solid still own?
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {  // the caps that each solid owns
         const std::int32_t cap = cap_of(mesh, t);
         if (cap != no_cap) bases[solid_of[t]][cap].cut = cap;
     }
@@ -52,10 +53,10 @@ std::vector<SolidEvaluation> measure_solids(const TriangleMesh& mesh, const std:
         const Vec3 area = area_vector(mesh, t);
         for (auto& [cut_number, share] : bases[solid_of[t]]) {
             if (cap_of(mesh, t) == cut_number) continue;
-            const auto bound =
-                std::find_if(bounds.begin(), bounds.end(), [&, n = cut_number](const Bound& b) { return b.cut == n; });
-            assert(bound != bounds.end());
-            const Vec3 up = bound->up();
+            const auto half_space = std::find_if(half_spaces.begin(), half_spaces.end(),
+                                                 [&, n = cut_number](const HalfSpace& h) { return h.cut == n; });
+            assert(half_space != half_spaces.end());
+            const Vec3 up = half_space->up();
             const double by_area = dot(area, up);
             const double by_count = dot(normals[t], up);
             share.all_mm2 += std::abs(by_area);
@@ -71,14 +72,14 @@ std::vector<SolidEvaluation> measure_solids(const TriangleMesh& mesh, const std:
 }
 
 std::vector<SolidEvaluation> measure_half(const Half& half, const HalfSolids& solids, const Piece& piece,
-                                          const Bound& bound) {
-    std::vector<Bound> bounds = piece.bounds;
-    bounds.push_back(bound);
+                                          const HalfSpace& half_space) {
+    std::vector<HalfSpace> half_spaces = piece.half_spaces;
+    half_spaces.push_back(half_space);
     const std::vector<std::uint32_t> solid_of = solid_of_triangle(solids.shells, solids.solids);
-    const std::vector<Vec3> normals = triangle_normals(half.mesh, bounds, &half.parent, piece.mesh.get());
+    const std::vector<Vec3> normals = triangle_normals(half.mesh, half_spaces, &half.parent, piece.mesh.get());
     std::vector<SolidEvaluation> evaluations =
-        measure_solids(half.mesh, normals, solid_of, solids.solids.count, bounds);
-    for (SolidEvaluation& evaluation : evaluations) evaluation.above = bound.above;
+        measure_solids(half.mesh, normals, solid_of, solids.solids.count, half_spaces);
+    for (SolidEvaluation& evaluation : evaluations) evaluation.above = half_space.above;
     return evaluations;
 }
 
@@ -103,9 +104,9 @@ std::optional<CutEvaluation> evaluate_by_cutting(const Piece& piece, const Plane
 }
 
 SolidEvaluation measure(const Piece& piece) {
-    const std::vector<Vec3> normals = triangle_normals(*piece.mesh, piece.bounds, nullptr, nullptr);
+    const std::vector<Vec3> normals = triangle_normals(*piece.mesh, piece.half_spaces, nullptr, nullptr);
     const std::vector<std::uint32_t> solid_of(piece.mesh->triangles.size(), 0);
-    return measure_solids(*piece.mesh, normals, solid_of, 1, piece.bounds).front();
+    return measure_solids(*piece.mesh, normals, solid_of, 1, piece.half_spaces).front();
 }
 
 }  // namespace qchopper

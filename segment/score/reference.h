@@ -1,6 +1,7 @@
-// Evaluations a plane by really cutting along it and looking at what came out.
+// Evaluates a plane by cutting the piece along it and measuring the halves.
 //
-// As plain as it can be: the faster ways of evaluation are tested against it for equality.
+// The reference: as plain as possible, the sweep is tested for equality with it (tests/segment/score/sweep_test.cpp).
+// It agrees with the pieces that the cut makes (tests/segment/score/reference_test.cpp). mm.
 
 #pragma once
 
@@ -12,10 +13,11 @@
 
 namespace qchopper {
 
-// Nothing if the plane misses the piece.
+// Nothing if the plane misses the piece. Preconditions as for cut() (cut.h). Throws InputError if the mesh is open
+// where the plane passes.
 std::optional<CutEvaluation> evaluate_by_cutting(const Piece& piece, const Plane& plane, const Objectives& objectives);
 
-// The same ingredients of a piece as it is.
+// The same values of a piece that is not cut.
 SolidEvaluation measure(const Piece& piece);
 
 }  // namespace qchopper

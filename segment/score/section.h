@@ -1,7 +1,8 @@
-// The loops in which the planes of one normal cross the surface, without cutting it.
+// Finds the loops in which the planes of one normal cross the surface, without cutting it.
 //
-// Following the surface from crossing to crossing (slabs.h) closes the loops, which are all run clockwise around
-// material seen against the normal.
+// mm. All loops run clockwise around material seen against the normal. A crossing is a triangle crossed by one plane;
+// the crossings of Slabs are numbered triangle by triangle, plane by plane. Held to cutting by
+// tests/segment/score/sweep_test.cpp.
 
 #pragma once
 
@@ -14,31 +15,33 @@
 namespace qchopper {
 
 struct SectionLoop {
-    std::uint16_t plane = 0;   // index of the offset
-    std::uint32_t points = 0;  // number of crossings
-    double area_mm2 = 0;       // signed: positive around material
-    std::uint32_t node_above = 0;
-    std::uint32_t node_below = 0;
-    std::uint32_t first_crossing = 0;  // where it starts; Section::next goes on
+    std::uint16_t plane = 0;            // index of the offset
+    std::uint32_t points = 0;           // number of crossings
+    double area_mm2 = 0;                // signed: positive around material
+    std::uint32_t component_above = 0;  // slab components (slabs.h) beside the loop
+    std::uint32_t component_below = 0;
+    std::uint32_t first_crossing = 0;  // its first crossing; Section::next leads to the others
 };
 
 struct Section {
     std::vector<std::uint32_t> next;      // per crossing: the one that follows on its loop
     std::vector<SectionLoop> loops;       // by plane, ascending
-    std::vector<std::size_t> first_loop;  // per plane and one more
+    std::vector<std::size_t> first_loop;  // per plane, and one more at which the last one ends
     SumTable above;                       // per loop: the parts of crossed triangles
     SumTable below;
 };
 
-// The piece must be closed.
+// Preconditions: the piece is closed; `slabs` made of the same offsets.
 Section find_section(const PreparedPiece& prepared, const Slabs& slabs, std::span<const double> offsets);
 
-// A cap region of one plane: its loops (indices in Section::loops) and what a cut there would make of it.
+// A cap region of one plane, as a cut there would make it.
 struct SectionRegion {
-    std::vector<std::size_t> loops;
+    std::vector<std::size_t> loops;  // in Section::loops, the outer one first
     double area_mm2 = 0;
-    double triangles = 0;  // N + 2L - 4
+    double triangles = 0;  // of its cap: N + 2L - 4 for N points on L loops
 };
+
+// Loops of two points have no region, as in the cut (cap.cpp). `plane`: index of the offset.
 std::vector<SectionRegion> regions(const Section& section, const Slabs& slabs, std::size_t plane);
 
 }  // namespace qchopper

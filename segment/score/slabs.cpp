@@ -1,3 +1,8 @@
+// One pass over the points finds the slab of each and gives it the label of an earlier neighbour in the same slab; one
+// pass over the clusters joins labels (disjoint sets) and adds up the triangles. Labels then become components.
+// O(points + triangles + crossings) for offsets about evenly spaced; for others finding a slab costs up to O(offsets) a
+// point. Memory: 4 bytes per point, 72 per crossed triangle, 20 per crossing of a triangle and a plane.
+
 #include "segment/score/slabs.h"
 
 #include <algorithm>
@@ -13,7 +18,7 @@
 namespace qchopper {
 namespace {
 
-// Slab and label of a vertex in one word, so that the triangle pass fetches one word per corner.
+// Slab and label of a point in one word of 32 bits, so that the pass over triangles fetches one word per corner.
 class Packing {
  public:
     explicit Packing(std::size_t slab_count) {
@@ -30,7 +35,7 @@ class Packing {
     unsigned label_bits_ = 32;
 };
 
-// Number of offsets at or below a height: a guess for even spacing, mended by comparing.
+// The number of offsets at or below a height: a guess for even spacing, corrected by comparisons.
 class SlabFinder {
  public:
     explicit SlabFinder(std::span<const double> offsets) : offsets_(offsets) {
@@ -53,10 +58,10 @@ class SlabFinder {
     double per_mm_;
 };
 
-// One normal's pass over the points, and then over the patches: as a whole, or triangle by triangle.
-class Pass {
+// The slabs of one normal: a pass over the points, then one over the clusters, whole or triangle by triangle.
+class SlabPass {
  public:
-    Pass(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets)
+    SlabPass(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets)
         : p_(prepared),
           mesh_(*prepared.piece->mesh),
           normal_(normal),
@@ -64,7 +69,7 @@ class Pass {
           frame_(frame_across(normal)),
           packing_(offsets.size() + 1),
           word_(huge<std::uint32_t>(mesh_.points.size())) {
-        // Room that is not used costs nothing; growing does.
+        // Memory that is reserved but not touched costs nothing; growing a vector copies it.
         reserve_huge(out_.crossed, mesh_.triangles.size() / 2);
         reserve_huge(out_.point, mesh_.triangles.size() / 2);
         reserve_huge(out_.exit, mesh_.triangles.size() / 2);
@@ -74,24 +79,24 @@ class Pass {
         label_points();
         assert(label_slab_.size() <= packing_.most_labels());
         for (SumTable* table : {&inside_, &above_, &below_}) *table = SumTable(label_slab_.size(), p_.up.size());
-        for (std::size_t p = 0; p < p_.patches.count(); ++p) {
-            if (is_whole(points_of(p))) {
-                take_whole(p);
+        for (std::size_t c = 0; c < p_.clusters.count(); ++c) {
+            if (is_in_one_slab(points_of(c))) {
+                add_cluster(c);
             } else {
-                take_triangles(p);
+                add_triangles(c);
             }
         }
-        number_nodes();
+        number_components();
         return std::move(out_);
     }
 
  private:
-    // A point takes the label of its earlier neighbour if that lies in the same slab: almost all unions, for free.
+    // A point is given the label of an earlier neighbour in the same slab: this replaces almost all unions of sets.
     void label_points() {
         const SlabFinder slab_at(offsets_);
         for (std::uint32_t v = 0; v < word_.size(); ++v) {
             const std::uint32_t slab = slab_at(height(normal_, mesh_.points[v]));
-            const auto [nearest, farthest] = p_.patches.neighbour[v];
+            const auto [nearest, farthest] = p_.clusters.neighbour[v];
             if (nearest != v && packing_.slab(word_[nearest]) == slab) {
                 word_[v] = word_[nearest];
             } else if (farthest != v && packing_.slab(word_[farthest]) == slab) {
@@ -103,13 +108,13 @@ class Pass {
         }
     }
 
-    std::span<const std::uint32_t> points_of(std::size_t p) const {
-        const std::uint32_t first = p_.patches.patch[p].first_point;
-        return {p_.patches.point.data() + first, p_.patches.patch[p + 1].first_point - first};
+    std::span<const std::uint32_t> points_of(std::size_t c) const {
+        const std::uint32_t first = p_.clusters.cluster[c].first_point;
+        return {p_.clusters.point.data() + first, p_.clusters.cluster[c + 1].first_point - first};
     }
 
-    // All points in one slab? Then they hang together, since the patch does.
-    bool is_whole(std::span<const std::uint32_t> points) {
+    // Are all points in one slab? If so they are connected there, since the cluster is, and their labels are joined.
+    bool is_in_one_slab(std::span<const std::uint32_t> points) {
         const std::uint32_t word = word_[points.front()];
         std::uint32_t different = 0;
         for (const std::uint32_t v : points) different |= word_[v] ^ word;
@@ -120,36 +125,38 @@ class Pass {
         return true;
     }
 
-    // Two words of one slab become one set; the first takes over the other, so that the next comparison sees it.
+    // Unites the sets of two words of one slab. The first word becomes the second, so that they compare equal next
+    // time.
     void join(std::uint32_t& word, std::uint32_t other) {
         if (word == other) return;
         sets_.unite(packing_.label(word), packing_.label(other));
         word = other;
     }
 
-    void take_whole(std::size_t p) {
-        const Patch& patch = p_.patches.patch[p];
-        const std::uint32_t end = p_.patches.patch[p + 1].first_triangle;
-        const std::uint32_t label = packing_.label(word_[p_.patches.point[patch.first_point]]);
+    void add_cluster(std::size_t c) {
+        const Cluster& cluster = p_.clusters.cluster[c];
+        const std::uint32_t end = p_.clusters.cluster[c + 1].first_triangle;
+        const std::uint32_t label = packing_.label(word_[p_.clusters.point[cluster.first_point]]);
         PartSums& sums = inside_.part(label);
-        sums.faces += end - patch.first_triangle;
-        sums.volume += patch.volume;
-        if (std::abs(dot(patch.axis, normal_)) > patch.cone) {
-            sums.add_look(dot(patch.look, normal_));
+        sums.faces += end - cluster.first_triangle;
+        sums.volume += cluster.volume;
+        if (std::abs(dot(cluster.axis, normal_)) > cluster.cone) {
+            sums.add_projected(dot(cluster.weighted_normal, normal_));
         } else {
-            for (std::uint32_t t = patch.first_triangle; t < end; ++t) sums.add_look(dot(p_.look(t), normal_));
+            for (std::uint32_t t = cluster.first_triangle; t < end; ++t)
+                sums.add_projected(dot(p_.weighted_normal(t), normal_));
         }
-        const BaseSums* of_patch = p_.base_sums.data() + p * p_.up.size();
-        for (BaseSums& base : inside_.bases(label)) base += *of_patch++;
+        const BaseSums* of_cluster = p_.base_sums.data() + c * p_.up.size();
+        for (BaseSums& base : inside_.bases(label)) base += *of_cluster++;
     }
 
-    void take_triangles(std::size_t p) {
-        const std::uint32_t end = p_.patches.patch[p + 1].first_triangle;
-        for (std::uint32_t t = p_.patches.patch[p].first_triangle; t < end; ++t) {
+    void add_triangles(std::size_t c) {
+        const std::uint32_t end = p_.clusters.cluster[c + 1].first_triangle;
+        for (std::uint32_t t = p_.clusters.cluster[c].first_triangle; t < end; ++t) {
             const Triangle& v = mesh_.triangles[t];
             const std::array<std::uint32_t, 3> word{word_[v[0]], word_[v[1]], word_[v[2]]};
             if (packing_.slab(word[0]) != packing_.slab(word[1]) || packing_.slab(word[0]) != packing_.slab(word[2])) {
-                keep_crossed(t, word);
+                add_crossed(t, word);
                 continue;
             }
             join(word_[v[1]], word[0]);
@@ -158,15 +165,15 @@ class Pass {
             PartSums& sums = inside_.part(label);
             sums.faces += 1;
             sums.volume += p_.sums[t].volume;
-            sums.add_look(dot(p_.look(t), normal_));
+            sums.add_projected(dot(p_.weighted_normal(t), normal_));
             if (!p_.up.empty()) add_to_bases(inside_.bases(label), p_, t, 1, 1);
         }
     }
 
-    void keep_crossed(std::uint32_t t, const std::array<std::uint32_t, 3>& word) {
+    void add_crossed(std::uint32_t t, const std::array<std::uint32_t, 3>& word) {
         CrossedTriangle s{};
         s.triangle = t;
-        s.along = dot(p_.look(t), normal_);
+        s.along = dot(p_.weighted_normal(t), normal_);
         s.volume = p_.sums[t].volume;
         const Triangle& v = mesh_.triangles[t];
         const std::array<Vec3, 3> corner = corners_of(mesh_, t);
@@ -174,7 +181,7 @@ class Pass {
         std::size_t highest = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             s.height[k] = height(normal_, corner[k]);
-            s.node[k] = packing_.label(word[k]);
+            s.component[k] = packing_.label(word[k]);
             s.slab[k] = static_cast<std::uint16_t>(packing_.slab(word[k]));
             if (s.slab[k] < s.slab[lowest]) lowest = k;
             if (s.slab[k] > s.slab[highest]) highest = k;
@@ -185,26 +192,28 @@ class Pass {
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t next = (k + 1) % 3;
             if (s.slab[k] != s.slab[next]) {
-                tie(s.node[k], s.node[next]);
+                connect(s.component[k], s.component[next]);
             } else {
                 join(word_[v[next]], word[k]);
             }
         }
-        // Whole on one side as soon as its corner nearest to the planes is taken in.
-        add_part(above_, s.node[lowest], p_, s, 1, 1);
-        add_part(below_, s.node[highest], p_, s, 1, 1);
+        // The triangle is whole on one side as soon as its corner nearest to the planes has been added there
+        // (sweep.cpp).
+        add_part(above_, s.component[lowest], p_, s, 1, 1);
+        add_part(below_, s.component[highest], p_, s, 1, 1);
         s.first_crossing = static_cast<std::uint32_t>(out_.exit.size());
         for (std::size_t plane = s.low; plane < s.high; ++plane) add_crossing(s, corner, plane);
         out_.crossed.push_back(s);
     }
 
-    // Ties of the same two labels come in runs and by turns; a few are remembered to leave most repeats out.
-    void tie(std::uint32_t a, std::uint32_t b) {
+    // Connections of the same two labels come in runs and by turns: a small table of the last ones leaves out most
+    // repeats.
+    void connect(std::uint32_t a, std::uint32_t b) {
         if (a > b) std::swap(a, b);
-        std::array<std::uint32_t, 2>& known = last_ties_[(a * 31 + b) % last_ties_.size()];
+        std::array<std::uint32_t, 2>& known = last_connections_[(a * 31 + b) % last_connections_.size()];
         if (known[0] == a && known[1] == b) return;
         known = {a, b};
-        out_.ties.push_back(known);
+        out_.connections.push_back(known);
     }
 
     void add_crossing(const CrossedTriangle& s, const std::array<Vec3, 3>& corner, std::size_t plane) {
@@ -215,31 +224,32 @@ class Pass {
         out_.exit.push_back(3 * s.triangle + from);
     }
 
-    // Labels become nodes: one per root.
-    void number_nodes() {
-        std::vector<std::uint32_t> node(label_slab_.size());
-        for (std::uint32_t label = 0; label < node.size(); ++label) {
+    // Labels become components: one per root.
+    void number_components() {
+        std::vector<std::uint32_t> component(label_slab_.size());
+        for (std::uint32_t label = 0; label < component.size(); ++label) {
             if (sets_.root(label) == label) {
-                node[label] = static_cast<std::uint32_t>(out_.node_slab.size());
-                out_.node_slab.push_back(label_slab_[label]);
+                component[label] = static_cast<std::uint32_t>(out_.component_slab.size());
+                out_.component_slab.push_back(label_slab_[label]);
             } else {
-                node[label] = node[sets_.root(label)];  // a root is smaller, so it has its number already
+                component[label] = component[sets_.root(label)];  // a root is smaller, so it has its number already
             }
         }
         for (const auto& [table, by_label] :
              {std::pair{&out_.inside, &inside_}, {&out_.above, &above_}, {&out_.below, &below_}}) {
-            *table = SumTable(out_.nodes(), p_.up.size());
-            for (std::uint32_t label = 0; label < node.size(); ++label) table->add(node[label], *by_label, label);
+            *table = SumTable(out_.components(), p_.up.size());
+            for (std::uint32_t label = 0; label < component.size(); ++label)
+                table->add(component[label], *by_label, label);
         }
         for (CrossedTriangle& s : out_.crossed) {
-            for (std::uint32_t& n : s.node) n = node[n];
+            for (std::uint32_t& label : s.component) label = component[label];
         }
-        for (auto& [a, b] : out_.ties) {
-            a = node[a];
-            b = node[b];
+        for (auto& [a, b] : out_.connections) {
+            a = component[a];
+            b = component[b];
         }
-        for (std::uint32_t& word : word_) word = node[packing_.label(word)];
-        out_.node_of = std::move(word_);
+        for (std::uint32_t& word : word_) word = component[packing_.label(word)];
+        out_.component_of = std::move(word_);
     }
 
     const PreparedPiece& p_;
@@ -248,13 +258,13 @@ class Pass {
     std::span<const double> offsets_;
     PlaneFrame frame_;
     Packing packing_;
-    std::vector<std::uint32_t> word_;  // per point
-    std::vector<std::uint16_t> label_slab_;
+    std::vector<std::uint32_t> word_;        // per point
+    std::vector<std::uint16_t> label_slab_;  // per label
     DisjointSets sets_;
-    SumTable inside_;  // per label, as in Slabs per node
+    SumTable inside_;  // per label, as in Slabs per component
     SumTable above_;
     SumTable below_;
-    std::array<std::array<std::uint32_t, 2>, 256> last_ties_{};
+    std::array<std::array<std::uint32_t, 2>, 256> last_connections_{};
     Slabs out_;
 };
 
@@ -262,7 +272,7 @@ class Pass {
 
 Slabs slabs(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets) {
     assert(!offsets.empty() && std::is_sorted(offsets.begin(), offsets.end()));
-    return Pass(prepared, normal, offsets).run();
+    return SlabPass(prepared, normal, offsets).run();
 }
 
 }  // namespace qchopper

@@ -1,7 +1,9 @@
-// The slabs between the offsets of one normal, and the small graph of what hangs together in each of them.
+// Divides a mesh into the slabs between the offsets of one normal, and finds the graph of its slab components.
 //
-// A node is a connected set of vertices in one slab. Triangles inside a slab are summed up in its node, patch by patch
-// where a whole patch lies in it; a triangle that reaches over several slabs is kept aside as a crossed one.
+// A slab component, here called component, is a connected set of vertices in one slab. Triangles inside a slab are
+// added to their component, whole clusters at once where possible; a triangle that reaches over several slabs is listed
+// as a crossed triangle. mm; the sums that follow from it are held to those of cutting
+// (tests/segment/score/sweep_test.cpp).
 
 #pragma once
 
@@ -16,8 +18,8 @@
 
 namespace qchopper {
 
-// What is added up over the triangles of a part: faces, volume (mm3), and what looks up and down along the normal, by
-// area (mm2) or by count.
+// Sums over the triangles of a part: faces, volume (mm3), and the weighted normals projected on the sweep's normal,
+// upward and downward ones apart, by area (mm2) or by count.
 struct PartSums {
     double faces = 0;
     double volume = 0;
@@ -29,32 +31,36 @@ struct PartSums {
         up += b.up;
         down += b.down;
     }
-    void add_look(double along) {
+    void add_projected(double along) {
         up += along > 0 ? along : 0;
         down += along < 0 ? -along : 0;
     }
 };
 
-// Sums of many parts (nodes, loops or merged ones), each with those of every bound of the piece. Merging parts is
-// adding their rows.
+// Sums of many parts (components, loops or merged ones), and for each part the sums of every half-space of the piece.
+// Merging two parts adds their rows.
 class SumTable {
  public:
     SumTable() = default;
-    SumTable(std::size_t parts, std::size_t bounds) : bounds_(bounds), parts_(parts), bases_(parts * bounds) {}
+    SumTable(std::size_t parts, std::size_t half_spaces)
+        : half_spaces_(half_spaces), parts_(parts), bases_(parts * half_spaces) {}
     PartSums& part(std::size_t p) { return parts_[p]; }
     const PartSums& part(std::size_t p) const { return parts_[p]; }
-    std::span<BaseSums> bases(std::size_t p) { return std::span(bases_).subspan(p * bounds_, bounds_); }
-    std::span<const BaseSums> bases(std::size_t p) const { return std::span(bases_).subspan(p * bounds_, bounds_); }
-    std::size_t bounds() const { return bounds_; }
+    std::span<BaseSums> bases(std::size_t p) { return std::span(bases_).subspan(p * half_spaces_, half_spaces_); }
+    std::span<const BaseSums> bases(std::size_t p) const {
+        return std::span(bases_).subspan(p * half_spaces_, half_spaces_);
+    }
+    std::size_t half_spaces() const { return half_spaces_; }
 
     void add(std::size_t to, const SumTable& from, std::size_t p) {
-        assert(bounds_ == from.bounds_);
+        assert(half_spaces_ == from.half_spaces_);
         parts_[to] += from.parts_[p];
-        for (std::size_t b = 0; b < bounds_; ++b) bases_[to * bounds_ + b] += from.bases_[p * bounds_ + b];
+        for (std::size_t b = 0; b < half_spaces_; ++b)
+            bases_[to * half_spaces_ + b] += from.bases_[p * half_spaces_ + b];
     }
 
  private:
-    std::size_t bounds_ = 0;
+    std::size_t half_spaces_ = 0;
     std::vector<PartSums> parts_;
     std::vector<BaseSums> bases_;  // part by part
 };
@@ -62,13 +68,13 @@ class SumTable {
 // A triangle whose corners lie in different slabs.
 struct CrossedTriangle {
     std::uint32_t triangle;
-    std::array<std::uint32_t, 3> node;  // per corner
-    std::array<std::uint16_t, 3> slab;  // per corner: the number of offsets at or below it
-    std::uint16_t low;                  // least and largest slab: the planes low .. high-1 cross it
+    std::array<std::uint32_t, 3> component;  // per corner
+    std::array<std::uint16_t, 3> slab;       // per corner: the number of offsets at or below it
+    std::uint16_t low;                       // least and largest slab: the planes low .. high-1 cross it
     std::uint16_t high;
     std::uint32_t first_crossing;  // in Slabs::point and exit
     std::array<double, 3> height;
-    double along;  // its share in the undercut along the normal: signed area, or 1 times the unit normal's cosine
+    double along;  // its weighted normal (PreparedPiece) projected on the sweep's normal
     double volume;
 };
 
@@ -77,29 +83,31 @@ inline TriangleCrossing crossing(const CrossedTriangle& c, std::size_t plane) {
 }
 
 struct Slabs {
-    std::vector<std::uint16_t> node_slab;            // per node
-    SumTable inside;                                 // per node: the triangles inside its slab
-    SumTable above;                                  // per node: crossed triangles whose lowest corner it has
-    SumTable below;                                  // per node: crossed triangles whose highest corner it has
-    std::vector<std::array<std::uint32_t, 2>> ties;  // nodes that a crossed triangle has in common; some of them repeat
-    std::vector<CrossedTriangle> crossed;            // patch by patch
-    std::vector<Point2> point;                       // per crossing of a triangle: where its exit edge meets the plane
-    std::vector<std::uint32_t> exit;     // per crossing: the half-edge through which the surface leaves downwards
-    std::vector<std::uint32_t> node_of;  // per point
-    std::size_t nodes() const { return node_slab.size(); }
+    std::vector<std::uint16_t> component_slab;  // per component
+    SumTable inside;                            // per component: the triangles inside its slab
+    SumTable above;                             // per component: crossed triangles whose lowest corner it has
+    SumTable below;                             // per component: crossed triangles whose highest corner it has
+    // Pairs of components that share a crossed triangle; some repeat.
+    std::vector<std::array<std::uint32_t, 2>> connections;
+    std::vector<CrossedTriangle> crossed;     // cluster by cluster
+    std::vector<Point2> point;                // per crossing of a triangle: where its exit edge meets the plane
+    std::vector<std::uint32_t> exit;          // per crossing: the half-edge through which the surface leaves downwards
+    std::vector<std::uint32_t> component_of;  // per point of the mesh
+    std::size_t components() const { return component_slab.size(); }
 };
 
-// `offsets` ascending, none at a vertex's height.
+// Preconditions: at least one offset, ascending, none at the height of a vertex, fewer than 65,536; a unit normal. The
+// slab number and the component number of a point share 32 bits (an assert checks that they fit).
 Slabs slabs(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets);
 
-// Adds a crossed triangle, or its part on one side, to a part's sums.
+// Adds a crossed triangle to the sums of a part: `share` of its area and volume, counted as `faces` triangles.
 inline void add_part(SumTable& table, std::size_t part, const PreparedPiece& prepared, const CrossedTriangle& c,
                      double share, double faces) {
     PartSums& sums = table.part(part);
     sums.faces += faces;
     sums.volume += share * c.volume;
-    sums.add_look((prepared.unit.empty() ? share : faces) * c.along);
-    if (table.bounds() > 0) add_to_bases(table.bases(part), prepared, c.triangle, share, faces);
+    sums.add_projected((prepared.unit.empty() ? share : faces) * c.along);
+    if (table.half_spaces() > 0) add_to_bases(table.bases(part), prepared, c.triangle, share, faces);
 }
 
 }  // namespace qchopper

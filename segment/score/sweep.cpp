@@ -1,8 +1,13 @@
+// The offsets divide the mesh into slabs (slabs.h). Above and below a plane, parts are merges of slab components,
+// joined by the cap regions of the plane's loops (section.h) and by the links of uncut cavities: a planar cut makes no
+// new cavity, so nothing else joins the surfaces of one solid. Merges go from the far ends towards the planes, with
+// disjoint sets. O(points + triangles + crossings) for offsets about evenly spaced; besides, per plane, the nesting of
+// its loops (polygon_nesting.h) and a pass over the merged components.
+
 #include "segment/score/sweep.h"
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 
 #include "segment/cut/half_solids.h"
 #include "segment/mesh/disjoint_sets.h"
@@ -13,19 +18,17 @@
 namespace qchopper {
 namespace {
 
-constexpr std::int32_t new_cut = std::numeric_limits<std::int32_t>::max();
-
 struct GraphEdge {
     std::uint32_t a;
     std::uint32_t b;
 };
 
-// One side of all planes: nodes are taken in slab by slab, from the far end towards the planes, and merged; between two
-// slabs lies a plane, at which the parts are read off.
-class Side {
+// One side of all planes: components are added slab by slab, from the far end towards the planes, and merged. Between
+// two slabs lies a plane, for which the parts merged so far are evaluated.
+class SweepSide {
  public:
-    Side(const PreparedPiece& prepared, const Slabs& slabs, const Section& section, Vec3 normal,
-         std::span<const double> offsets, std::span<const CavityLink> links, bool above)
+    SweepSide(const PreparedPiece& prepared, const Slabs& slabs, const Section& section, Vec3 normal,
+              std::span<const double> offsets, std::span<const CavityLink> links, bool above)
         : p_(prepared),
           slabs_(slabs),
           section_(section),
@@ -33,17 +36,18 @@ class Side {
           offsets_(offsets),
           above_(above),
           planes_(offsets.size()),
-          sets_(slabs.nodes()),
+          sets_(slabs.components()),
           sums_(slabs.inside),
           edges_at_(planes_ + 1),
-          nodes_at_(planes_ + 1) {
-        for (std::uint32_t n = 0; n < slabs.nodes(); ++n) {
-            nodes_at_[slabs.node_slab[n]].push_back(n);
-            sums_.add(n, above ? slabs.above : slabs.below, n);
+          components_at_(planes_ + 1) {
+        for (std::uint32_t c = 0; c < slabs.components(); ++c) {
+            components_at_[slabs.component_slab[c]].push_back(c);
+            sums_.add(c, above ? slabs.above : slabs.below, c);
         }
-        for (const auto& [a, b] : slabs.ties) add_edge(a, b);
+        for (const auto& [a, b] : slabs.connections) add_edge(a, b);
         for (const CavityLink& link : links) {
-            add_edge(slabs.node_of[link.vertex], slabs.node_of[far_corner(*prepared.piece->mesh, link, normal, above)]);
+            add_edge(slabs.component_of[link.vertex],
+                     slabs.component_of[far_corner(*prepared.piece->mesh, link, normal, above)]);
         }
     }
 
@@ -53,23 +57,23 @@ class Side {
         for (std::size_t step = 0; step < planes_; ++step) {
             const std::size_t slab = above_ ? planes_ - step : step;
             const std::size_t plane = above_ ? slab - 1 : slab;
-            import_scan(slab);
-            if (evaluations[plane]) read_parts(plane, regions[plane], *evaluations[plane]);
+            add_slab(slab);
+            if (evaluations[plane]) add_solids(plane, regions[plane], *evaluations[plane]);
         }
     }
 
  private:
-    // An edge counts from the slab of its end nearer to the planes.
+    // An edge merges its ends when the slab of the end nearer to the planes is added.
     void add_edge(std::uint32_t a, std::uint32_t b) {
         if (a == b) return;
-        const std::uint16_t slab_a = slabs_.node_slab[a];
-        const std::uint16_t slab_b = slabs_.node_slab[b];
+        const std::uint16_t slab_a = slabs_.component_slab[a];
+        const std::uint16_t slab_b = slabs_.component_slab[b];
         std::vector<GraphEdge>& edges = edges_at_[above_ ? std::min(slab_a, slab_b) : std::max(slab_a, slab_b)];
         edges.push_back({a, b});
     }
 
-    void import_scan(std::size_t slab) {
-        live_.insert(live_.end(), nodes_at_[slab].begin(), nodes_at_[slab].end());
+    void add_slab(std::size_t slab) {
+        live_.insert(live_.end(), components_at_[slab].begin(), components_at_[slab].end());
         for (const GraphEdge& edge : edges_at_[slab]) {
             const std::uint32_t a = sets_.root(edge.a);
             const std::uint32_t b = sets_.root(edge.b);
@@ -77,19 +81,19 @@ class Side {
             sums_.add(std::min(a, b), sums_, std::max(a, b));
             sets_.unite(a, b);
         }
-        std::erase_if(live_, [&](std::uint32_t n) { return sets_.root(n) != n; });
+        std::erase_if(live_, [&](std::uint32_t c) { return sets_.root(c) != c; });
     }
 
-    void read_parts(std::size_t plane, const std::vector<SectionRegion>& regions, CutEvaluation& evaluation) {
+    void add_solids(std::size_t plane, const std::vector<SectionRegion>& regions, CutEvaluation& evaluation) {
         const std::size_t first = section_.first_loop[plane];
         const std::size_t count = section_.first_loop[plane + 1] - first;
         assert(count > 0);
-        // Loops are one part if they share a cap region or a merged node.
+        // Loops belong to one part if they share a cap region or a merged component.
         DisjointSets part(count);
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> roots;  // merged node, loop
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> roots;  // merged component, loop
         for (std::uint32_t i = 0; i < count; ++i) {
             const SectionLoop& loop = section_.loops[first + i];
-            roots.emplace_back(sets_.root(above_ ? loop.node_above : loop.node_below), i);
+            roots.emplace_back(sets_.root(above_ ? loop.component_above : loop.component_below), i);
         }
         std::sort(roots.begin(), roots.end());
         for (std::size_t i = 1; i < roots.size(); ++i) {
@@ -101,7 +105,7 @@ class Side {
                            static_cast<std::uint32_t>(loop - first));
             }
         }
-        SumTable sums(count, sums_.bounds());
+        SumTable sums(count, sums_.half_spaces());
         std::vector<bool> has_cap(count, false);
         for (std::uint32_t i = 0; i < count; ++i) {
             sums.add(part.root(i), above_ ? section_.above : section_.below, first + i);
@@ -118,9 +122,9 @@ class Side {
         for (std::uint32_t i = 0; i < count; ++i) {
             if (part.root(i) == i) evaluation.solids.push_back(solid(sums, i, has_cap[i]));
         }
-        for (const std::uint32_t n : live_) {  // shells that the plane does not touch and nothing ties
-            const auto at = std::lower_bound(roots.begin(), roots.end(), std::pair{n, 0U});
-            if (at == roots.end() || at->first != n) evaluation.solids.push_back(solid(sums_, n, false));
+        for (const std::uint32_t c : live_) {  // solids that the plane does not touch
+            const auto at = std::lower_bound(roots.begin(), roots.end(), std::pair{c, 0U});
+            if (at == roots.end() || at->first != c) evaluation.solids.push_back(solid(sums_, c, false));
         }
     }
 
@@ -130,8 +134,8 @@ class Side {
         sums.part(part).faces += region.triangles;
         sums.part(part).volume += distance * region.area_mm2 / 3;
         const double weight = p_.unit.empty() ? region.area_mm2 : region.triangles;
-        for (std::size_t b = 0; b < p_.piece->bounds.size(); ++b) {
-            const double upwards = weight * dot(outward, p_.piece->bounds[b].up());
+        for (std::size_t b = 0; b < p_.piece->half_spaces.size(); ++b) {
+            const double upwards = weight * dot(outward, p_.piece->half_spaces[b].up());
             BaseSums& base = sums.bases(part)[b];
             (upwards > 0 ? base.up : base.down) += std::abs(upwards);
         }
@@ -143,11 +147,11 @@ class Side {
         s.faces = static_cast<std::size_t>(all.faces);
         s.volume_mm3 = all.volume;
         s.above = above_;
-        for (std::size_t b = 0; b < p_.piece->bounds.size(); ++b) {
+        for (std::size_t b = 0; b < p_.piece->half_spaces.size(); ++b) {
             const BaseSums& base = sums.bases(part)[b];
-            if (base.faces > 0) s.bases.push_back(share(p_.piece->bounds[b].cut, base.up, base.down));
+            if (base.faces > 0) s.bases.push_back(share(p_.piece->half_spaces[b].cut, base.up, base.down));
         }
-        if (has_cap) {  // up is the normal above, its opposite below
+        if (has_cap) {  // its up is the normal above the plane, the opposite below
             s.bases.push_back(share(new_cut, above_ ? all.up : all.down, above_ ? all.down : all.up));
         }
         return s;
@@ -167,9 +171,9 @@ class Side {
     std::size_t planes_;
     DisjointSets sets_;
     SumTable sums_;
-    std::vector<std::vector<GraphEdge>> edges_at_;      // per slab
-    std::vector<std::vector<std::uint32_t>> nodes_at_;  // per slab
-    std::vector<std::uint32_t> live_;                   // roots of what was taken in
+    std::vector<std::vector<GraphEdge>> edges_at_;           // per slab
+    std::vector<std::vector<std::uint32_t>> components_at_;  // per slab
+    std::vector<std::uint32_t> live_;                        // roots of the components added so far
 };
 
 }  // namespace
@@ -193,7 +197,7 @@ std::vector<std::optional<CutEvaluation>> sweep_solids(const PreparedPiece& prep
     }
     const std::vector<CavityLink> links = cavity_links(*prepared.piece->mesh, prepared.shells, normal);
     for (const bool above : {true, false}) {
-        Side(prepared, all_slabs, section, normal, offsets, links, above).run(evaluations, all_regions);
+        SweepSide(prepared, all_slabs, section, normal, offsets, links, above).run(evaluations, all_regions);
     }
     return evaluations;
 }

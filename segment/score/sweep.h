@@ -1,10 +1,8 @@
-// Evaluations all planes of one normal at once, without cutting: linear in the mesh, whatever the number of offsets.
+// Evaluates all planes of one normal at once, without cutting.
 //
 // Equal to evaluate_by_cutting (reference.h) on every closed mesh: pieces, face counts and bases exactly, sums to 1e-9
-// (tests/segment/score/sweep_test.cpp, touching_test.cpp). How: the offsets divide the mesh into slabs; what hangs
-// together in a slab is a node; parts above and below a plane are merges of nodes, joined across it by the cap regions
-// of its loops. A planar cut makes no new cavity, so surfaces of one solid are joined by a cap region or by the link
-// of an uncut cavity.
+// (tests/segment/score/sweep_test.cpp, touching_test.cpp). mm. Linear in the mesh and in the crossings of triangles and
+// planes, if the offsets are about evenly spaced; docs/decisions/0011.
 
 #pragma once
 
@@ -12,18 +10,18 @@
 #include <span>
 #include <vector>
 
-#include "base/context.h"
 #include "segment/score/cut_evaluation.h"
 #include "segment/score/prepared.h"
 
 namespace qchopper {
 
-// One evaluation per offset, nothing where the plane misses. `offsets` ascending, nudged: none at a vertex's height;
-// the normal canonical. The piece must be closed (prepared.edges.faults).
+// One evaluation per offset; nothing where the plane misses. Preconditions: `offsets` ascending and nudged (nudge.h),
+// so that none is at the height of a vertex; the normal canonical (plane.h); the piece closed (prepared.edges.faults);
+// `prepared` made with the same objectives.
 std::vector<std::optional<CutEvaluation>> sweep(const PreparedPiece& prepared, Vec3 normal,
                                                 std::span<const double> offsets, const Objectives& objectives);
 
-// The same without fragility: what the sweep itself costs.
+// The same without fragility. Measured by itself in docs/performance.md.
 std::vector<std::optional<CutEvaluation>> sweep_solids(const PreparedPiece& prepared, Vec3 normal,
                                                        std::span<const double> offsets);
 

@@ -1,11 +1,14 @@
+// Clipping of a convex polygon at a plane, edge by edge (I. E. Sutherland and G. W. Hodgman, Reentrant polygon
+// clipping, 1974); the centroid from a fan of triangles. O(1).
+
 #include "segment/score/thin_part.h"
 
 #include <cassert>
 
 namespace qchopper {
 
-Part part_of(const TriangleMesh& mesh, std::size_t triangle, const Plane& plane, bool above) {
-    Part part;
+ThinPart thin_part(const TriangleMesh& mesh, std::size_t triangle, const Plane& plane, bool above) {
+    ThinPart part;
     const Triangle& v = mesh.triangles[triangle];
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 a = mesh.points[v[k]];
@@ -18,7 +21,7 @@ Part part_of(const TriangleMesh& mesh, std::size_t triangle, const Plane& plane,
     return part;
 }
 
-Centroid centroid(const Part& part) {
+Centroid centroid(const ThinPart& part) {
     assert(part.corners >= 0 && part.corners <= 4);
     Centroid c;
     const Vec3 a = part.corner[0];

@@ -1,3 +1,6 @@
+// A merge of sorted lists: the children of every BSP are ordered by cost, so the cheapest of all heads is taken until
+// the round is full. O(beam) per BSP taken, besides cutting it.
+
 #include "segment/search/beam.h"
 
 #include <algorithm>
@@ -16,13 +19,13 @@ double of_cuts(const Segmentation& segmentation, const Weights& w) {
     return sum;
 }
 
-double of_pieces(const Segmentation& segmentation, const Objectives& objectives, EvaluationCache& book) {
+double of_pieces(const Segmentation& segmentation, const Objectives& objectives, EvaluationCache& cache) {
     if (segmentation.pieces.empty()) return 0;
     std::size_t most = 0;
     std::size_t fewest = segmentation.pieces.front().mesh->triangles.size();
     double undercuts = 0;
     for (const Piece& piece : segmentation.pieces) {
-        const PieceShare s = share(book.own(piece), objectives);
+        const PieceShare s = share(cache.solid_evaluation(piece), objectives);
         most = std::max(most, s.faces);
         fewest = std::min(fewest, s.faces);
         undercuts += s.undercut;
@@ -32,44 +35,44 @@ double of_pieces(const Segmentation& segmentation, const Objectives& objectives,
            objectives.weights.undercut * undercuts / static_cast<double>(segmentation.pieces.size());
 }
 
-// Where the merge stands in one BSP: at itself if it ended, else at one of its children.
+// The head of one list of the merge: a BSP that ended, or else one child of a BSP.
 struct Head {
     std::size_t bsp = 0;
     std::size_t child = 0;
     double cost = 0;
-    int normal = -1;
-    int offset = -1;
+    int normal_index = -1;
+    int offset_index = -1;
 };
 
 bool is_before(const Head& a, const Head& b) {
     if (a.cost + tie < b.cost) return true;
     if (b.cost + tie < a.cost) return false;
-    return std::tie(a.normal, a.offset, a.bsp) < std::tie(b.normal, b.offset, b.bsp);
+    return std::tie(a.normal_index, a.offset_index, a.bsp) < std::tie(b.normal_index, b.offset_index, b.bsp);
 }
 
 Head head(const std::vector<Bsp>& beam, std::size_t i, std::size_t child) {
     if (!beam[i].is_live()) return {i, child, beam[i].cost, -1, -1};
     const Ranked& r = beam[i].ranked[beam[i].children[child]];
-    return {i, child, beam[i].of_cuts + r.terms.total, r.normal, r.offset};
+    return {i, child, beam[i].of_cuts + r.terms.total, r.normal_index, r.offset_index};
 }
 
 }  // namespace
 
-double cost(const Segmentation& segmentation, const Objectives& objectives, EvaluationCache& book) {
-    return of_cuts(segmentation, objectives.weights) + of_pieces(segmentation, objectives, book);
+double cost(const Segmentation& segmentation, const Objectives& objectives, EvaluationCache& cache) {
+    return of_cuts(segmentation, objectives.weights) + of_pieces(segmentation, objectives, cache);
 }
 
 Bsp bsp(Segmentation segmentation, std::vector<std::string> passed_over, const Objectives& objectives,
-        EvaluationCache& book) {
+        EvaluationCache& cache) {
     Bsp b;
     b.segmentation = std::move(segmentation);
     b.passed_over = std::move(passed_over);
     b.of_cuts = of_cuts(b.segmentation, objectives.weights);
-    b.cost = b.of_cuts + of_pieces(b.segmentation, objectives, book);
+    b.cost = b.of_cuts + of_pieces(b.segmentation, objectives, cache);
     return b;
 }
 
-std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& settings, EvaluationCache& book) {
+std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& settings, EvaluationCache& cache) {
     std::vector<Head> heads;
     for (std::size_t i = 0; i < beam.size(); ++i) heads.push_back(head(beam, i, 0));
     std::vector<Bsp> kept;
@@ -86,9 +89,9 @@ std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& setting
         Segmentation child = parent.segmentation;
         const Cut cut =
             cut_by(child, *parent.next.piece, parent.ranked, parent.children[taken.child], settings.runners_up);
-        // An evaluation promises what the cut does not keep only where the scan intersects itself.
+        // A cut differs from its evaluation only where the scan intersects itself.
         if (apply(child, cut, settings.objectives.fragment_volume_mm3)) {
-            kept.push_back(bsp(std::move(child), parent.passed_over, settings.objectives, book));
+            kept.push_back(bsp(std::move(child), parent.passed_over, settings.objectives, cache));
             has_child[taken.bsp] = true;
         }
         if (taken.child + 1 < parent.children.size()) {

@@ -1,4 +1,6 @@
-// The beam: the BSPs that are kept from round to round, and their cost.
+// The beam of the search: the BSPs (binary space partitions) that are kept from round to round, and their cost.
+//
+// Invariants: tests/segment/search/beam_test.cpp. Method and reference: search.h.
 
 #pragma once
 
@@ -12,29 +14,33 @@
 
 namespace qchopper {
 
-// Face ratio and mean undercut of the pieces plus the sums over the cuts of fragility and piece count, weighted.
-double cost(const Segmentation& segmentation, const Objectives& objectives, EvaluationCache& book);
+// Face ratio and mean undercut of the pieces plus the sums over the cuts of fragility and piece count, all weighted.
+double cost(const Segmentation& segmentation, const Objectives& objectives, EvaluationCache& cache);
 
-// One of the BSPs of a beam.
+// One BSP of a beam.
 struct Bsp {
     Segmentation segmentation;
-    std::vector<std::string> passed_over;  // pieces that no candidate parts
-    double of_cuts = 0;                    // what its cuts add to its cost whatever follows
+    std::vector<std::string> passed_over;  // names of pieces that no candidate cuts
+    double of_cuts = 0;                    // the part of its cost that later cuts do not change
     NextPiece next;
     std::vector<Ranked> ranked;         // the candidates of its next piece, best first
-    std::vector<std::size_t> children;  // those of them that it may be expanded by
+    std::vector<std::size_t> children;  // indices in `ranked` of those that may expand it
     double cost = 0;
 
     bool is_live() const { return !next.is_finished && next.piece.has_value(); }
 };
 
+// A BSP with its costs. `next`, `ranked` and `children` are left empty.
 Bsp bsp(Segmentation segmentation, std::vector<std::string> passed_over, const Objectives& objectives,
-        EvaluationCache& book);
+        EvaluationCache& cache);
 
-// The next round: the cheapest of what ended and of all children, `settings.beam` at most, cheapest first.
-std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& settings, EvaluationCache& book);
+// The next round: the cheapest of the ended BSPs and of all children, `settings.beam` at most, cheapest first. A BSP
+// none of whose children could be cut stays, with its next piece added to `passed_over`. Precondition: every BSP that
+// is live has children.
+std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& settings, EvaluationCache& cache);
 
-// The segmentation after each of state.cuts, from that of the root. Throws InputError (config) if a cut does not apply.
+// The segmentation after each of state.cuts, made from that of the root. Throws InputError (config) if a cut does not
+// apply.
 std::vector<Segmentation> grow(const BeamState& state, const Segmentation& root, double fragment_volume_mm3);
 
 }  // namespace qchopper

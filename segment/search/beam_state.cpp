@@ -1,3 +1,5 @@
+// Cuts are found by linear search: O(cuts of the branch * cuts of the tree).
+
 #include "segment/search/beam_state.h"
 
 #include <algorithm>

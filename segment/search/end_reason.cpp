@@ -1,3 +1,5 @@
+// A table of sentences and its linear search.
+
 #include "segment/search/end_reason.h"
 
 #include <algorithm>
@@ -6,7 +8,7 @@
 namespace qchopper {
 namespace {
 
-// A sentence is what stands before its figure, the figure, and what stands after it.
+// The text before the figure of a sentence and the text after it.
 struct Sentence {
     EndReason reason;
     const char* before;

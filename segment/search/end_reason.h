@@ -1,4 +1,5 @@
-// Why a search ended, and the sentence that says so: one table, read in both directions.
+// Reasons for which a search ends, and their sentences: one table, read in both directions
+// (tests/segment/search/end_reason_test.cpp).
 
 #pragma once
 
@@ -9,22 +10,23 @@
 namespace qchopper {
 
 enum class EndReason {
-    rules_hold,
+    rules_hold,  // the stop rules
     no_rule,     // none is set
-    no_plane,    // of the pieces that break a rule none can be parted
+    no_plane,    // none of the pieces that break a rule has a candidate
     max_cuts,    // the safety stop
     time_limit,  // the search could go on
 };
 
-// Is no cut missing?
+// Whether no cut is missing.
 constexpr bool is_finished(EndReason reason) {
     return reason == EndReason::rules_hold || reason == EndReason::no_rule;
 }
 
-// "the safety stop of 500 cuts is reached". `figure`: the number in the sentence, where there is one.
+// The sentence of a reason, such as "the safety stop of 500 cuts is reached". `figure`: the number in it, if it has
+// one.
 std::string describe(EndReason reason, const std::string& figure = {});
 
-// The reason of a sentence, whatever its figure. Nothing if no sentence of describe() begins like that.
+// The reason of a sentence, with any figure and with text after it. Nothing if no sentence of describe() begins so.
 std::optional<EndReason> end_reason_of(std::string_view sentence);
 
 }  // namespace qchopper

@@ -1,3 +1,6 @@
+// A map from the address of a mesh to its entry. Boxes and candidates of several pieces are computed in parallel, then
+// their sweeps. O(log pieces) for what is there already.
+
 #include "segment/search/evaluation_cache.h"
 
 #include <cassert>
@@ -10,7 +13,7 @@
 namespace qchopper {
 namespace {
 
-// Several pieces report as one: counts add up, and one thread speaks at a time.
+// Adds up the progress of several pieces. The callback is called from one thread at a time.
 class SharedProgress {
  public:
     SharedProgress(const Context& context, std::size_t total) : context_(context), total_(total) {}
@@ -19,7 +22,7 @@ class SharedProgress {
         Context context;
         context.cancelled = context_.cancelled;
         context.on_progress = [this, before = std::size_t{0}](const Progress& p) mutable {
-            const std::lock_guard lock(speaking_);
+            const std::lock_guard lock(reporting_);
             done_ += p.done - before;
             before = p.done;
             context_.progress(p.what, done_, total_);
@@ -31,7 +34,7 @@ class SharedProgress {
     const Context& context_;
     std::size_t total_;
     std::size_t done_ = 0;
-    std::mutex speaking_;
+    std::mutex reporting_;
 };
 
 }  // namespace
@@ -54,10 +57,10 @@ const OrientedBox& EvaluationCache::box(const Piece& piece) {
     return *e.box;
 }
 
-const SolidEvaluation& EvaluationCache::own(const Piece& piece) {
+const SolidEvaluation& EvaluationCache::solid_evaluation(const Piece& piece) {
     Entry& e = entry(piece);
-    if (!e.own) e.own = measure(piece);
-    return *e.own;
+    if (!e.solid) e.solid = measure(piece);
+    return *e.solid;
 }
 
 bool EvaluationCache::is_known(const Piece& piece, Entry& e) {
@@ -67,17 +70,6 @@ bool EvaluationCache::is_known(const Piece& piece, Entry& e) {
         e.evaluations = std::make_shared<const PieceEvaluations>(std::move(*found));
     }
     return e.evaluations != nullptr;
-}
-
-// What candidate_planes() gives, from the box that is known already.
-std::vector<Candidate> EvaluationCache::candidates_of(const Piece& piece, const OrientedBox& box) const {
-    std::vector<Candidate> all;
-    for (int axis = 0; axis < 3; ++axis) {
-        const std::vector<Candidate> some =
-            candidates_along(piece, box.axis[static_cast<std::size_t>(axis)], axis, options_.offsets_per_normal);
-        all.insert(all.end(), some.begin(), some.end());
-    }
-    return all;
 }
 
 void EvaluationCache::evaluate(std::span<const Piece* const> pieces, const Context& context) {
@@ -97,7 +89,7 @@ void EvaluationCache::evaluate(std::span<const Piece* const> pieces, const Conte
     parallel_for(0, tasks.size(), [&](std::size_t i) {
         Task& task = tasks[i];
         if (!task.entry->box) task.entry->box = oriented_box(task.piece->mesh->points);
-        task.evaluations.candidates = candidates_of(*task.piece, *task.entry->box);
+        task.evaluations.candidates = candidate_planes(*task.piece, *task.entry->box, options_);
     });
     std::size_t planes = 0;
     for (const Task& task : tasks) planes += task.evaluations.candidates.size();

@@ -1,8 +1,9 @@
-// What was found out about pieces, each thing once per piece: its box, its share, the evaluations of all its
-// candidates.
+// Keeps what is computed for pieces, each once per piece: the box, the evaluation of the piece itself, the evaluations
+// of all its candidates.
 //
-// A piece is known by its mesh, so all BSPs of a beam share what is known of it. Evaluations hold for every weight and
-// threshold: a change of those ranks anew and evaluates nothing (tests/segment/search/evaluation_cache_test.cpp).
+// The key is the mesh of a piece, so all BSPs of a beam share the entries. Evaluations hold for all weights and
+// thresholds: a change of those ranks again and evaluates nothing (tests/segment/search/evaluation_cache_test.cpp). All
+// functions are called from one thread.
 
 #pragma once
 
@@ -21,15 +22,16 @@
 
 namespace qchopper {
 
-// The ingredients of every ranking of one piece.
+// The evaluations from which a piece is ranked.
 struct PieceEvaluations {
     std::vector<Candidate> candidates;
     std::vector<std::optional<CutEvaluation>> evaluations;  // one per candidate; nothing: the plane misses
 };
 
-// Where evaluations outlive the program (evaluation_store.h). Both may be empty; called from one thread.
+// Where evaluations are kept beyond the end of the program (app/project/evaluation_store.h). Both functions may be
+// empty; they are called from one thread.
 struct EvaluationStore {
-    std::function<std::optional<PieceEvaluations>(const Piece&)> find;
+    std::function<std::optional<PieceEvaluations>(const Piece&)> find;  // nothing: not stored
     std::function<void(const Piece&, const PieceEvaluations&)> keep;
 };
 
@@ -37,35 +39,38 @@ class EvaluationCache {
  public:
     EvaluationCache(const Objectives& objectives, const CandidateOptions& options, EvaluationStore store = {});
 
+    // References stay valid until keep_only() removes the piece.
     const OrientedBox& box(const Piece& piece);
-    const SolidEvaluation& own(const Piece& piece);
+    const SolidEvaluation& solid_evaluation(const Piece& piece);  // of the piece as it is: measure() in reference.h
 
-    // All that were not evaluated yet, at once, so that all cores are busy. Afterwards evaluations() answers for each.
+    // Evaluates all of the pieces that are neither evaluated nor stored, together, so that all cores are busy.
+    // Afterwards evaluations() may be called for each; it must not be called before. Throws Cancelled, and then keeps
+    // no new evaluation.
     void evaluate(std::span<const Piece* const> pieces, const Context& context);
     const PieceEvaluations& evaluations(const Piece& piece) const;
     bool is_evaluated(const Piece& piece) const;
 
-    // One plane that is no candidate, such as the operator's own. Not kept.
+    // Evaluates one plane that is no candidate, such as one given by the operator. Not kept. Preconditions as in
+    // evaluate_all (evaluate.h).
     std::optional<CutEvaluation> evaluation_of(const Piece& piece, const Candidate& plane, const Context& context);
 
-    // How many pieces were evaluated and how many boxes were searched since the book was opened.
+    // How many pieces were evaluated and how many boxes computed by this cache.
     std::size_t evaluated_count() const { return evaluated_count_; }
     std::size_t box_count() const { return box_count_; }
 
-    // Forgets every piece that none of the segmentations holds.
+    // Removes every piece that is in none of the segmentations.
     void keep_only(std::span<const Segmentation* const> segmentations);
 
  private:
     struct Entry {
-        std::shared_ptr<const TriangleMesh> mesh;  // keeps the key from being used again
+        std::shared_ptr<const TriangleMesh> mesh;  // held so that its address, the key, is not used again
         std::optional<OrientedBox> box;
-        std::optional<SolidEvaluation> own;
+        std::optional<SolidEvaluation> solid;
         std::shared_ptr<const PieceEvaluations> evaluations;
     };
 
     Entry& entry(const Piece& piece);
     bool is_known(const Piece& piece, Entry& entry);
-    std::vector<Candidate> candidates_of(const Piece& piece, const OrientedBox& box) const;
 
     Objectives objectives_;
     CandidateOptions options_;

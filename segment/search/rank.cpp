@@ -1,3 +1,5 @@
+// O(c log c) for c candidates that have terms; O(c^2) to drop near duplicates.
+
 #include "segment/search/rank.h"
 
 #include <algorithm>
@@ -8,10 +10,10 @@
 namespace qchopper {
 namespace {
 
-// Best first. Totals within a tie of the group's best are one group, in which the candidates' order decides.
+// Best first. Totals within a tie of the best of a group form the group, which is sorted by the candidates' indices.
 void sort_best_first(std::vector<Ranked>& ranked) {
     const auto by_order = [](const Ranked& a, const Ranked& b) {
-        return std::pair(a.normal, a.offset) < std::pair(b.normal, b.offset);
+        return std::pair(a.normal_index, a.offset_index) < std::pair(b.normal_index, b.offset_index);
     };
     std::stable_sort(ranked.begin(), ranked.end(),
                      [](const Ranked& a, const Ranked& b) { return a.terms.total < b.terms.total; });
@@ -26,11 +28,11 @@ void sort_best_first(std::vector<Ranked>& ranked) {
 }  // namespace
 
 std::vector<PieceShare> shares_of_others(const Segmentation& segmentation, std::size_t piece,
-                                         const Objectives& objectives, EvaluationCache& book) {
+                                         const Objectives& objectives, EvaluationCache& cache) {
     assert(piece < segmentation.pieces.size());
     std::vector<PieceShare> shares;
     for (std::size_t p = 0; p < segmentation.pieces.size(); ++p) {
-        if (p != piece) shares.push_back(share(book.own(segmentation.pieces[p]), objectives));
+        if (p != piece) shares.push_back(share(cache.solid_evaluation(segmentation.pieces[p]), objectives));
     }
     return shares;
 }
@@ -44,7 +46,7 @@ std::vector<Ranked> rank(const PieceEvaluations& evaluations, std::span<const Pi
         const std::optional<Terms> t = terms(*evaluations.evaluations[i], others, objectives);
         if (!t) continue;
         const Candidate& c = evaluations.candidates[i];
-        ranked.push_back({c.plane, c.wanted_offset, c.normal, c.offset, *t});
+        ranked.push_back({c.plane, c.wanted_offset, c.normal_index, c.offset_index, *t});
     }
     sort_best_first(ranked);
     return ranked;
@@ -57,7 +59,8 @@ std::vector<std::size_t> without_near_duplicates(const std::vector<Ranked>& rank
     std::vector<std::size_t> kept;
     for (std::size_t i = 0; i < ranked.size(); ++i) {
         const bool is_near = std::any_of(kept.begin(), kept.end(), [&](std::size_t k) {
-            return ranked[k].normal == ranked[i].normal && std::abs(ranked[k].offset - ranked[i].offset) < near_steps;
+            return ranked[k].normal_index == ranked[i].normal_index &&
+                   std::abs(ranked[k].offset_index - ranked[i].offset_index) < near_steps;
         });
         if (!is_near) kept.push_back(i);
     }
@@ -65,18 +68,18 @@ std::vector<std::size_t> without_near_duplicates(const std::vector<Ranked>& rank
 }
 
 std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
-                         EvaluationCache& book, const Context& context) {
+                         EvaluationCache& cache, const Context& context) {
     assert(piece < segmentation.pieces.size());
     const Piece* target = &segmentation.pieces[piece];
-    book.evaluate(std::span(&target, 1), context);
-    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, book);
-    return rank(book.evaluations(*target), others, settings.objectives);
+    cache.evaluate(std::span(&target, 1), context);
+    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, cache);
+    return rank(cache.evaluations(*target), others, settings.objectives);
 }
 
 std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t piece, const Candidate& plane,
-                                 const SearchSettings& settings, EvaluationCache& book, const Context& context) {
-    const PieceEvaluations alone{{plane}, {book.evaluation_of(segmentation.pieces[piece], plane, context)}};
-    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, book);
+                                 const SearchSettings& settings, EvaluationCache& cache, const Context& context) {
+    const PieceEvaluations alone{{plane}, {cache.evaluation_of(segmentation.pieces[piece], plane, context)}};
+    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, cache);
     const std::vector<Ranked> ranked = rank(alone, others, settings.objectives);
     return ranked.empty() ? std::nullopt : std::optional(ranked.front());
 }

@@ -1,7 +1,8 @@
-// Puts the candidates of one piece in order: best first, by the weights that stand now.
+// Ranks the candidates of one piece by weighted cost, best first.
 //
-// Ranking never cuts: it weighs ingredients that are known (evaluation_cache.h), or that the book finds out first. Ties
-// within 1e-9 of the total go to the lower normal, then offset (tests/segment/search/search_test.cpp).
+// Ranking never cuts: it weighs evaluations that are in the cache (evaluation_cache.h) or are computed for it. Ties
+// within 1e-9 of the total go to the lower normal_index, then offset_index (tests/segment/search/search_test.cpp). In
+// all functions `piece` is an index in Segmentation::pieces.
 
 #pragma once
 
@@ -19,28 +20,30 @@ namespace qchopper {
 
 constexpr double tie = 1e-9;  // totals that differ by less are equal
 
-// What the other pieces of the segmentation bring into the objectives.
+// The values of the other pieces of the segmentation, in their order.
 std::vector<PieceShare> shares_of_others(const Segmentation& segmentation, std::size_t piece,
-                                         const Objectives& objectives, EvaluationCache& book);
+                                         const Objectives& objectives, EvaluationCache& cache);
 
+// The candidates that have terms (objectives.h), best first. `others`: the shares of the other pieces.
 std::vector<Ranked> rank(const PieceEvaluations& evaluations, std::span<const PieceShare> others,
                          const Objectives& objectives);
 
-// Which of a ranking stay when every candidate is dropped that has a better one of the same normal less than `near` of
-// the piece's extent away. Indices, best first.
+// Drops from a ranking every candidate that has a better one of the same normal_index at a distance below `near`, a
+// share of the piece's extent. Returns the indices of the others, best first.
 std::vector<std::size_t> without_near_duplicates(const std::vector<Ranked>& ranked, int offsets_per_normal,
                                                  double near);
 
-// All candidates of one piece, best first.
+// All candidates of one piece, best first, evaluated if they are not in the cache. Throws Cancelled.
 std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
-                         EvaluationCache& book, const Context& context);
+                         EvaluationCache& cache, const Context& context);
 
-// One plane that is no candidate of the piece. Nothing if it misses, or leaves fewer than two pieces that are no
-// fragments.
+// The terms of one plane that is no candidate of the piece. Nothing if it misses, or leaves fewer than two pieces,
+// fragments not counted. Throws Cancelled.
 std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t piece, const Candidate& plane,
-                                 const SearchSettings& settings, EvaluationCache& book, const Context& context);
+                                 const SearchSettings& settings, EvaluationCache& cache, const Context& context);
 
-// The cut that takes the k-th of a ranking (from 0), with the next best beside it; its number follows the others'.
+// The cut by the k-th of a ranking (from 0), with up to `runners_up` of the others. Its number follows those of the
+// cuts that are made. Precondition: k < ranked.size().
 Cut cut_by(const Segmentation& segmentation, std::size_t piece, const std::vector<Ranked>& ranked, std::size_t k,
            std::size_t runners_up);
 

@@ -1,3 +1,7 @@
+// Each round evaluates the next pieces of the beam, ranks their candidates and merges the children (beam.h). The cost
+// of a round is that of the evaluations and of cutting at most b children; the memory that of b segmentations, which
+// share the meshes of their pieces.
+
 #include "segment/search/search.h"
 
 #include <algorithm>
@@ -10,9 +14,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t evaluated_together = 2;  // one piece alone does not keep two cores busy to its end
+constexpr std::size_t evaluated_together = 2;  // one piece alone leaves cores idle towards its end
 
-std::string in_digits(double seconds) {
+std::string decimal(double seconds) {
     std::string text = std::to_string(seconds);
     text.erase(text.find_last_not_of('0') + 1);
     if (text.back() == '.') text.pop_back();
@@ -22,11 +26,11 @@ std::string in_digits(double seconds) {
 // One search from its start to its end.
 class Search {
  public:
-    Search(const SearchSettings& settings, EvaluationCache& book, const FitsCell& fits_cell, const Context& context,
+    Search(const SearchSettings& settings, EvaluationCache& cache, const FitsCell& fits_cell, const Context& context,
            BeamProgress* progress)
         : settings_(settings),
-          book_(book),
-          judge_(settings.stop, fits_cell, [&book](const Piece& p) { return book.box(p).size(); }),
+          cache_(cache),
+          judge_(settings.stop, fits_cell, [&cache](const Piece& p) { return cache.box(p).size(); }),
           context_(context),
           progress_(settings.beam > 1 ? progress : nullptr) {}
 
@@ -34,42 +38,42 @@ class Search {
                   std::optional<double> time_limit_s) {
         const auto started = Clock::now();
         if (progress_ != nullptr && !progress_->state.branches.empty()) {
-            go_on();
+            resume();
         } else {
             from_ = segmentation.cuts.size();
-            beam_.push_back(bsp(segmentation, {}, settings_.objectives, book_));
+            beam_.push_back(bsp(segmentation, {}, settings_.objectives, cache_));
         }
         while (true) {
             context_.check_cancelled();
-            judge();
+            find_next_pieces();
             const bool is_late =
                 time_limit_s && std::chrono::duration<double>(Clock::now() - started).count() >= *time_limit_s;
             const bool has_decided = rounds_ > 0 || (time_limit_s && *time_limit_s <= 0);
             if (is_late && has_decided && is_any_live()) return end(segmentation, time_limit_s);
             rank_children();
             if (!is_any_live()) return end(segmentation, std::nullopt);
-            beam_ = next_round(std::move(beam_), settings_, book_);
+            beam_ = next_round(std::move(beam_), settings_, cache_);
             ++rounds_;
-            forget_the_rest();
-            keep_progress();
-            tell(segmentation, on_round);
+            drop_unused_entries();
+            store_progress();
+            report(segmentation, on_round);
         }
     }
 
  private:
-    // The beam of a search that was interrupted.
-    void go_on() {
+    // Makes the beam of an interrupted search again.
+    void resume() {
         const BeamState& state = progress_->state;
         const std::vector<Segmentation> grown = grow(state, progress_->root, settings_.objectives.fragment_volume_mm3);
-        const auto made_again = [&](const BeamState::Branch& b) {
-            return bsp(b.last == 0 ? progress_->root : grown[b.last - 1], b.passed_over, settings_.objectives, book_);
+        const auto bsp_of = [&](const BeamState::Branch& b) {
+            return bsp(b.last == 0 ? progress_->root : grown[b.last - 1], b.passed_over, settings_.objectives, cache_);
         };
         from_ = state.from;
-        for (const BeamState::Branch& b : state.branches) beam_.push_back(made_again(b));
-        if (state.stuck) stuck_ = made_again(*state.stuck);
+        for (const BeamState::Branch& b : state.branches) beam_.push_back(bsp_of(b));
+        if (state.stuck) stuck_ = bsp_of(*state.stuck);
     }
 
-    void keep_progress() {
+    void store_progress() {
         if (progress_ == nullptr) return;
         BeamState state;
         state.from = from_;
@@ -78,7 +82,7 @@ class Search {
         progress_->state = std::move(state);
     }
 
-    void judge() {
+    void find_next_pieces() {
         for (Bsp& b : beam_) b.next = judge_.next(b.segmentation, b.passed_over);
     }
 
@@ -86,16 +90,15 @@ class Search {
         return std::any_of(beam_.begin(), beam_.end(), [](const Bsp& b) { return b.is_live(); });
     }
 
-    // Evaluations what is not evaluated yet and ranks the children of every BSP that goes on; a piece without
-    // candidates is passed over. BSPs that can neither go on nor are finished leave the beam; the cheapest is
-    // remembered.
+    // Evaluates the next pieces that are not evaluated yet and ranks the children of every live BSP; a piece without
+    // candidates is passed over. BSPs that are neither live nor finished leave the beam; the cheapest of them is kept.
     void rank_children() {
         for (bool is_ready = false; !is_ready;) {
             evaluate_next_pieces();
             is_ready = true;
             for (Bsp& b : beam_) {
                 if (!b.is_live() || !b.ranked.empty()) continue;
-                b.ranked = rank(b.segmentation, *b.next.piece, settings_, book_, context_);
+                b.ranked = rank(b.segmentation, *b.next.piece, settings_, cache_, context_);
                 b.children = without_near_duplicates(b.ranked, settings_.candidates.offsets_per_normal, settings_.near);
                 if (!b.ranked.empty()) continue;
                 b.passed_over.push_back(b.segmentation.pieces[*b.next.piece].name);
@@ -117,26 +120,25 @@ class Search {
             const std::size_t count = settings_.beam > 1 ? 1 : evaluated_together;
             for (std::size_t i = 0; i < std::min(count, b.next.waiting.size()); ++i) {
                 const Piece& piece = b.segmentation.pieces[b.next.waiting[i]];
-                if (i > 0 && book_.is_evaluated(*pieces_front(b))) break;  // the next one is known: nothing to wait for
+                // The next piece is evaluated already: no reason to evaluate others early.
+                if (i > 0 && cache_.is_evaluated(b.segmentation.pieces[b.next.waiting.front()])) break;
                 if (!contains(pieces, piece)) pieces.push_back(&piece);
             }
         }
-        book_.evaluate(pieces, context_);
+        cache_.evaluate(pieces, context_);
     }
-
-    static const Piece* pieces_front(const Bsp& b) { return &b.segmentation.pieces[b.next.waiting.front()]; }
 
     static bool contains(const std::vector<const Piece*>& pieces, const Piece& piece) {
         return std::any_of(pieces.begin(), pieces.end(), [&](const Piece* p) { return p->mesh == piece.mesh; });
     }
 
-    void forget_the_rest() {
+    void drop_unused_entries() {
         std::vector<const Segmentation*> held;
         for (const Bsp& b : beam_) held.push_back(&b.segmentation);
-        book_.keep_only(held);
+        cache_.keep_only(held);
     }
 
-    void tell(Segmentation& segmentation, const std::function<void(const Segmentation&)>& on_round) {
+    void report(Segmentation& segmentation, const std::function<void(const Segmentation&)>& on_round) {
         const Segmentation& best = beam_.front().segmentation;
         if (best.cuts == segmentation.cuts) return;
         segmentation = best;
@@ -146,7 +148,7 @@ class Search {
     SearchEnd end(Segmentation& segmentation, std::optional<double> time_limit_s) {
         const auto finished = std::find_if(beam_.begin(), beam_.end(), [](const Bsp& b) { return b.next.is_finished; });
         const Bsp& best = finished != beam_.end() ? *finished : beam_.empty() ? *stuck_ : beam_.front();
-        const std::string time = time_limit_s ? describe(EndReason::time_limit, in_digits(*time_limit_s)) : "";
+        const std::string time = time_limit_s ? describe(EndReason::time_limit, decimal(*time_limit_s)) : "";
         segmentation = best.segmentation;
         if (finished != beam_.end()) {
             const EndReason reason = settings_.stop.is_any_set() ? EndReason::rules_hold : EndReason::no_rule;
@@ -161,22 +163,22 @@ class Search {
     }
 
     const SearchSettings& settings_;
-    EvaluationCache& book_;
+    EvaluationCache& cache_;
     StopJudge judge_;
     const Context& context_;
-    std::vector<Bsp> beam_;  // cheapest first
-    std::optional<Bsp> stuck_;
+    std::vector<Bsp> beam_;     // cheapest first
+    std::optional<Bsp> stuck_;  // as in BeamState
     std::size_t rounds_ = 0;
-    std::size_t from_ = 0;  // all of the beam have so many cuts in common
+    std::size_t from_ = 0;  // as in BeamState
     BeamProgress* progress_;
 };
 
 }  // namespace
 
-SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, EvaluationCache& book,
+SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, EvaluationCache& cache,
                  const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
                  const Context& context, std::optional<double> time_limit_s, BeamProgress* progress) {
-    return Search(settings, book, fits_cell, context, progress).run(segmentation, on_round, time_limit_s);
+    return Search(settings, cache, fits_cell, context, progress).run(segmentation, on_round, time_limit_s);
 }
 
 }  // namespace qchopper

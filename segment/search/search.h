@@ -2,10 +2,9 @@
 //
 // Each round expands each of the b best BSPs by the best candidates of its next piece and keeps the b best by one
 // cost: face ratio and mean undercut of the pieces plus fragility and piece count summed over the cuts, all weighted.
-// b = 1 is the greedy search, decision by decision. What is known of a child before it is kept comes from the
-// evaluation of its candidate; only a BSP that is kept is really cut. A wider beam keeps the cheapest it has seen,
-// which is not always cheaper at the end; one as wide as all candidates is, of two cuts
-// (tests/segment/search/beam_test.cpp).
+// b = 1 is the greedy search, decision by decision. The cost of a child follows from the evaluation of its candidate;
+// only a BSP that is kept is cut. A wider beam does not always end cheaper; one as wide as all candidates finds the
+// cheapest two cuts (tests/segment/search/beam_test.cpp). On beam search over BSPs: Luo et al. 2012.
 
 #pragma once
 
@@ -32,21 +31,23 @@ struct SearchEnd {
     bool is_out_of_time() const { return reason == EndReason::time_limit; }
 };
 
-// Where a search with b > 1 stands. It goes on from `state` if that has branches; `root` is then the segmentation that
-// they grow from. After every round `state` is the beam as it is now. At b = 1 the segmentation says it all.
+// The progress of a search with b > 1. If `state` has branches the search resumes from it, and `root` is the
+// segmentation that the branches start from. After every round `state` is the present beam. At b = 1 the segmentation
+// is enough.
 struct BeamProgress {
     BeamState state;
     Segmentation root;
-    // To be saved; nothing where no beam is kept.
+    // The state to save; nothing if there is no beam.
     std::optional<BeamState> saved() const { return state.branches.empty() ? std::nullopt : std::optional(state); }
 };
 
-// Goes on from where the segmentation stands, and leaves the best BSP there. `on_round` is told the best so far after
-// every round that changes it, so that it can be saved: at b = 1 that is every decision. After `time_limit_s` it stops
-// with the round that is being made. Throws Cancelled when asked to stop; the best of the last round stands then.
-// Interrupted anywhere and gone on with from `progress`, it ends as if it had not been interrupted
-// (tests/app/project/open_project_test.cpp).
-SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, EvaluationCache& book,
+// Continues from the cuts of `segmentation` and returns the best BSP in it. `on_round` is called with the best so far
+// after every round that changes it, so that it can be saved: at b = 1 after every decision. The search ends with the
+// round in which `time_limit_s` passes; at least one round is made unless the limit is 0. Throws Cancelled if the
+// context is cancelled; `segmentation` is then the best of the last round. A search that is interrupted anywhere and
+// resumed from `progress` ends as if it had not been interrupted (tests/app/project/open_project_test.cpp). `fits_cell`
+// may be empty, `progress` null.
+SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, EvaluationCache& cache,
                  const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
                  const Context& context, std::optional<double> time_limit_s = std::nullopt,
                  BeamProgress* progress = nullptr);

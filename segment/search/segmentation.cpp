@@ -1,3 +1,5 @@
+// Pieces are found by name, linearly. Cutting costs O(triangles of the piece).
+
 #include "segment/search/segmentation.h"
 
 #include <algorithm>
@@ -12,7 +14,7 @@
 namespace qchopper {
 namespace {
 
-// Puts solids among the pieces or the fragments; returns the names of the new pieces.
+// Adds solids to the pieces or the fragments; returns the names of the new pieces.
 std::vector<std::string> add_solids(Segmentation& segmentation, std::vector<Piece> solids, std::int32_t cut_number,
                                     double fragment_volume_mm3) {
     std::vector<std::string> names;

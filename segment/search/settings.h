@@ -1,4 +1,4 @@
-// What a search is told: weights, candidates, stop rules, width of the beam.
+// The settings of a search: weights, candidates, stop rules, width of the beam.
 
 #pragma once
 
@@ -14,7 +14,7 @@ struct SearchSettings {
     Objectives objectives;
     CandidateOptions candidates;
     StopRules stop;
-    std::size_t runners_up = 9;  // how many are kept beside the chosen one
+    std::size_t runners_up = 9;  // how many candidates a cut records beside the chosen one
     std::size_t beam = 1;        // b: how many BSPs are kept per round
     double near = 0.06;          // of two candidates of one parent with one normal and offsets nearer than this share
                                  // of the piece's extent, the worse is culled; of no effect at b = 1

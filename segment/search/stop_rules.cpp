@@ -1,3 +1,5 @@
+// Every rule is checked on every piece; results are kept by mesh. O(p log p) for p pieces, besides the checks.
+
 #include "segment/search/stop_rules.h"
 
 #include <algorithm>
@@ -17,9 +19,9 @@ std::array<double, 3> sorted(Vec3 a) {
 
 }  // namespace
 
-bool fits_in(Vec3 size, Vec3 room) {
+bool fits_in(Vec3 size, Vec3 limit) {
     const std::array<double, 3> a = sorted(size);
-    const std::array<double, 3> b = sorted(room);
+    const std::array<double, 3> b = sorted(limit);
     return a[0] <= b[0] && a[1] <= b[1] && a[2] <= b[2];
 }
 
@@ -30,7 +32,7 @@ StopJudge::StopJudge(StopRules rules, FitsCell fits_cell, std::function<Vec3(con
     }
     if (rules.max_obb) {
         piece_rules_.emplace_back(
-            [room = *rules.max_obb, size = std::move(box_size)](const Piece& p) { return fits_in(size(p), room); });
+            [limit = *rules.max_obb, size = std::move(box_size)](const Piece& p) { return fits_in(size(p), limit); });
     }
     if (rules.fits_cell && fits_cell) piece_rules_.push_back(std::move(fits_cell));
 }
@@ -49,8 +51,8 @@ const std::vector<bool>& StopJudge::verdict(const Piece& piece) {
 NextPiece StopJudge::next(const Segmentation& segmentation, const std::vector<std::string>& passed_over) {
     const int cuts = static_cast<int>(segmentation.cuts.size());
     const bool has_cuts = rules_.min_cuts && cuts >= *rules_.min_cuts;
-    std::vector<bool> failing(segmentation.pieces.size(), false);  // breaks a rule
-    std::vector<bool> broken(piece_rules_.size(), false);          // by some piece
+    std::vector<bool> failing(segmentation.pieces.size(), false);  // per piece: it breaks a rule
+    std::vector<bool> broken(piece_rules_.size(), false);          // per rule: some piece breaks it
     for (std::size_t p = 0; p < segmentation.pieces.size(); ++p) {
         const std::vector<bool>& holds = verdict(segmentation.pieces[p]);
         for (std::size_t r = 0; r < holds.size(); ++r) {

@@ -1,3 +1,7 @@
+// Edges by ascending quadric error: M. Garland and P. Heckbert, "Surface simplification using quadric error metrics"
+// (1997), in the implementation of OpenMesh: M. Botsch, S. Steinberg, S. Bischoff and L. Kobbelt, "OpenMesh - a generic
+// and efficient polygon mesh data structure" (2002). O(n log n) for n faces; a half-edge mesh of it in memory.
+
 #include "segment/simplify/collapse.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
@@ -11,7 +15,7 @@
 namespace qchopper {
 namespace {
 
-struct Doubles : OpenMesh::DefaultTraits {
+struct CollapseTraits : OpenMesh::DefaultTraits {
     using Point = OpenMesh::Vec3d;
     using Normal = OpenMesh::Vec3d;
     VertexAttributes(OpenMesh::Attributes::Status);
@@ -19,7 +23,7 @@ struct Doubles : OpenMesh::DefaultTraits {
     FaceAttributes(OpenMesh::Attributes::Status);
     HalfedgeAttributes(OpenMesh::Attributes::Status | OpenMesh::Attributes::PrevHalfedge);
 };
-using Surface = OpenMesh::TriMesh_ArrayKernelT<Doubles>;
+using Surface = OpenMesh::TriMesh_ArrayKernelT<CollapseTraits>;
 using Corners = std::array<OpenMesh::Vec3d, 3>;
 
 OpenMesh::Vec3d normal_of(const Corners& c) {
@@ -33,7 +37,7 @@ double roundness(const Corners& c) {
     return sides > 0 ? two_root_3 * normal_of(c).norm() / sides : 0;
 }
 
-// A needle's normal means nothing, so none may come to be; one that is there already may get better.
+// A needle has no reliable normal, so none may be made; one that exists may become rounder.
 bool is_sound(const Corners& before, const Corners& after) {
     constexpr double least_roundness = 0.03;
     constexpr double least_cosine = 0.5;
@@ -71,7 +75,7 @@ class KeepSound : public OpenMesh::Decimater::ModBaseT<MeshT> {
 class Reporter : public OpenMesh::Decimater::Observer {
  public:
     Reporter(const Context& context, std::size_t points) : Observer(1000), context_(context), points_(points) {}
-    void notify(std::size_t step) override { context_.progress("points taken out", step, points_); }
+    void notify(std::size_t step) override { context_.progress("points removed", step, points_); }
     bool abort() const override { return context_.cancelled != nullptr && context_.cancelled->load(); }
 
  private:
@@ -80,7 +84,7 @@ class Reporter : public OpenMesh::Decimater::Observer {
 };
 
 bool build(const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_locked, Surface& surface) {
-    omerr().disable();  // it would print what the caller is told
+    omerr().disable();  // it would print what the result states
     surface.reserve(mesh.points.size(), 3 * mesh.triangles.size() / 2 + 1, mesh.triangles.size());
     for (const Vec3& p : mesh.points) surface.add_vertex({p.x, p.y, p.z});
     for (const Triangle& t : mesh.triangles) {
@@ -93,8 +97,8 @@ bool build(const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_locked,
     return true;
 }
 
-// A collapse renames a corner of the faces around, so each is read again, from the corner that it began with or the
-// one that took its place.
+// A collapse replaces a corner of the faces around. Each face begins with the corner that it began with, if it has that
+// still.
 TriangleMesh result_of(const Surface& surface, const TriangleMesh& mesh) {
     TriangleMesh result;
     std::vector<std::uint32_t> number(mesh.points.size(), 0);

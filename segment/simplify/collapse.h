@@ -1,8 +1,7 @@
-// Takes faces out of a closed mesh by collapsing edges; locked points and what lies between them stay.
+// Reduces the faces of a closed mesh by collapsing edges; locked points, and faces with locked points only, stay.
 //
-// Edges go in the order of the quadric error (Garland and Heckbert 1997) and end in one of their points, so no point
-// moves. No face turns by more than 60 degrees in a collapse or becomes a needle
-// (tests/segment/simplify/simplify_test.cpp).
+// mm. An edge collapses to one of its points, so no point moves. No face turns by more than 60 degrees in a collapse or
+// becomes a needle (tests/segment/simplify/simplify_test.cpp). Same input, same bytes.
 
 #pragma once
 
@@ -17,16 +16,18 @@
 namespace qchopper {
 
 struct CollapseLimits {
-    // mm: points taken out stay that close to the faces around, and the root of the quadric error, which sums over the
-    // planes of all faces that a point stands for, stays below so many times that. Nothing: no limit.
+    // mm: points that are removed stay within this distance of the faces around, and the root of the quadric error,
+    // which is summed over the planes of all faces that a point represents, below `planes` times this. Nothing: no
+    // limit.
     std::optional<double> distance;
     double planes = 2;
-    std::size_t most_faces = 0;  // stop there
+    std::size_t most_faces = 0;  // the collapses stop at this number
 };
 
-// `is_locked` has a flag for every point, or is empty: then none is. Faces that are left keep their order, corners and
-// caps; points their order. False, and nothing changes, where the surface folds onto itself in a way that half-edges
-// cannot tell.
+// `is_locked` has one flag per point, or is empty: then no point is locked. Faces that stay keep their order, their
+// caps and, where it stays, their first corner; points keep their order. False if the surface is not manifold, which
+// half-edges cannot represent: the mesh is unchanged then. Throws Cancelled (base/context.h); the mesh is unchanged
+// then as well.
 bool collapse_edges(TriangleMesh& mesh, const std::vector<std::uint8_t>& is_locked, const CollapseLimits& limits,
                     const Context& context = {});
 

@@ -1,3 +1,6 @@
+// Collapses, then measures both ways by samples; with a tolerance this is repeated with a smaller limit until the
+// deviation is within it.
+
 #include "segment/simplify/simplify.h"
 
 #include <algorithm>
@@ -18,7 +21,7 @@ constexpr std::size_t fewest_faces = 4;  // of any closed mesh
 
 void check(const TriangleMesh& mesh, const Edges& edges, const SimplifyOptions& options) {
     if (!options.tolerance && !options.most_faces) {
-        throw InputError(InputFault::use, "nothing says how far to simplify", "give a tolerance or a number of faces");
+        throw InputError(InputFault::use, "neither a tolerance nor a number of faces is given", "give one of the two");
     }
     if (options.tolerance && !(*options.tolerance > 0 && std::isfinite(*options.tolerance))) {
         throw InputError(InputFault::use, "the tolerance is not a length above 0", "give it in mm, for example 0.5");
@@ -41,8 +44,8 @@ std::vector<std::uint8_t> points_of_caps(const TriangleMesh& mesh) {
     return is_of_cap;
 }
 
-// The collapses look at points and planes. What edges and insides of faces do is measured afterwards, and where it is
-// too much, all is done again with less room.
+// The limits of the collapses hold for points and planes. Edges and interiors of faces are measured afterwards; where
+// they deviate too much, all is repeated with a smaller limit.
 bool collapse_within(TriangleMesh& mesh, const SimplifyOptions& options, SimplifyReport& report,
                      const Context& context) {
     constexpr int most_tries = 8;
@@ -76,7 +79,7 @@ SimplifyReport simplify(TriangleMesh& mesh, const SimplifyOptions& options, cons
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) report.cap_faces += cap_of(mesh, t) != no_cap ? 1 : 0;
     if (!options.most_faces || mesh.triangles.size() > *options.most_faces) {
         TriangleMesh split = mesh;
-        split_non_manifold_vertices(split, found);  // half-edges cannot tell surfaces that only touch in a point
+        split_non_manifold_vertices(split, found);  // half-edges cannot represent surfaces that only touch in a point
         if (collapse_within(split, options, report, context)) mesh = std::move(split);
     }
     report.faces_after = mesh.triangles.size();

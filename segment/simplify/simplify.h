@@ -1,9 +1,9 @@
-// Makes a piece of fewer faces, and says how far the result is from it.
+// Reduces the faces of a piece, and measures how far the result is from it.
 //
 // Lengths are mm. Points that stay do not move. Caps keep every triangle and point, so that two pieces that meet at a
-// cut go on matching to the last bit, whatever is asked of either. The result is closed, lies on the same sides of the
-// piece's cuts, and no face is turned over; with a tolerance no sample of either surface, insides of faces
-// included, is farther than that from the other (tests/segment/simplify/simplify_test.cpp). Same input, same bytes.
+// cut match to the last bit, whatever the options for either. The result is closed, lies on the same sides of the
+// piece's cuts, and no face is inverted; with a tolerance no sample of either surface, interiors of faces included, is
+// farther than that from the other (tests/segment/simplify/simplify_test.cpp). Same input, same bytes.
 
 #pragma once
 
@@ -17,7 +17,7 @@ namespace qchopper {
 
 struct SimplifyOptions {
     std::optional<double> tolerance;        // mm: as few faces as this deviation allows
-    std::optional<std::size_t> most_faces;  // stop at so many; with a tolerance, whichever comes first
+    std::optional<std::size_t> most_faces;  // stop at this number; with a tolerance, at whichever comes first
 };
 
 struct SimplifyReport {
@@ -25,12 +25,15 @@ struct SimplifyReport {
     std::size_t faces_after = 0;
     std::size_t cap_faces = 0;        // that had to stay
     double from_piece = 0;            // mm: largest distance of the samples of the piece to the result
-    double from_result = 0;           // mm: of the samples of the result to the piece (distance.h)
-    bool has_too_many_faces = false;  // more faces than most_faces are left: no more could be taken out soundly
+    double from_result = 0;           // mm: of the samples of the result to the piece (mesh/distance.h)
+    bool has_too_many_faces = false;  // more faces than most_faces are left: no other edge could collapse
     double deviation() const { return from_piece > from_result ? from_piece : from_result; }
 };
 
-// Throws InputError: (use) options that make no sense, (mesh) a mesh that is not closed.
+// The mesh is unchanged if it has few enough faces already, or if no result keeps the tolerance. Throws InputError:
+// (use) without an option, or with a tolerance that is not above 0 or fewer than 4 faces; (mesh) if the mesh is not
+// closed. Throws Cancelled (base/context.h); the mesh is unchanged then. O(n log n) for n faces, up to 8 times with a
+// tolerance.
 SimplifyReport simplify(TriangleMesh& mesh, const SimplifyOptions& options, const Context& context = {});
 
 }  // namespace qchopper

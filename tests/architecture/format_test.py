@@ -6,7 +6,7 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = ("segment", "cam", "devices", "sim", "cli", "tests", "bench")
+FOLDERS = ("base", "segment", "cam", "devices", "sim", "app", "tests", "bench")
 
 
 class Format(unittest.TestCase):

@@ -1,7 +1,10 @@
 """One name, one thing: no two types of the project share a name.
 
-All modules share one namespace. Two types of one name in two files would compile and link, and then the destructor of one
-is called for the other. faults(root) lists such names; types in an unnamed namespace do not count.
+All modules share one namespace. Two types of one name in two files would compile and link, and then the destructor of
+one is called for the other. In anonymous namespaces that cannot happen, but a reader would confuse the two: types there
+count as well. Not counted are nested types, aliases in sources, declarations without a body, and out-of-line definitions
+of what a header declares, such as `struct ThreadLimit::State` in two sources of which one is compiled. faults(root)
+lists the names that are defined more than once.
 """
 
 import re
@@ -10,19 +13,15 @@ from pathlib import Path
 
 from includes import MODULES
 
+# At the start of a line: nested types are indented, types in a namespace are not.
 DEFINITION = re.compile(r"^(?:struct|class|enum class|enum|union)\s+(\w+)(?!\w|::)[^;]*$|^using\s+(\w+)\s*=")
 
 
 def types_in(path):
-    """Names of the types that a file defines for the whole program."""
-    unnamed = False
+    """Names of the types that a file defines."""
     for line in path.read_text(encoding="utf-8").splitlines():
-        if line == "namespace {":
-            unnamed = True
-        elif line == "}  // namespace":
-            unnamed = False
         match = DEFINITION.match(line)
-        if match and not unnamed and not (path.suffix == ".cpp" and match.group(2)):
+        if match and not (path.suffix == ".cpp" and match.group(2)):
             yield match.group(1) or match.group(2)
 
 

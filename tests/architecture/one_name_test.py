@@ -8,28 +8,48 @@ from one_name import faults
 from includes import MODULES
 
 ROOT = Path(__file__).resolve().parents[2]
-HEADER = "namespace qchopper {\nstruct Thing {\n    int a = 0;\n};\n}  // namespace qchopper\n"
-HIDDEN = "namespace qchopper {\nnamespace {\nstruct Thing {\n    int a = 0;\n};\n}  // namespace\n}  // namespace qchopper\n"
-ALIAS = "namespace qchopper {\nusing Thing = int;\n}  // namespace qchopper\n"
+
+
+def source(text):
+    return f"namespace qchopper {{\n{text}\n}}  // namespace qchopper\n"
+
+
+DEFINITION = source("struct Thing {\n    int a = 0;\n};")
+FAULTS = {
+    "b.cpp": DEFINITION,
+    "c.h": source("using Thing = int;"),
+    "d.cpp": source("namespace {\nclass Thing {\n    int a = 0;\n};\n}  // namespace"),
+}
+NO_FAULTS = {
+    "e.cpp": source("struct Thing::Part {\n    int a = 0;\n};"),
+    "f.cpp": source("struct Other {\n    struct Thing {\n        int a = 0;\n    };\n};"),
+    "g.cpp": source("using Thing = int;"),
+    "h.h": source("struct Thing;"),
+}
 
 
 class OneName(unittest.TestCase):
     def test_no_two_types_share_a_name(self):
         self.assertEqual(faults(ROOT), [])
 
-    def test_a_planted_fault_is_found_and_a_hidden_type_is_none(self):
+    def faults_beside_a_definition(self, name, text):
+        """Those of a tree that defines Thing in a header, and holds one more file."""
         with tempfile.TemporaryDirectory() as folder:
             root = Path(folder)
             for module in MODULES:
                 (root / module).mkdir()
-            (root / "segment" / "a.h").write_text(HEADER, encoding="utf-8")
-            self.assertEqual(faults(root), [])
-            (root / "app" / "b.cpp").write_text(HIDDEN, encoding="utf-8")
-            self.assertEqual(faults(root), [])
-            for name, text in (("b.cpp", HEADER), ("c.h", ALIAS)):
-                (root / "app" / name).write_text(text, encoding="utf-8")
-                self.assertEqual(faults(root), [f"Thing is defined in segment/a.h and in app/{name}"])
-                (root / "app" / name).unlink()
+            (root / "segment" / "a.h").write_text(DEFINITION, encoding="utf-8")
+            (root / "app" / name).write_text(text, encoding="utf-8")
+            return faults(root)
+
+    def test_a_planted_fault_is_found_also_in_an_anonymous_namespace(self):
+        for name, text in FAULTS.items():
+            expected = [f"Thing is defined in segment/a.h and in app/{name}"]
+            self.assertEqual(self.faults_beside_a_definition(name, text), expected, name)
+
+    def test_nested_types_aliases_and_out_of_line_definitions_are_no_faults(self):
+        for name, text in NO_FAULTS.items():
+            self.assertEqual(self.faults_beside_a_definition(name, text), [], name)
 
 
 if __name__ == "__main__":

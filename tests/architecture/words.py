@@ -36,6 +36,15 @@ REFUSED = {
     "sub_room": "sub-module",
     "shadow_mm2": "projected_area_mm2",
     "turn_under_way": "StepContext",
+    "dent": "groove",
+    "dents": "grooves",
+    "smooth_marks": "smooth_pen_grooves",
+    "draw_marks": "draw_pen_grooves",
+    "loose_sheet": "open component",
+    "size_in_words": "describe_size",
+    "volume_in_words": "describe_volume",
+    "standing_cuts": "committed_cuts",
+    "whoever": "the user, the caller, the client",
 }
 
 FOLDERS = ["base", "segment", "cam", "devices", "sim", "app", "tests", "bench", "docs", "scripts"]
@@ -48,7 +57,7 @@ EXEMPT = {
 }
 
 # Older names of options that are still taken, for one version.
-ALIASES = {"app/cli/project_options.cpp": {"crumbs"}}
+ALIASES = {"app/cli/project_options.cpp": {"crumbs", "smooth_marks"}}
 
 WORD = re.compile(r"[A-Za-z]+")
 CAMEL = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")

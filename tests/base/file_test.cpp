@@ -90,10 +90,23 @@ TEST_F(Files, TooLargeAFileIsRefusedUnread) {
         << "has no size beforehand";
 }
 
-TEST(Sha256, KnowsTheStandardsExample) {  // FIPS 180-2, appendix B.1
+const std::string digest_of_abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+
+TEST(Sha256, GivesTheDigestOfTheStandardsExample) {  // FIPS 180-2, appendix B.1
     const std::string abc = "abc";
-    EXPECT_EQ(to_hex(sha256({reinterpret_cast<const std::uint8_t*>(abc.data()), 3})),
-              "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    EXPECT_EQ(to_hex(sha256({reinterpret_cast<const std::uint8_t*>(abc.data()), 3})), digest_of_abc);
+}
+
+TEST(Sha256, IsReadFromItsOwnDigitsOnly) {
+    const std::optional<Sha256> digest = sha256_from_hex(digest_of_abc);
+    ASSERT_TRUE(digest);
+    EXPECT_EQ(to_hex(*digest), digest_of_abc);
+    EXPECT_NE(*digest, Sha256{});
+    EXPECT_EQ(sha256_from_hex(std::string(64, '0')), Sha256{});
+    for (const std::string& bad :
+         {std::string(), digest_of_abc.substr(1), digest_of_abc + "0", "g" + digest_of_abc.substr(1)}) {
+        EXPECT_FALSE(sha256_from_hex(bad)) << bad;
+    }
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ TEST_F(Staged, WhatIsAliveOrLockedOrNotOursStays) {
     const int lock = ::open((folder / ours).c_str(), O_RDONLY | O_DIRECTORY);
     ASSERT_EQ(::flock(lock, LOCK_EX), 0);
     { const StagedFolder next(folder / "b.qch"); }
-    EXPECT_EQ(names(), before) << "somebody holds the lock";
+    EXPECT_EQ(names(), before) << "another process holds the lock";
     ::close(lock);
     { const StagedFolder next(folder / "b.qch"); }
     std::set<std::string> rest = before;

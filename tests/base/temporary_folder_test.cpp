@@ -16,16 +16,16 @@ namespace fs = std::filesystem;
 
 // Temporary files of the test lie in a folder of its own.
 struct Temporary : ::testing::Test {
-    fs::path room = fs::path(testing::TempDir()) / ("temporary" + std::to_string(::getpid()));
+    fs::path parent = fs::path(testing::TempDir()) / ("temporary" + std::to_string(::getpid()));
     void SetUp() override {
-        fs::create_directories(room);
-        ASSERT_EQ(::setenv("TMPDIR", room.c_str(), 1), 0);
+        fs::create_directories(parent);
+        ASSERT_EQ(::setenv("TMPDIR", parent.c_str(), 1), 0);
     }
     void TearDown() override {
         ::unsetenv("TMPDIR");
-        fs::remove_all(room);
+        fs::remove_all(parent);
     }
-    std::ptrdiff_t count() const { return std::distance(fs::directory_iterator(room), fs::directory_iterator{}); }
+    std::ptrdiff_t count() const { return std::distance(fs::directory_iterator(parent), fs::directory_iterator{}); }
 };
 
 // A program that makes a folder with a file in it and is killed.
@@ -46,7 +46,7 @@ TEST_F(Temporary, AFolderIsThereAndGoneAfterwards) {
     {
         const TemporaryFolder folder("qchopper-some-");
         EXPECT_TRUE(fs::is_directory(folder.path()));
-        EXPECT_EQ(folder.path().parent_path(), room);
+        EXPECT_EQ(folder.path().parent_path(), parent);
     }
     EXPECT_EQ(count(), 0);
 }
@@ -62,14 +62,14 @@ TEST_F(Temporary, WhatAKilledRunLeftIsRemovedByTheNext) {
 
 TEST_F(Temporary, AFolderInUseAndAnybodyElsesStay) {
     const TemporaryFolder mine("qchopper-some-");
-    fs::create_directory(room / "qchopper-other-abcdef");
-    fs::create_directory(room / "elsewhere");
-    std::ofstream(room / "elsewhere" / "kept") << "x";
-    fs::create_directory_symlink(room / "elsewhere", room / "qchopper-some-abcdef");
+    fs::create_directory(parent / "qchopper-other-abcdef");
+    fs::create_directory(parent / "elsewhere");
+    std::ofstream(parent / "elsewhere" / "kept") << "x";
+    fs::create_directory_symlink(parent / "elsewhere", parent / "qchopper-some-abcdef");
     const TemporaryFolder next("qchopper-some-");
     EXPECT_TRUE(fs::is_directory(mine.path()));
-    EXPECT_TRUE(fs::is_directory(room / "qchopper-other-abcdef"));
-    EXPECT_TRUE(fs::exists(room / "elsewhere" / "kept"));
+    EXPECT_TRUE(fs::is_directory(parent / "qchopper-other-abcdef"));
+    EXPECT_TRUE(fs::exists(parent / "elsewhere" / "kept"));
 }
 
 }  // namespace

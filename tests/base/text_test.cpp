@@ -18,12 +18,12 @@ TEST(Text, NumbersAreForPeople) {
     EXPECT_EQ(fixed(-0.01, 1), "0.0");
     EXPECT_EQ(fixed(-1e-9, 0), "0");
     EXPECT_EQ(fixed(1e300, 0).size(), 301U);
-    EXPECT_EQ(volume_in_words(1'234'567), "1.235 l");
-    EXPECT_EQ(volume_in_words(999'600), "1.000 l");
-    EXPECT_EQ(volume_in_words(320'000), "320 ml");
-    EXPECT_EQ(volume_in_words(-1'234), "-1.23 ml");
-    EXPECT_EQ(volume_in_words(0.0123), "0.0000123 ml");
-    EXPECT_EQ(volume_in_words(0), "0 ml");
+    EXPECT_EQ(describe_volume(1'234'567), "1.235 l");
+    EXPECT_EQ(describe_volume(999'600), "1.000 l");
+    EXPECT_EQ(describe_volume(320'000), "320 ml");
+    EXPECT_EQ(describe_volume(-1'234), "-1.23 ml");
+    EXPECT_EQ(describe_volume(0.0123), "0.0000123 ml");
+    EXPECT_EQ(describe_volume(0), "0 ml");
     EXPECT_EQ(duration(59), "59 s");
     EXPECT_EQ(duration(89), "1 min");
     EXPECT_EQ(duration(3570), "1 h 00 min");

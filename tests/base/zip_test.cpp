@@ -66,7 +66,7 @@ TEST(ZipFile, PackedTextIsSmallerAndTheSameEveryTime) {
 TEST(ZipFile, EntriesKeepTheirOrder) {
     const Bytes b{'b'};
     const Bytes a{'a'};
-    const Bytes bytes = zip({zip_entry("second.txt", b), zip_entry("first.txt", a)});
+    const Bytes bytes = zip(std::vector<ZipEntry>{zip_entry("second.txt", b), zip_entry("first.txt", a)});
     const std::string text(bytes.begin(), bytes.end());
     EXPECT_LT(text.find("second.txt"), text.find("first.txt"));
 }

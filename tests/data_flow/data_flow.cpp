@@ -81,8 +81,8 @@ Segmentation cut_up(const TriangleMesh& scan, SearchSettings settings) {
     Segmentation segmentation = uncut(scan, settings.objectives.fragment_volume_mm3);
     expect_nothing_is_lost(segmentation, volume);
     const auto on_cut = [&](const Segmentation& s) { expect_nothing_is_lost(s, volume); };
-    EvaluationCache book(settings.objectives, settings.candidates);
-    const SearchEnd end = search(segmentation, settings, book, {}, on_cut, {});
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    const SearchEnd end = search(segmentation, settings, cache, {}, on_cut, {});
     EXPECT_TRUE(end.is_finished()) << end.sentence;
     return segmentation;
 }
@@ -102,7 +102,7 @@ std::vector<PieceJob> write_jobs(const Segmentation& segmentation, const Importe
         input.piece = piece;
         input.setup = choose_setup(piece, cell);
         input.envelope = check_envelope(input.setup, cell);
-        EXPECT_TRUE(input.envelope.fits()) << envelope_words(piece.name, input.envelope);
+        EXPECT_TRUE(input.envelope.fits()) << describe_envelope(piece.name, input.envelope);
         const Bytes bytes = job_file(input);
         EXPECT_EQ(bytes, job_file(input)) << "same input, same bytes";
         jobs.push_back({piece.name, folder / job_file_name(piece.name)});

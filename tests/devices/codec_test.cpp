@@ -1,5 +1,5 @@
-// The vectors are written from the register map, word by word, and their checksums were made with another program: a
-// mistake in the codec cannot hide in them.
+// The vectors are written from the register map, register by register, and their checksums were computed by another
+// program, so that they do not share a mistake with the codec.
 
 #include "devices/codec.h"
 
@@ -14,7 +14,7 @@ namespace qchopper {
 namespace {
 
 // clang-format off
-const Registers command_words{
+const Registers command_registers{
     0x5143, 0x0100, 0x0000, 0x0005, 0x0000, 0x0009, 0x0002, 0x0000, 0x0001, 0x0203,
     0x0405, 0x0607, 0x0809, 0x0A0B, 0x0C0D, 0x0E0F, 0xDEAD, 0xBEEF, 0x0000, 0x0007,
     0x1234, 0x5678, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA,
@@ -22,7 +22,7 @@ const Registers command_words{
     0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000,
     0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x2062, 0x8DB7,
 };
-const Registers status_words{
+const Registers status_registers{
     0x5143, 0x0100, 0x0102, 0x0304, 0x0000, 0x0003, 0x0004, 0x0006, 0x0003, 0x0A08,
     0x0000, 0x0005, 0x002A, 0xFFFF, 0x0000, 0x0009, 0x0002, 0x0001, 0x0000, 0x004D,
     0x0001, 0x0203, 0x0405, 0x0607, 0x0809, 0x0A0B, 0x0C0D, 0x0E0F, 0xDEAD, 0xBEEF,
@@ -34,7 +34,7 @@ const Registers status_words{
     0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0x0000, 0x0004, 0x0000, 0x0190, 0x1234,
     0x5678, 0x89AB, 0xCDEF, 0x89AB, 0xCDEF, 0x0006, 0x1DDD, 0xE3C7, 0x0103, 0x0102,
 };
-const Registers ticket_block_words{
+const Registers ticket_registers{
     0x0001, 0x0001, 0x0203, 0x0405, 0x0607, 0x0809, 0x0A0B, 0x0C0D, 0x0E0F, 0xAAAA,
     0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA,
     0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0xAAAA, 0x0000, 0x1388, 0x0001, 0x612E, 0x716A,
@@ -46,7 +46,7 @@ const Registers ticket_block_words{
     0x0707, 0x0707, 0x0707, 0x0000, 0x0190, 0x1234, 0x5678, 0x0001, 0x0001, 0x0000,
     0x0000, 0x0000, 0x0000, 0x0007, 0x0001, 0x0000, 0x0000, 0x0000, 0x2623, 0xE712,
 };
-const Registers result_words{
+const Registers result_registers{
     0x0001, 0x0203, 0x0405, 0x0607, 0x0809, 0x0A0B, 0x0C0D, 0x0E0F, 0x0005, 0x0001,
     0x0000, 0x0001, 0x0000, 0x0005, 0x0000, 0x0009, 0x0000, 0x0190, 0x1234, 0x5678,
     0x0000, 0x0190, 0x1234, 0x9999, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC,
@@ -60,7 +60,7 @@ constexpr Uuid job{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
 Sha256 digest(std::uint8_t even, std::uint8_t odd) {
     Sha256 all{};
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i % 2 == 0 ? even : odd;
+    for (std::size_t i = 0; i < all.bytes.size(); ++i) all.bytes[i] = i % 2 == 0 ? even : odd;
     return all;
 }
 
@@ -68,9 +68,9 @@ Command a_command() {
     return {5, 9, CellCommand::start, job, 0xDEADBEEF, 7, 0x12345678, digest(0xAA, 0xAA), 0x89ABCDEF};
 }
 
-TEST(Codec, ACommandIsTheseWords) {
-    EXPECT_EQ(encode(a_command()), command_words);
-    const Decoded<Command> back = decode_command(command_words);
+TEST(Codec, ACommandIsTheseRegisters) {
+    EXPECT_EQ(encode(a_command()), command_registers);
+    const Decoded<Command> back = decode_command(command_registers);
     ASSERT_TRUE(back.is_ok());
     EXPECT_EQ(back.value, a_command());
 }
@@ -122,19 +122,21 @@ Status a_status() {
     return s;
 }
 
-TEST(Codec, AStatusIsTheseWords) {
-    EXPECT_EQ(encode(a_status()), status_words);
-    const Decoded<Status> back = decode_status(status_words);
+TEST(Codec, AStatusIsTheseRegisters) {
+    EXPECT_EQ(encode(a_status()), status_registers);
+    const Decoded<Status> back = decode_status(status_registers);
     ASSERT_TRUE(back.is_ok());
     EXPECT_EQ(back.value, a_status());
 }
 
-TEST(Codec, AResultIsTheseWords) {
+TEST(Codec, AResultIsTheseRegisters) {
     const ResultRecord result{
-        job, JobState::ended, JobResult::complete, 1, 5, 9, 0x0190'1234'5678, 0x0190'1234'9999, digest(0xBB, 0xCC), 88,
-        11,  0x89ABCDEF};
-    EXPECT_EQ(encode(result), result_words);
-    const Decoded<ResultRecord> back = decode_result(result_words);
+        {JobState::ended, JobResult::complete, 1, 5, 9, 0x0190'1234'5678, 0x0190'1234'9999, digest(0xBB, 0xCC), 88},
+        job,
+        11,
+        0x89ABCDEF};
+    EXPECT_EQ(encode(result), result_registers);
+    const Decoded<ResultRecord> back = decode_result(result_registers);
     ASSERT_TRUE(back.is_ok());
     EXPECT_EQ(back.value, result);
 }
@@ -163,15 +165,15 @@ TicketOrder an_order() {
     return {job, 0x0190'1234'5678, 7, true, true, Transfer::drop_folder, LinkLoss::hold};
 }
 
-TEST(Codec, ATicketIsTheseWords) {
+TEST(Codec, ATicketIsTheseRegisters) {
     const WireTicket ticket = wire_ticket(a_ticket(), an_order());
-    EXPECT_EQ(encode(ticket), ticket_block_words);
-    const Decoded<WireTicket> back = decode_ticket(ticket_block_words);
+    EXPECT_EQ(encode(ticket), ticket_registers);
+    const Decoded<WireTicket> back = decode_ticket(ticket_registers);
     ASSERT_TRUE(back.is_ok());
     EXPECT_EQ(back.value, ticket);
 }
 
-TEST(Codec, AHeartbeatAndAChunkAreTheseWords) {
+TEST(Codec, AHeartbeatAndAChunkAreTheseRegisters) {
     const Heartbeat beat{5, 0x89ABCDEF, 17};
     EXPECT_EQ(encode(beat), (Registers{0, 5, 0x89AB, 0xCDEF, 17}));
     EXPECT_EQ(decode_heartbeat(encode(beat)).value, beat);
@@ -187,36 +189,36 @@ TEST(Codec, OneWrongBitAnywhereIsNeverTakenForAGoodBlock) {
         registers[bit / 16] = static_cast<std::uint16_t>(registers[bit / 16] ^ (1U << bit % 16));
         return registers;
     };
-    for (std::size_t bit = 0; bit < 16 * command_words.size(); ++bit) {
-        EXPECT_FALSE(decode_command(flipped(command_words, bit)).is_ok()) << bit;
-        EXPECT_FALSE(decode_result(flipped(result_words, bit)).is_ok()) << bit;
+    for (std::size_t bit = 0; bit < 16 * command_registers.size(); ++bit) {
+        EXPECT_FALSE(decode_command(flipped(command_registers, bit)).is_ok()) << bit;
+        EXPECT_FALSE(decode_result(flipped(result_registers, bit)).is_ok()) << bit;
     }
-    for (std::size_t bit = 0; bit < 16 * ticket_block_words.size(); ++bit) {
-        EXPECT_FALSE(decode_ticket(flipped(ticket_block_words, bit)).is_ok()) << bit;
-        const bool is_bad_reason = bit / 16 == 98;  // the one word that no checksum covers
-        EXPECT_EQ(decode_status(flipped(status_words, bit)).is_ok(), is_bad_reason) << bit;
+    for (std::size_t bit = 0; bit < 16 * ticket_registers.size(); ++bit) {
+        EXPECT_FALSE(decode_ticket(flipped(ticket_registers, bit)).is_ok()) << bit;
+        const bool is_bad_reason = bit / 16 == 98;  // the one register that no checksum covers
+        EXPECT_EQ(decode_status(flipped(status_registers, bit)).is_ok(), is_bad_reason) << bit;
     }
 }
 
 TEST(Codec, ABlockThatIsNotRightIsNamed) {
-    Registers registers = status_words;
+    Registers registers = status_registers;
     registers[0] = 0x4351;
     EXPECT_EQ(decode_status(registers).fault, BlockFault::magic);
-    registers = status_words;
+    registers = status_registers;
     registers[1] = 0x0200;
     EXPECT_EQ(decode_status(registers).fault, BlockFault::version);
-    registers = status_words;
+    registers = status_registers;
     registers[99] = 0x0103;
     EXPECT_EQ(decode_status(registers).fault, BlockFault::torn);
-    registers = status_words;
+    registers = status_registers;
     registers[40] = 0;
     EXPECT_EQ(decode_status(registers).fault, BlockFault::crc);
     registers.pop_back();
     EXPECT_EQ(decode_status(registers).fault, BlockFault::length);
     EXPECT_EQ(decode_status(Registers(100, 0)).fault, BlockFault::empty);
     EXPECT_EQ(decode_command(Registers(60, 0)).fault, BlockFault::empty);
-    // A gateway that swaps the words of a pair.
-    registers = status_words;
+    // A gateway that swaps the registers of a pair.
+    registers = status_registers;
     for (std::size_t i = 0; i + 1 < registers.size(); i += 2) std::swap(registers[i], registers[i + 1]);
     EXPECT_EQ(decode_status(registers).fault, BlockFault::magic);
 }
@@ -227,11 +229,11 @@ TEST(Codec, ANewerMinorVersionIsTaken) {
     EXPECT_TRUE(decode_status(encode(status)).is_ok());
 }
 
-TEST(Codec, RandomWordsNeverThrowAndNeverPass) {
+TEST(Codec, RandomRegistersNeverThrowAndNeverPass) {
     std::mt19937 random(1);
     for (int n = 0; n < 20000; ++n) {
         Registers registers(random() % 130);
-        for (std::uint16_t& word : registers) word = static_cast<std::uint16_t>(random());
+        for (std::uint16_t& value : registers) value = static_cast<std::uint16_t>(random());
         EXPECT_FALSE(decode_status(registers).is_ok());
         EXPECT_FALSE(decode_command(registers).is_ok());
         EXPECT_FALSE(decode_ticket(registers).is_ok());

@@ -19,18 +19,18 @@ struct DropFolder : ::testing::Test {
     bool has(const std::string& name) const { return fs::exists(folder / name); }
 };
 
-const std::string left = name_on_its_way("C.qjob", Uuid{1, 2, 3});
+const std::string left = staging_name("C.qjob", Uuid{1, 2, 3});
 
 TEST_F(DropFolder, WhatAKilledDispatcherLeftIsRemovedAndNothingElse) {
     put(left);
     put(left + ".tmp.4711");
     for (const char* name : {"C.qjob", ".hidden", ".C.qjob", ".C.qjob.0001", "notes.tmp.1"}) put(name);
-    fs::create_directory(folder / name_on_its_way("D.qjob", Uuid{}));
+    fs::create_directory(folder / staging_name("D.qjob", Uuid{}));
     const DropFolderUse use(folder);
     EXPECT_FALSE(has(left));
     EXPECT_FALSE(has(left + ".tmp.4711"));
     for (const char* name : {"C.qjob", ".hidden", ".C.qjob", ".C.qjob.0001", "notes.tmp.1"}) EXPECT_TRUE(has(name));
-    EXPECT_TRUE(has(name_on_its_way("D.qjob", Uuid{})));
+    EXPECT_TRUE(has(staging_name("D.qjob", Uuid{})));
 }
 
 TEST_F(DropFolder, AFileOfADispatcherThatRunsStays) {
@@ -45,7 +45,7 @@ TEST_F(DropFolder, AFileOfADispatcherThatRunsStays) {
     EXPECT_FALSE(has(left));
 }
 
-TEST_F(DropFolder, AFolderThatIsNotThereIsNotItsConcern) {
+TEST_F(DropFolder, AMissingFolderIsNoFaultHere) {
     const DropFolderUse use(folder / "no");
     EXPECT_FALSE(has("no"));
 }

@@ -1,4 +1,4 @@
-// The hand-off without a cell: what it asks for, given what it is told.
+// The hand-off against a cell of values: its actions, given the answers.
 
 #include "devices/hand_off.h"
 
@@ -17,7 +17,7 @@ constexpr Uuid other_job{9, 9, 9};
 HandOffPlan a_plan() {
     HandOffPlan plan;
     plan.ticket.job_id = job;
-    plan.ticket.file_sha256.fill(7);
+    plan.ticket.file_sha256.bytes.fill(7);
     plan.ticket.file_size = 100;
     plan.ticket.file_name = "piece.qjob";
     plan.owner = 77;
@@ -25,14 +25,13 @@ HandOffPlan a_plan() {
     return plan;
 }
 
-// A cell made of paper: every command is granted at once, unless the test says otherwise.
-struct PaperCell {
-    explicit PaperCell(HandOffPlan with = a_plan()) : plan(std::move(with)) {
+// A cell of values: every command is granted at once, unless the test replaces one of the functions below.
+struct ScriptedCell {
+    explicit ScriptedCell(HandOffPlan with = a_plan()) : plan(std::move(with)) {
         status.cell_id = any_cell_id;
         status.flags = flag::simulated;
         status.state = PackState::stopped;
         status.boot_count = 1;
-        result.job_state = JobState::none;
     }
 
     // One action and its answer; false when it is finished.
@@ -63,9 +62,9 @@ struct PaperCell {
         }
         if (action.kind == Kind::read_status) input.status = status;
         if (action.kind == Kind::read_result) input.result = result;
-        if (action.kind == Kind::read_result && twist) twist(*input.result);
+        if (action.kind == Kind::read_result && change_result) change_result(*input.result);
         if (action.kind == Kind::write_command) written.push_back(action.command.command);
-        if (action.kind == Kind::write_command && freeze_s == 0) take(action.command);
+        if (action.kind == Kind::write_command && freeze_s == 0) execute(action.command);
         return true;
     }
 
@@ -74,14 +73,23 @@ struct PaperCell {
         }
     }
 
-    void take(const Command& command) {
-        commands.push_back(command);
-        const AckResult answer = grant ? grant(command) : AckResult::ok;
-        if (answer == AckResult::none) return;
+    void run_to(HandOffStep wanted) {
+        while (state.step != wanted && step()) {
+        }
+    }
+
+    void acknowledge(const Command& command, AckResult answer = AckResult::ok) {
         status.ack_owner = command.owner;
         status.ack_seq = command.seq;
         status.ack_command = command.command;
         status.ack_result = answer;
+    }
+
+    void execute(const Command& command) {
+        commands.push_back(command);
+        const AckResult answer = grant ? grant(command) : AckResult::ok;
+        if (answer == AckResult::none) return;
+        acknowledge(command, answer);
         if (is_refusal(answer)) return;
         switch (command.command) {
             case CellCommand::claim:
@@ -111,7 +119,7 @@ struct PaperCell {
                 result.job_id = command.job_id;
                 result.query_owner = command.owner;
                 result.query_seq = command.seq;
-                if (status.job_id == command.job_id) result.job_state = status.job_state;
+                if (status.job_id == command.job_id) result.state = status.job_state;
                 result.starts = status.job_id == command.job_id && status.job_state >= JobState::running ? 1 : 0;
                 result.file_sha256 = plan.ticket.file_sha256;
                 break;
@@ -142,28 +150,41 @@ struct PaperCell {
     Status status;
     ResultRecord result;
     std::uint32_t tokens = 1000;
-    std::vector<Command> commands;  // that the cell has taken; a frozen one takes none
+    std::vector<Command> commands;  // that the cell has executed; a frozen one executes none
     std::vector<CellCommand> written;
     std::vector<std::string> lines;
-    std::function<AckResult(const Command&)> grant;
-    std::function<bool(const HandOffAction&)> lose;
-    std::function<int(const HandOffAction&)> refuse;
-    std::function<void(ResultRecord&)> twist;  // what the cell says to QUERY
+    std::function<AckResult(const Command&)> grant;    // the result; none: not acknowledged
+    std::function<bool(const HandOffAction&)> lose;    // the link is lost at this action
+    std::function<int(const HandOffAction&)> refuse;   // the exception, or 0
+    std::function<void(ResultRecord&)> change_result;  // of the answer to QUERY
 };
 
-void end_the_job(PaperCell& cell) {
-    while (cell.state.step != HandOffStep::run && cell.step()) {
-    }
+bool writes(const HandOffAction& action, CellCommand command) {
+    return action.kind == Kind::write_command && action.command.command == command;
+}
+
+// Loses the link once, at the first START, after `meanwhile`.
+void lose_first_start(ScriptedCell& cell, const std::function<void(const Command&)>& meanwhile) {
+    cell.lose = [&cell, meanwhile, is_done = false](const HandOffAction& action) mutable {
+        if (is_done || !writes(action, CellCommand::start)) return false;
+        is_done = true;
+        meanwhile(action.command);
+        return true;
+    };
+}
+
+void end_the_job(ScriptedCell& cell) {
+    cell.run_to(HandOffStep::run);
     cell.status.job_state = JobState::ended;
     cell.status.job_result = JobResult::complete;
     cell.status.state = PackState::complete;
-    cell.result.job_result = JobResult::complete;
+    cell.result.result = JobResult::complete;
     cell.result.starts = 1;
     cell.run();
 }
 
 TEST(HandOff, TheCommandsComeInTheOrderOfTheProtocol) {
-    PaperCell cell;
+    ScriptedCell cell;
     end_the_job(cell);
     EXPECT_EQ(cell.order(), "CLAIM QUERY Reset STORE VERIFY PREPARE Start QUERY CLEAR_RESULT Reset RELEASE ");
     EXPECT_EQ(cell.state.verdict, StartVerdict::started);
@@ -174,7 +195,7 @@ TEST(HandOff, TheCommandsComeInTheOrderOfTheProtocol) {
 }
 
 TEST(HandOff, BeforeEveryCommandThereIsARowForTheJournal) {
-    PaperCell cell;
+    ScriptedCell cell;
     std::string rows;
     int commands = 0;
     while (cell.state.step != HandOffStep::run && cell.step()) {
@@ -190,7 +211,7 @@ TEST(HandOff, BeforeEveryCommandThereIsARowForTheJournal) {
 }
 
 TEST(HandOff, AnOwnRefusalOfStartIsNotStarted) {
-    PaperCell cell;
+    ScriptedCell cell;
     cell.grant = [](const Command& c) {
         return c.command == CellCommand::start ? AckResult::safety_open : AckResult::ok;
     };
@@ -201,7 +222,7 @@ TEST(HandOff, AnOwnRefusalOfStartIsNotStarted) {
 }
 
 TEST(HandOff, TheAcknowledgementOfSomebodyElseIsNotTakenForOurs) {
-    PaperCell cell;
+    ScriptedCell cell;
     bool foreign = false;
     cell.grant = [&](const Command& c) {
         if (c.command != CellCommand::store || foreign) return AckResult::ok;
@@ -217,7 +238,7 @@ TEST(HandOff, TheAcknowledgementOfSomebodyElseIsNotTakenForOurs) {
 }
 
 TEST(HandOff, ACommandThatIsNotAcknowledgedIsSentAgainAsTheVerySameFrame) {
-    PaperCell cell;
+    ScriptedCell cell;
     int unanswered = 2;
     cell.grant = [&](const Command& c) {
         return c.command == CellCommand::start && unanswered-- > 0 ? AckResult::none : AckResult::ok;
@@ -231,15 +252,8 @@ TEST(HandOff, ACommandThatIsNotAcknowledgedIsSentAgainAsTheVerySameFrame) {
 }
 
 TEST(HandOff, AfterALostLinkComesAFenceAndAQuestionBeforeAnythingElse) {
-    // Cut at the write of START, once. The cell has not seen it.
-    PaperCell cell;
-    bool cut = false;
-    cell.lose = [&](const HandOffAction& action) {
-        if (cut || action.kind != Kind::write_command || action.command.command != CellCommand::start) return false;
-        cut = true;
-        cell.status.job_state = JobState::stored;
-        return true;
-    };
+    ScriptedCell cell;
+    lose_first_start(cell, [&](const Command&) { cell.status.job_state = JobState::stored; });  // it did not arrive
     end_the_job(cell);
     EXPECT_EQ(cell.order(),
               "CLAIM QUERY Reset STORE VERIFY PREPARE CLAIM QUERY STORE VERIFY PREPARE Start QUERY CLEAR_RESULT Reset "
@@ -250,14 +264,8 @@ TEST(HandOff, AfterALostLinkComesAFenceAndAQuestionBeforeAnythingElse) {
 }
 
 TEST(HandOff, AStartThatArrivedThoughItsAnswerDidNotIsTakenUp) {
-    PaperCell cell;
-    bool cut = false;
-    cell.lose = [&](const HandOffAction& action) {
-        if (cut || action.kind != Kind::write_command || action.command.command != CellCommand::start) return false;
-        cut = true;
-        cell.take(action.command);
-        return true;
-    };
+    ScriptedCell cell;
+    lose_first_start(cell, [&](const Command& start) { cell.execute(start); });
     end_the_job(cell);
     EXPECT_EQ(cell.count(CellCommand::start), 1);
     EXPECT_EQ(cell.state.verdict, StartVerdict::started);
@@ -265,10 +273,10 @@ TEST(HandOff, AStartThatArrivedThoughItsAnswerDidNotIsTakenUp) {
 
 TEST(HandOff, ALinkThatNeverComesBackIsUnknownOnlyIfAStartMayHaveArrived) {
     for (const CellCommand last : {CellCommand::store, CellCommand::prepare, CellCommand::start}) {
-        PaperCell cell;
+        ScriptedCell cell;
         bool dead = false;
         cell.lose = [&](const HandOffAction& action) {
-            dead = dead || (action.kind == Kind::write_command && action.command.command == last);
+            dead = dead || writes(action, last);
             return dead && action.kind != Kind::wait;
         };
         const double began = cell.now_s;
@@ -280,44 +288,39 @@ TEST(HandOff, ALinkThatNeverComesBackIsUnknownOnlyIfAStartMayHaveArrived) {
 }
 
 TEST(HandOff, ALinkLostForGoodWhileTheJobRunsIsStillStarted) {
-    PaperCell cell;
-    while (cell.state.step != HandOffStep::run && cell.step()) {
-    }
+    ScriptedCell cell;
+    cell.run_to(HandOffStep::run);
     cell.lose = [](const HandOffAction& action) { return action.kind != Kind::wait; };
     cell.run();
     EXPECT_EQ(cell.state.verdict, StartVerdict::started);
     EXPECT_NE(cell.state.why.find("runs on by itself"), std::string::npos);
 }
 
-TEST(HandOff, BusyIsAskedAgainTenTimesAndNoMore) {
-    PaperCell cell;
+TEST(HandOff, ABusyCellIsAskedAgainTenTimesAndNoMore) {
+    ScriptedCell cell;
     int asked = 0;
-    cell.refuse = [&](const HandOffAction& action) {
-        return action.kind == Kind::write_command && action.command.command == CellCommand::store ? 6 : 0;
-    };
-    while (cell.step())
-        asked += cell.action.kind == Kind::write_command && cell.action.command.command == CellCommand::store ? 1 : 0;
+    cell.refuse = [](const HandOffAction& action) { return writes(action, CellCommand::store) ? 6 : 0; };
+    while (cell.step()) asked += writes(cell.action, CellCommand::store) ? 1 : 0;
     EXPECT_EQ(asked, 11);
     EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
     EXPECT_NE(cell.state.why.find("exception 6"), std::string::npos) << cell.state.why;
 }
 
 TEST(HandOff, AnyOtherExceptionIsReportedAtOnce) {
-    PaperCell cell;
+    ScriptedCell cell;
     int asked = 0;
-    cell.refuse = [&](const HandOffAction& action) { return action.kind == Kind::write_ticket ? 2 : 0; };
+    cell.refuse = [](const HandOffAction& action) { return action.kind == Kind::write_ticket ? 2 : 0; };
     while (cell.step()) asked += cell.action.kind == Kind::write_ticket ? 1 : 0;
     EXPECT_EQ(asked, 1);
     EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
 }
 
 TEST(HandOff, AFrozenCellGetsNoCommand) {
-    PaperCell cell;
+    ScriptedCell cell;
     cell.grant = [&](const Command& c) {
         return c.command == CellCommand::prepare ? AckResult::pending : AckResult::ok;
     };
-    while (cell.state.step != HandOffStep::prepare && cell.step()) {
-    }
+    cell.run_to(HandOffStep::prepare);
     cell.freeze_s = cell.now_s;
     const auto before = cell.commands.size();
     cell.run();
@@ -326,18 +329,18 @@ TEST(HandOff, AFrozenCellGetsNoCommand) {
     EXPECT_NE(cell.state.why.find("frozen"), std::string::npos) << cell.state.why;
 }
 
-TEST(HandOff, HeartbeatsGoOutEveryHalfSecondOnceTheCellIsOurs) {
-    PaperCell cell;
+TEST(HandOff, HeartbeatsGoOutEveryHalfSecondOnceTheCellIsClaimed) {
+    ScriptedCell cell;
     double last = -1;
     double worst = 0;
     std::uint16_t counter = 0;
     while (cell.now_s < 200 && cell.step()) {
         if (cell.action.kind != Kind::heartbeat) continue;
         if (last > 0) worst = std::max(worst, cell.now_s - last);
-        EXPECT_NE(cell.action.beat.counter, counter);
-        counter = cell.action.beat.counter;
-        EXPECT_EQ(cell.action.beat.owner, 77U);
-        EXPECT_EQ(cell.action.beat.epoch, cell.status.epoch_held);
+        EXPECT_NE(cell.action.heartbeat.counter, counter);
+        counter = cell.action.heartbeat.counter;
+        EXPECT_EQ(cell.action.heartbeat.owner, 77U);
+        EXPECT_EQ(cell.action.heartbeat.epoch, cell.status.epoch_held);
         last = cell.now_s;
     }
     EXPECT_EQ(cell.state.step, HandOffStep::run);
@@ -347,7 +350,7 @@ TEST(HandOff, HeartbeatsGoOutEveryHalfSecondOnceTheCellIsOurs) {
 
 TEST(HandOff, AStopOnRequestAtAnyMomentBeforeStartIsConfirmedAndNothingIsStarted) {
     for (int at = 0; at < 200; ++at) {
-        PaperCell cell;
+        ScriptedCell cell;
         for (int n = 0; n < at && cell.state.step < HandOffStep::start; ++n) cell.step();
         if (cell.state.step >= HandOffStep::start) {
             EXPECT_GT(at, 10);
@@ -372,7 +375,7 @@ TEST(HandOff, AStopOnRequestAtAnyMomentBeforeStartIsConfirmedAndNothingIsStarted
 }
 
 // Brings a hand-off to its n-th turn; false if it ended before.
-bool bring_to(PaperCell& cell, int turns) {
+bool bring_to(ScriptedCell& cell, int turns) {
     for (int n = 0; n < turns; ++n) {
         if (cell.now_s > 110) cell.status.job_state = JobState::ended;
         if (!cell.step()) return false;
@@ -380,7 +383,7 @@ bool bring_to(PaperCell& cell, int turns) {
     return true;
 }
 
-void stop_on_request(PaperCell& cell) {
+void stop_on_request(ScriptedCell& cell) {
     cell.cancelled = true;
     cell.input.cancelled = true;
     cell.written.clear();
@@ -390,7 +393,7 @@ TEST(HandOff, AFrozenCellIsLeftInTwoSecondsWhateverTheStep) {
     int started = 0;
     int not_started = 0;
     for (int turns = 1;; ++turns) {
-        PaperCell cell;
+        ScriptedCell cell;
         if (!bring_to(cell, turns)) break;
         cell.freeze_s = cell.now_s;
         const double frozen_at_s = cell.now_s;
@@ -425,7 +428,7 @@ TEST(HandOff, AFrozenCellIsLeftInTwoSecondsWhateverTheStep) {
 
 TEST(HandOff, ALostLinkIsLeftInTwoSecondsWhateverTheStep) {
     for (int turns = 1;; ++turns) {
-        PaperCell cell;
+        ScriptedCell cell;
         if (!bring_to(cell, turns)) break;
         cell.lose = [](const HandOffAction& action) { return action.kind != Kind::wait; };
         const double lost_at_s = cell.now_s;
@@ -445,9 +448,8 @@ TEST(HandOff, ALostLinkIsLeftInTwoSecondsWhateverTheStep) {
 }
 
 TEST(HandOff, AskedToStopWhenTheLinkComesBackTheCellConfirmsAllTheSame) {
-    PaperCell cell;
-    while (cell.state.step != HandOffStep::prepare && cell.step()) {
-    }
+    ScriptedCell cell;
+    cell.run_to(HandOffStep::prepare);
     double back_at_s = 1e9;
     cell.lose = [&](const HandOffAction& action) { return action.kind != Kind::wait && cell.now_s < back_at_s; };
     while (cell.state.lost_since_s < 0 && cell.step()) {
@@ -461,9 +463,9 @@ TEST(HandOff, AskedToStopWhenTheLinkComesBackTheCellConfirmsAllTheSame) {
     EXPECT_EQ(cell.state.why.find("did not confirm"), std::string::npos) << cell.state.why;
 }
 
-TEST(HandOff, AskedToStopBetweenStartAndItsAcknowledgementWhatTheCellSaysThenIsReported) {
+TEST(HandOff, AskedToStopBetweenStartAndItsAcknowledgementTheAnswerOfTheCellIsReported) {
     for (const AckResult answer : {AckResult::ok, AckResult::safety_open, AckResult::none}) {
-        PaperCell cell;
+        ScriptedCell cell;
         int asked = 0;
         cell.grant = [&](const Command& c) {
             return c.command == CellCommand::start && ++asked < 2 ? AckResult::none
@@ -485,7 +487,7 @@ TEST(HandOff, AskedToStopBetweenStartAndItsAcknowledgementWhatTheCellSaysThenIsR
     }
 }
 
-void expect_leaves_with(const PaperCell& cell, const std::string& last_commands) {
+void expect_leaves_with(const ScriptedCell& cell, const std::string& last_commands) {
     const std::string order = cell.order();
     EXPECT_TRUE(order.ends_with(last_commands)) << order;
 }
@@ -493,21 +495,18 @@ void expect_leaves_with(const PaperCell& cell, const std::string& last_commands)
 TEST(HandOff, AfterAnExceptionTheCellIsGivenBack) {
     for (const int code : {1, 2, 3, 4}) {
         for (const CellCommand at : {CellCommand::query, CellCommand::verify, CellCommand::prepare}) {
-            PaperCell cell;
-            cell.refuse = [&](const HandOffAction& action) {
-                return action.kind == Kind::write_command && action.command.command == at ? code : 0;
-            };
+            ScriptedCell cell;
+            cell.refuse = [&](const HandOffAction& action) { return writes(action, at) ? code : 0; };
             cell.run();
             EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
             EXPECT_NE(cell.state.why.find("exception " + std::to_string(code)), std::string::npos) << cell.state.why;
             expect_leaves_with(cell, at == CellCommand::query ? "CLAIM RELEASE " : " CANCEL RELEASE ");
         }
     }
-    // A cell that refuses everything from some moment on is left all the same.
+    // With a cell that refuses everything from some moment on the hand-off ends as well.
     for (const HandOffStep step : {HandOffStep::prepare, HandOffStep::run}) {
-        PaperCell cell;
-        while (cell.state.step != step && cell.step()) {
-        }
+        ScriptedCell cell;
+        cell.run_to(step);
         cell.refuse = [](const HandOffAction& action) { return action.kind == Kind::wait ? 0 : 4; };
         const double began_s = cell.now_s;
         cell.run();
@@ -517,18 +516,17 @@ TEST(HandOff, AfterAnExceptionTheCellIsGivenBack) {
 }
 
 TEST(HandOff, TheResultOfAnotherJobIsNotAskedForWithoutEnd) {
-    PaperCell before;
-    before.twist = [](ResultRecord& result) { result.job_id = other_job; };
+    ScriptedCell before;
+    before.change_result = [](ResultRecord& result) { result.job_id = other_job; };
     before.run();
     EXPECT_EQ(before.state.verdict, StartVerdict::not_started);
     EXPECT_NE(before.state.why.find(to_text(other_job)), std::string::npos) << before.state.why;
     EXPECT_LE(before.count(CellCommand::query), 12);
     expect_leaves_with(before, "QUERY RELEASE ");
 
-    PaperCell after;
-    while (after.state.step != HandOffStep::run && after.step()) {
-    }
-    after.twist = before.twist;
+    ScriptedCell after;
+    after.run_to(HandOffStep::run);
+    after.change_result = before.change_result;
     end_the_job(after);
     EXPECT_EQ(after.state.verdict, StartVerdict::started);  // STATUS has shown that
     EXPECT_FALSE(after.state.result.has_value());
@@ -536,9 +534,9 @@ TEST(HandOff, TheResultOfAnotherJobIsNotAskedForWithoutEnd) {
 }
 
 TEST(HandOff, AQueryOvertakenByThatOfAnotherClientIsAskedAgain) {
-    PaperCell cell;
+    ScriptedCell cell;
     int overtaken = 0;
-    cell.twist = [&](ResultRecord& result) {
+    cell.change_result = [&](ResultRecord& result) {
         if (++overtaken % 4 != 0) result.query_owner = 4711;
     };
     end_the_job(cell);
@@ -547,7 +545,7 @@ TEST(HandOff, AQueryOvertakenByThatOfAnotherClientIsAskedAgain) {
     EXPECT_EQ(cell.count(CellCommand::start), 1);
 }
 
-void expect_contradiction(const PaperCell& cell, const std::string& named) {
+void expect_contradiction(const ScriptedCell& cell, const std::string& named) {
     EXPECT_EQ(cell.state.verdict, StartVerdict::unknown) << cell.state.why;
     EXPECT_NE(cell.state.why.find("contradicts"), std::string::npos) << cell.state.why;
     EXPECT_NE(cell.state.why.find(named), std::string::npos) << cell.state.why;
@@ -559,15 +557,15 @@ void expect_contradiction(const PaperCell& cell, const std::string& named) {
 
 TEST(HandOff, NumbersOfStartsThatCannotBeAreAContradiction) {
     for (const std::uint32_t starts : {0U, 2U, 0xFFFFFFFFU}) {
-        PaperCell cell;
-        cell.twist = [&](ResultRecord& result) {
+        ScriptedCell cell;
+        cell.change_result = [&](ResultRecord& result) {
             if (cell.state.start_sent) result.starts = starts;
         };
         end_the_job(cell);
         expect_contradiction(cell, "STARTS " + std::to_string(starts));
     }
-    PaperCell before;
-    before.twist = [](ResultRecord& result) { result.starts = 1; };  // of a job that it does not know
+    ScriptedCell before;
+    before.change_result = [](ResultRecord& result) { result.starts = 1; };  // of a job without record
     before.run();
     expect_contradiction(before, "STARTS 1");
     EXPECT_EQ(before.count(CellCommand::start), 0);
@@ -575,13 +573,10 @@ TEST(HandOff, NumbersOfStartsThatCannotBeAreAContradiction) {
 
 TEST(HandOff, AStartThatIsAcknowledgedAndNeverSeenIsUnknown) {
     for (const JobState shown : {JobState::prepared, JobState::stored, JobState::none}) {
-        PaperCell cell;
+        ScriptedCell cell;
         cell.grant = [&](const Command& c) {
             if (c.command != CellCommand::start) return AckResult::ok;
-            cell.status.ack_owner = c.owner;
-            cell.status.ack_seq = c.seq;
-            cell.status.ack_command = c.command;
-            cell.status.ack_result = AckResult::ok;
+            cell.acknowledge(c);
             cell.status.job_state = shown;
             if (shown == JobState::none) cell.status.job_id = {};
             return AckResult::none;
@@ -593,7 +588,7 @@ TEST(HandOff, AStartThatIsAcknowledgedAndNeverSeenIsUnknown) {
 }
 
 TEST(HandOff, AStartThatIsRefusedWhileTheJobIsShownAsRunningIsUnknown) {
-    PaperCell cell;
+    ScriptedCell cell;
     cell.grant = [&](const Command& c) {
         if (c.command == CellCommand::start) cell.status.job_state = JobState::running;
         return c.command == CellCommand::start ? AckResult::token_bad : AckResult::ok;
@@ -603,53 +598,48 @@ TEST(HandOff, AStartThatIsRefusedWhileTheJobIsShownAsRunningIsUnknown) {
 }
 
 TEST(HandOff, StatusAndResultThatDisagreeWithoutEndAreUnknown) {
-    // STATUS shows the end, RESULT says that it runs; STATUS shows no job, RESULT says that it runs.
+    // STATUS shows the end, RESULT a running job; STATUS shows no job, RESULT a running one.
     for (const bool shown : {true, false}) {
-        PaperCell cell;
-        while (cell.state.step != HandOffStep::run && cell.step()) {
-        }
+        ScriptedCell cell;
+        cell.run_to(HandOffStep::run);
         cell.status.job_state = JobState::ended;
         if (!shown) cell.status.job_id = {};
-        cell.twist = [](ResultRecord& result) {
-            result.job_state = JobState::running;
+        cell.change_result = [](ResultRecord& result) {
+            result.state = JobState::running;
             result.starts = 1;
         };
         cell.run();
         expect_contradiction(cell, "running");
     }
     // STATUS showed it running, and now neither it nor RESULT does.
-    PaperCell back;
-    while (back.state.step != HandOffStep::run && back.step()) {
-    }
+    ScriptedCell back;
+    back.run_to(HandOffStep::run);
     back.status.job_state = JobState::prepared;
     back.run();
     expect_contradiction(back, "prepared");
 }
 
 TEST(HandOff, AnotherFileThanOursUnderOurJobIsAContradictionAfterTheStart) {
-    PaperCell cell;
-    cell.twist = [&](ResultRecord& result) {
-        if (cell.state.is_started) result.file_sha256.fill(1);
+    ScriptedCell cell;
+    cell.change_result = [&](ResultRecord& result) {
+        if (cell.state.is_started) result.file_sha256.bytes.fill(1);
     };
     end_the_job(cell);
     expect_contradiction(cell, "another file");
 }
 
 TEST(HandOff, ACellThatAcknowledgesAndDoesNothingIsNotTriedWithoutEnd) {
-    PaperCell lazy;  // says OK to Reset and stays in Stopped
+    ScriptedCell lazy;  // acknowledges Reset with OK and stays in Stopped
     lazy.grant = [&](const Command& c) {
         if (c.command != CellCommand::reset) return AckResult::ok;
-        lazy.status.ack_owner = c.owner;
-        lazy.status.ack_seq = c.seq;
-        lazy.status.ack_command = c.command;
-        lazy.status.ack_result = AckResult::ok;
+        lazy.acknowledge(c);
         return AckResult::none;
     };
     lazy.run();
     EXPECT_EQ(lazy.state.fault, DeviceFault::busy);
     EXPECT_LE(lazy.count(CellCommand::reset) + lazy.count(CellCommand::clear), 12);
 
-    PaperCell tokenless;
+    ScriptedCell tokenless;
     tokenless.tokens = 0xFFFFFFFF;  // the next one is 0
     tokenless.grant = [&](const Command&) {
         tokenless.tokens = 0xFFFFFFFF;
@@ -661,12 +651,11 @@ TEST(HandOff, ACellThatAcknowledgesAndDoesNothingIsNotTriedWithoutEnd) {
     EXPECT_LE(tokenless.count(CellCommand::prepare), 5);
     expect_leaves_with(tokenless, " CANCEL RELEASE ");
 
-    PaperCell cutting;  // answers to everything, but cuts the link at every CLAIM
+    ScriptedCell cutting;  // answers to everything, but cuts the link at every CLAIM
     int claims = 0;
     cutting.lose = [&](const HandOffAction& action) {
-        if (action.kind != Kind::write_command || action.command.command != CellCommand::claim) return false;
-        ++claims;
-        return true;
+        claims += writes(action, CellCommand::claim) ? 1 : 0;
+        return writes(action, CellCommand::claim);
     };
     cutting.run();
     EXPECT_EQ(cutting.state.verdict, StartVerdict::not_started);
@@ -674,13 +663,11 @@ TEST(HandOff, ACellThatAcknowledgesAndDoesNothingIsNotTriedWithoutEnd) {
 }
 
 TEST(HandOff, AnAcknowledgementOfAnotherCommandUnderOurNumberIsNotTaken) {
-    PaperCell cell;
+    ScriptedCell cell;
     cell.grant = [&](const Command& c) {
         if (c.command != CellCommand::start) return AckResult::ok;
-        cell.status.ack_owner = c.owner;
-        cell.status.ack_seq = c.seq;
+        cell.acknowledge(c);
         cell.status.ack_command = CellCommand::prepare;
-        cell.status.ack_result = AckResult::ok;
         return AckResult::none;
     };
     cell.run();
@@ -689,7 +676,7 @@ TEST(HandOff, AnAcknowledgementOfAnotherCommandUnderOurNumberIsNotTaken) {
 
 TEST(HandOff, TheFirstStatusIsTriedAgainBeforeItIsGivenUp) {
     const auto first = [](HandOffInput failure, int failures) {
-        PaperCell cell;
+        ScriptedCell cell;
         cell.step();
         for (int n = 0; n < 100 && cell.state.step != HandOffStep::finished; ++n) {
             if (cell.action.kind == Kind::read_status && failures-- > 0) cell.input = failure;
@@ -726,7 +713,7 @@ TEST(HandOff, TheFirstStatusIsTriedAgainBeforeItIsGivenUp) {
 }
 
 TEST(HandOff, WhatStandsInTheWayIsClearedOrNamed) {
-    PaperCell cell;
+    ScriptedCell cell;
     cell.status.job_id = other_job;
     cell.status.job_state = JobState::stored;
     cell.grant = [&](const Command& c) {
@@ -741,7 +728,7 @@ TEST(HandOff, WhatStandsInTheWayIsClearedOrNamed) {
     EXPECT_EQ(cell.count(CellCommand::cancel), 1);
     EXPECT_EQ(cell.state.verdict, StartVerdict::started);
 
-    PaperCell busy;
+    ScriptedCell busy;
     busy.status.job_id = other_job;
     busy.status.job_state = JobState::running;
     busy.status.state = PackState::execute;
@@ -750,8 +737,8 @@ TEST(HandOff, WhatStandsInTheWayIsClearedOrNamed) {
     EXPECT_EQ(busy.order(), "CLAIM QUERY RELEASE ");
 }
 
-TEST(HandOff, ACellWhoseWordsAreNotOursIsAnErrorOfTheProtocol) {
-    PaperCell cell;
+TEST(HandOff, ACellWithAnotherMagicNumberIsAnErrorOfTheProtocol) {
+    ScriptedCell cell;
     cell.step();
     cell.input = {};
     cell.input.end = BusEnd::lost;

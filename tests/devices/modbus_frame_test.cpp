@@ -8,10 +8,10 @@ namespace qchopper {
 namespace {
 
 constexpr ModbusRequest a_read{0x1234, 0xFF, ModbusFunction::read_input, 100, 2};
-const Registers three_words{1, 2, 0xABCD};
+const Registers three_registers{1, 2, 0xABCD};
 
 ModbusRequest a_write() {
-    return {0x0102, 17, ModbusFunction::write_holding, 0x0205, 3, three_words};
+    return {0x0102, 17, ModbusFunction::write_holding, 0x0205, 3, three_registers};
 }
 
 // By hand, after the specification of Modbus TCP.
@@ -30,13 +30,13 @@ const Bytes refusal{0x12, 0x34, 0, 0, 0, 3, 0xFF, 0x84, 2};
 TEST(ModbusFrame, ARightAnswerIsTaken) {
     EXPECT_EQ(check_answer(a_read, read_answer).wanted, read_answer.size());
     EXPECT_EQ(check_answer(a_read, read_answer).wrong, "");
-    EXPECT_EQ(take_answer(a_read, read_answer).registers, (Registers{0xCAFE, 9}));
+    EXPECT_EQ(decode_answer(a_read, read_answer).registers, (Registers{0xCAFE, 9}));
     EXPECT_EQ(check_answer(a_write(), write_answer).wanted, write_answer.size());
     EXPECT_EQ(check_answer(a_write(), write_answer).wrong, "");
-    EXPECT_TRUE(take_answer(a_write(), write_answer).is_ok());
+    EXPECT_TRUE(decode_answer(a_write(), write_answer).is_ok());
     EXPECT_EQ(check_answer(a_read, refusal).wanted, refusal.size());
-    EXPECT_EQ(take_answer(a_read, refusal).end, BusEnd::exception);
-    EXPECT_EQ(take_answer(a_read, refusal).exception, 2);
+    EXPECT_EQ(decode_answer(a_read, refusal).end, BusEnd::exception);
+    EXPECT_EQ(decode_answer(a_read, refusal).exception, 2);
 }
 
 // Everything but the registers themselves and the code of an exception is fixed by the request.
@@ -84,7 +84,7 @@ TEST(ModbusFrame, BytesAtRandomNeverLeadOutOfTheFrame) {
         }
         const AnswerSoFar so_far = check_answer(a_read, bytes);
         EXPECT_LE(so_far.wanted, read_answer.size());
-        if (so_far.wrong.empty() && so_far.wanted == bytes.size()) take_answer(a_read, bytes);
+        if (so_far.wrong.empty() && so_far.wanted == bytes.size()) decode_answer(a_read, bytes);
     }
 }
 

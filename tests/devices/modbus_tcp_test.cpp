@@ -1,9 +1,7 @@
 #include "devices/modbus_tcp.h"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -16,6 +14,7 @@
 
 #include "base/error.h"
 #include "devices/device_error.h"
+#include "tests/devices/loopback_server.h"
 
 namespace qchopper {
 namespace {
@@ -37,49 +36,13 @@ TEST(TcpAddress, HostAndPortAreTakenApart) {
     }
 }
 
-// Accepts connections one after the other and does with each what it is told.
-class Peer {
- public:
-    explicit Peer(std::function<void(int fd, int number)> act)
-        : listener_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-        sockaddr_in address{};
-        address.sin_family = AF_INET;
-        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        socklen_t size = sizeof address;
-        EXPECT_EQ(bind(listener_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-        EXPECT_EQ(listen(listener_, 8), 0);
-        EXPECT_EQ(getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size), 0);
-        port = ntohs(address.sin_port);
-        thread_ = std::thread([this, act] {
-            for (int number = 1;; ++number) {
-                const int fd = accept(listener_, nullptr, nullptr);
-                if (fd < 0) return;
-                act(fd, number);
-                close(fd);
-            }
-        });
-    }
-    ~Peer() {
-        shutdown(listener_, SHUT_RDWR);
-        thread_.join();
-        close(listener_);
-    }
-    Peer(const Peer&) = delete;
-    Peer& operator=(const Peer&) = delete;
-    std::uint16_t port = 0;
-
- private:
-    int listener_;
-    std::thread thread_;
-};
-
 std::array<std::uint8_t, 12> request_from(int fd) {
     std::array<std::uint8_t, 12> request{};
     EXPECT_EQ(recv(fd, request.data(), request.size(), MSG_WAITALL), 12);
     return request;
 }
 
-// One register that says 0x1234.
+// One register, 0x1234.
 std::vector<std::uint8_t> answer_to(const std::array<std::uint8_t, 12>& request) {
     return {request[0], request[1], 0, 0, 0, 5, request[6], request[7], 2, 0x12, 0x34};
 }
@@ -102,13 +65,7 @@ void wait_for_close(int fd) {
 
 TEST(ModbusTcpBus, NothingListensIsUnreachable) {
     const int fd = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);  // bound, not listening: nobody else gets the port
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    ASSERT_EQ(bind(fd, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-    ASSERT_EQ(getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size), 0);
-    ModbusTcpBus bus({"127.0.0.1", ntohs(address.sin_port)});
+    ModbusTcpBus bus({"127.0.0.1", bind_to_loopback(fd)});
     try {
         bus.connect();
         FAIL();
@@ -126,7 +83,7 @@ TEST(ModbusTcpBus, ANameThatNobodyKnowsIsUnreachableInTime) {
 }
 
 TEST(ModbusTcpBus, ARegisterIsRead) {
-    const Peer peer([](int fd, int) {
+    const LoopbackServer peer([](int fd, int) {
         put(fd, answer_to(request_from(fd)));
         wait_for_close(fd);
     });
@@ -137,7 +94,7 @@ TEST(ModbusTcpBus, ARegisterIsRead) {
 }
 
 TEST(ModbusTcpBus, APeerThatIsSilentCostsOneSecondAndTheNextCallIsAFreshConnection) {
-    const Peer peer([](int fd, int number) {
+    const LoopbackServer peer([](int fd, int number) {
         const auto request = request_from(fd);
         if (number > 1) put(fd, answer_to(request));
         wait_for_close(fd);
@@ -149,7 +106,7 @@ TEST(ModbusTcpBus, APeerThatIsSilentCostsOneSecondAndTheNextCallIsAFreshConnecti
 }
 
 TEST(ModbusTcpBus, APeerThatSendsAByteAtATimeIsCutOffAfterTwoSeconds) {
-    const Peer peer([](int fd, int) {
+    const LoopbackServer peer([](int fd, int) {
         for (const std::uint8_t byte : answer_to(request_from(fd))) {
             std::this_thread::sleep_for(std::chrono::milliseconds(300));
             put(fd, {byte});
@@ -166,7 +123,7 @@ TEST(ModbusTcpBus, APeerThatSendsAByteAtATimeIsCutOffAfterTwoSeconds) {
 }
 
 TEST(ModbusTcpBus, ALateAnswerNeverBelongsToTheNextQuestion) {
-    const Peer peer([](int fd, int number) {
+    const LoopbackServer peer([](int fd, int number) {
         const auto request = request_from(fd);
         if (number == 1) std::this_thread::sleep_for(std::chrono::milliseconds(1200));
         put(fd, answer_to(request));
@@ -178,7 +135,7 @@ TEST(ModbusTcpBus, ALateAnswerNeverBelongsToTheNextQuestion) {
 }
 
 TEST(ModbusTcpBus, AnExceptionKeepsTheConnectionAndAnythingElseDoesNot) {
-    const Peer peer([](int fd, int) {
+    const LoopbackServer peer([](int fd, int) {
         for (const std::uint8_t code : {6, 2}) {
             const auto request = request_from(fd);
             put(fd,
@@ -199,7 +156,7 @@ TEST(ModbusTcpBus, AnExceptionKeepsTheConnectionAndAnythingElseDoesNot) {
 }
 
 TEST(ModbusTcpBus, ACloseAndATornAnswerAreLost) {
-    const Peer peer([](int fd, int number) {
+    const LoopbackServer peer([](int fd, int number) {
         std::vector<std::uint8_t> answer = answer_to(request_from(fd));
         if (number == 1) return;
         answer.resize(8);
@@ -215,7 +172,7 @@ TEST(ModbusTcpBus, AnAnswerWithOneWrongFieldEndsTheConnection) {
     const std::vector<std::pair<std::size_t, std::uint8_t>> faults{
         {0, 0x77}, {1, 0x77}, {2, 7}, {3, 7}, {4, 1}, {5, 0x40}, {5, 4}, {6, 9}, {7, 3}, {7, 5}, {8, 4}, {8, 0}};
     for (const auto& [at, value] : faults) {
-        const Peer peer([at = at, value = value](int fd, int number) {
+        const LoopbackServer peer([at = at, value = value](int fd, int number) {
             std::vector<std::uint8_t> answer = answer_to(request_from(fd));
             answer.resize(80, 0x11);
             if (number == 1) answer[at] = value;
@@ -244,14 +201,14 @@ TEST(ModbusTcpBus, AWriteWhoseEchoNamesOtherRegistersIsLost) {
         };
     };
     for (const std::size_t at : {0, 8, 9, 10, 11}) {
-        const Peer peer(echo(at));
+        const LoopbackServer peer(echo(at));
         ModbusTcpBus bus({"127.0.0.1", peer.port});
         EXPECT_EQ(bus.write_holding(0x0205, Registers{5}).is_ok(), at == 0) << at;
     }
 }
 
 TEST(ModbusTcpBus, BytesThatNobodyAskedForEndTheConnection) {
-    const Peer peer([](int fd, int) {
+    const LoopbackServer peer([](int fd, int) {
         std::vector<std::uint8_t> answer = answer_to(request_from(fd));
         const std::vector<std::uint8_t> once = answer;
         answer.insert(answer.end(), once.begin(), once.end());
@@ -266,7 +223,7 @@ TEST(ModbusTcpBus, BytesThatNobodyAskedForEndTheConnection) {
 }
 
 TEST(ModbusTcpBus, ACallUnderWayEndsSoonAfterTheRequestToStop) {
-    const Peer peer([](int fd, int) { wait_for_close(fd); });
+    const LoopbackServer peer([](int fd, int) { wait_for_close(fd); });
     ModbusTimings patient;
     patient.response_s = patient.call_s = 30;
     ModbusTcpBus bus({"127.0.0.1", peer.port}, 255, patient);
@@ -290,7 +247,7 @@ TEST(ModbusTcpBus, ADescriptorOf1024OrMoreServesLikeAnyOther) {
     if (limit.rlim_max < 1100) GTEST_SKIP() << "this system allows too few files";
     const rlimit raised{1100, limit.rlim_max};
     ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &raised), 0);
-    const Peer peer([](int fd, int) {
+    const LoopbackServer peer([](int fd, int) {
         put(fd, answer_to(request_from(fd)));
         wait_for_close(fd);
     });

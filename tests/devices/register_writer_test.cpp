@@ -5,7 +5,7 @@
 namespace qchopper {
 namespace {
 
-TEST(Registers, NumbersHaveTheHighWordFirst) {
+TEST(Registers, NumbersHaveTheHighRegisterFirst) {
     EXPECT_EQ(RegisterWriter().u32(305419896).registers(), (Registers{0x1234, 0x5678}));
     EXPECT_EQ(RegisterWriter().i32(-2).registers(), (Registers{0xFFFF, 0xFFFE}));
     EXPECT_EQ(RegisterWriter().u64(0x0123456789ABCDEF).registers(), (Registers{0x0123, 0x4567, 0x89AB, 0xCDEF}));
@@ -24,7 +24,7 @@ TEST(Registers, TextIsNeverCutInsideACharacter) {
     EXPECT_EQ(cut_utf8("\xC3\xA9", 0), "");
 }
 
-TEST(Registers, TheChecksumIsTheOneThatEverybodyUses) {
+TEST(Registers, TheChecksumIsThatOfIeee8023) {
     const std::vector<std::uint8_t> digits{'1', '2', '3', '4', '5', '6', '7', '8', '9'};
     EXPECT_EQ(crc32_of(digits), 0xCBF43926U);
     EXPECT_EQ(crc32_of({}), 0U);

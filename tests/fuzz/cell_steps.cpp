@@ -1,46 +1,17 @@
+// Decodes one step after the other from the input, performs it, and checks the invariants. O(bytes), at most 300 steps.
+
 #include "tests/fuzz/cell_steps.h"
 
 #include <algorithm>
 
 #include "sim/modbus_pdu.h"
+#include "tests/sim/good_ticket.h"
 
 namespace qchopper {
 namespace {
 
 constexpr std::uint32_t owners[] = {0x11111111, 0x22222222, 0};
-constexpr Uuid jobs[] = {Uuid{0xA, 1}, Uuid{0xB, 1}, Uuid{}};
-
-Uuid any_job() {
-    Uuid ones{};
-    ones.fill(0xFF);
-    return ones;
-}
-
-Sha256 right_digest() {
-    Sha256 digest{};
-    digest.fill(0x5A);
-    return digest;
-}
-
-// A ticket that this cell takes.
-WireTicket good_ticket(const Uuid& id) {
-    WireTicket ticket;
-    ticket.job_id = id;
-    ticket.file_sha256 = right_digest();
-    ticket.file_size = 1000;
-    ticket.file_name = "piece-1.qjob";
-    ticket.box_min = {-1000, -1000, 0};
-    ticket.box_max = {1000, 1000, 2000};
-    ticket.stock = {3000, 3000, 3000};
-    ticket.tool_no = 3;
-    ticket.tool_diameter_um = 12000;
-    ticket.estimated_time_s = 100;
-    ticket.piece_no = 1;
-    ticket.piece_count = 1;
-    ticket.cell_id = any_cell_id;
-    ticket.made_for = 1;
-    return ticket;
-}
+constexpr Uuid jobs[] = {Uuid{0xA, 1}, Uuid{0xB, 1}, Uuid{}, bench::any_job};
 
 void add_word(Bytes& bytes, std::size_t word) {
     bytes.push_back(static_cast<std::uint8_t>(word >> 8U & 0xFFU));
@@ -132,7 +103,7 @@ void CellSteps::write(std::uint16_t address, const Registers& registers) {
     answer(pdu);
 }
 
-// Everything that a dispatcher would know lies within reach of a byte: epoch, sequence number, job, token.
+// One byte chooses between right and wrong epoch, sequence number, job and token, so that mutations find right ones.
 Command CellSteps::chosen_command(Input& input) {
     Command command;
     command.command = all_commands[input.u8() % all_commands.size()];
@@ -142,12 +113,11 @@ Command CellSteps::chosen_command(Input& input) {
     command.epoch = is_claim == ((choice & 1U) == 0) ? held + 1 : held;
     seq_ += (choice & 2U) == 0 ? 1 : 0;  // or the same again
     command.seq = seq_;
-    const unsigned job = choice >> 2U & 3U;
-    command.job_id = job < 3 ? jobs[job] : any_job();
+    command.job_id = jobs[choice >> 2U & 3U];
     command.owner = owners[(choice >> 4U & 3U) % 3];
     command.token = (choice & 64U) == 0 ? cell_.job.token : input.u16();
     if ((choice & 128U) == 0) {
-        command.file_sha256 = right_digest();
+        command.file_sha256 = bench::good_digest();
         command.arg1 = command.owner;  // the secret of a claim
     } else {
         command.arg0 = input.u8() == 0 ? cell_.job.receipt : input.u8();
@@ -158,7 +128,7 @@ Command CellSteps::chosen_command(Input& input) {
 
 void CellSteps::write_ticket(Input& input) {
     const unsigned choice = input.u8();
-    WireTicket ticket = good_ticket(jobs[choice & 1U]);
+    WireTicket ticket = bench::good_ticket(jobs[choice & 1U]);
     if ((choice & 2U) != 0) ticket.transfer = Transfer::chunks;
     if ((choice & 4U) != 0) ticket.on_link_loss = LinkLoss::hold;
     Registers registers = encode(ticket);
@@ -185,7 +155,7 @@ void CellSteps::write_chunk(Input& input) {
     write(chunk_block.base, encode(chunk));
 }
 
-// A block of zeros is what a fresh or cleared client holds: it must do nothing.
+// A new or cleared client writes blocks of zeros: they must change nothing.
 void CellSteps::write_zeros(const Block& block) {
     pass_time(cell_, now_, hooks_);
     const CellState before = cell_;
@@ -205,7 +175,7 @@ void CellSteps::check_file(Input& input) {
     if (how == 5) check.end = FileCheck::End::missing;
     if (how == 6) check.end = FileCheck::End::io_error;
     if (how == 7) check.size += 1;
-    if (how == 4) check.sha256[0] ^= 1U;
+    if (how == 4) check.sha256.bytes[0] ^= 1U;
     file_checked(cell_, cell_.pending->number, check, now_, hooks_);
 }
 

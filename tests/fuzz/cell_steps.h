@@ -1,8 +1,8 @@
-// A simulated cell that is led by bytes: requests as they are, requests made right so far that they get past the
-// checksums, time, answers of the operator, power cuts. Used by fuzz_pdu.cpp, written by make_seeds.cpp.
+// Drives a simulated cell by the bytes of an input: requests as they are, requests with right checksums, time, answers
+// of the operator, power cuts. Used by fuzz_pdu.cpp and link_seeds.cpp.
 //
-// After every step: every answer is well formed, a status can be decoded, no job id was ever started twice, power cuts
-// included, and what is running stands in the memory that was saved.
+// Checks that every answer is well formed, that a status can be decoded, that no job id is started twice, also across
+// power cuts, and that a running job is in the saved memory. Stops the program (demand.h) where one does not hold.
 
 #pragma once
 

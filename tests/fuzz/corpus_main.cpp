@@ -1,7 +1,8 @@
-// Gives every file of a folder to the fuzzer that this is linked with, without libFuzzer: what fuzzers once reached is
-// a test of every build.
+// Passes every file of a folder to the fuzzer that this is linked with, without libFuzzer: inputs that fuzzers found
+// are a test of every build.
 //
-// Its name is said before each file, so that a stop names its cause. No folder or no file is a failure.
+// The name of each file is printed before it is read, so that the last name is that of a crash. No folder or no file is
+// a failure.
 
 #include <algorithm>
 #include <cstdio>

@@ -1,4 +1,5 @@
-// What all fuzzers share: an input that is not taken is refused by an InputError, and what must hold stops the program.
+// Shared by all fuzzers: an input is accepted or refused by an InputError, and a condition that does not hold stops the
+// program.
 
 #pragma once
 
@@ -12,12 +13,12 @@
 
 namespace qchopper {
 
-// Stopping is what a fuzzer notices.
+// libFuzzer reports an abort with its input.
 inline void demand(bool holds) {
     if (!holds) std::abort();
 }
 
-// `work` ends, or throws InputError of this kind and in one line of text; anything else ends the fuzzer.
+// `work` returns, or throws an InputError of this kind with a text; anything else stops the fuzzer.
 template <class Work>
 void or_refused(InputFault fault, const Work& work) {
     try {
@@ -32,7 +33,7 @@ inline std::string text_of(const std::uint8_t* data, std::size_t size) {
     return {reinterpret_cast<const char*>(data), size};
 }
 
-// The bytes of an input, taken from its front; behind the end everything is 0.
+// Reads an input from its first byte on; after the end every byte is 0.
 class Input {
  public:
     Input(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}

@@ -1,11 +1,12 @@
+// Bytes that begin with "PK" are a package. Mutations do not keep the checksums of one, so other bytes are the text of
+// its model, or of two models with a zero between them, and are packed here.
+
 #include <string>
 
 #include "segment/io/read_3mf.h"
 #include "tests/fuzz/reader.h"
 #include "tests/segment/io/wrappings.h"
 
-// What begins with "PK" is a package as it stands. No mutation would keep the checksums of one, so everything else is
-// the text of its model, or of two models with a zero between them, and is packed here.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const qchopper::Bytes bytes(data, data + size);
     if (qchopper::is_3mf(bytes)) {

@@ -1,6 +1,7 @@
+// parse_mesh: unpacking, the choice of the format, the reader.
+
 #include "tests/fuzz/reader.h"
 
-// The whole way: wrappings, the choice of the format, the reader.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const qchopper::Bytes bytes(data, data + size);
     qchopper::try_to_read([&] { return qchopper::parse_mesh(bytes, "fuzz"); });

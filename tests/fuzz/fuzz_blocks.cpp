@@ -1,3 +1,5 @@
+// The register blocks. An input is: which block, which bit is changed (2 bytes), then its registers.
+
 #include <optional>
 
 #include "devices/codec.h"
@@ -12,8 +14,9 @@ std::size_t crc_at(const Block& block, const char* name) {
     return field->address - block.base;
 }
 
-// Any words are taken or not; made right in magic, version and checksum they are taken, and then encoding and decoding
-// gives the same values back; with one bit of the covered words or of the checksum changed they are never taken.
+// Any registers are accepted or refused. With magic number, version and checksum made right they are accepted, and
+// encoding and decoding returns the same values; with one bit of what the checksum covers, or of itself, changed they
+// are refused.
 template <class Decode, class Right>
 void try_block(const Block& block, const char* crc_name, Registers registers, unsigned bit, const Decode& decode,
                const Right& make_right) {
@@ -33,16 +36,16 @@ void try_block(const Block& block, const char* crc_name, Registers registers, un
     const std::uint32_t right = checksum();
     registers[crc] = static_cast<std::uint16_t>(right >> 16);
     registers[crc + 1] = static_cast<std::uint16_t>(right & 0xFFFF);
-    const auto taken = decode(registers);
-    demand(taken.is_ok());
-    const auto again = decode(encode(taken.value));
-    demand(again.is_ok() && again.value == taken.value);
+    const auto decoded = decode(registers);
+    demand(decoded.is_ok());
+    const auto again = decode(encode(decoded.value));
+    demand(again.is_ok() && again.value == decoded.value);
     const std::size_t at = bit % (16 * (crc + 2));
     registers[at / 16] = static_cast<std::uint16_t>(registers[at / 16] ^ 1U << at % 16);
     demand(!decode(registers).is_ok());
 }
 
-void try_words(unsigned which, unsigned bit, const Registers& registers) {
+void try_registers(unsigned which, unsigned bit, const Registers& registers) {
     const auto as_it_is = [](Registers&) {};
     const auto named = [](Registers& w) {
         w[0] = cell_magic;
@@ -78,13 +81,12 @@ void try_words(unsigned which, unsigned bit, const Registers& registers) {
 }  // namespace
 }  // namespace qchopper
 
-// The blocks that cross the wire: which block, which bit is changed, then its words.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     qchopper::Input input(data, size);
     const unsigned which = input.u8();
     const unsigned bit = input.u16();
     qchopper::Registers registers;
     while (!input.is_empty() && registers.size() < 200) registers.push_back(input.u16());
-    qchopper::try_words(which, bit, registers);
+    qchopper::try_registers(which, bit, registers);
     return 0;
 }

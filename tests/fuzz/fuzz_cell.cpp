@@ -1,3 +1,5 @@
+// The cell file: a cell that is accepted is possible.
+
 #include <cmath>
 
 #include "cam/cell/cell.h"

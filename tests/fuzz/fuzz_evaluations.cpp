@@ -1,3 +1,5 @@
+// A file of kept evaluations, as it is and with its SHA-256 made right.
+
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -10,8 +12,8 @@
 namespace qchopper {
 namespace {
 
-// A file of evaluations bears the SHA-256 of its piece as name and of itself as end, so it is put where the cache looks
-// for it, once as it is and once with the right end.
+// The name of such a file is the SHA-256 of its piece, and its last bytes are the SHA-256 of the rest. So it is written
+// where the store reads it.
 struct Cache {
     MemoryFolder folder;
     EvaluationStore store = evaluation_store(folder.path, {}, {});
@@ -43,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     qchopper::Bytes bytes(data, data + size);
     cache.read(bytes);
     const qchopper::Sha256 digest = qchopper::sha256(bytes);
-    bytes.insert(bytes.end(), digest.begin(), digest.end());
+    bytes.insert(bytes.end(), digest.bytes.begin(), digest.bytes.end());
     cache.read(bytes);
     return 0;
 }

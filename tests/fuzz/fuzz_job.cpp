@@ -1,10 +1,14 @@
+// Bytes that begin with "PK" are a job file. Mutations do not keep its checksums, so other bytes are the text of the
+// ticket and, after a zero, of the manifest; both are packed here, once as they are and once with the sizes and hashes
+// in the manifest made right.
+
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "base/sha256.h"
+#include "base/zip.h"
 #include "cam/job/job_file.h"
-#include "cam/job/zip.h"
 #include "tests/fuzz/demand.h"
 
 namespace qchopper {
@@ -14,8 +18,8 @@ Bytes to_bytes(const std::string& text) {
     return {text.begin(), text.end()};
 }
 
-// The manifest with the sizes and hashes that these files have, so that what comes behind them is reached. What is no
-// JSON object stays as it is.
+// The manifest with the sizes and hashes of these files, so that the checks after them are reached. A text that is no
+// JSON object is unchanged.
 std::string agreeing(const std::string& manifest, const std::map<std::string, Bytes>& files) {
     using Json = nlohmann::ordered_json;
     Json json = Json::parse(manifest, nullptr, false);
@@ -41,7 +45,7 @@ void try_job(const Bytes& bytes) {
         }
         demand(job.ticket.piece == job.piece && job.ticket.stock == job.setup.block);
         demand(!job.envelope.margins.empty());
-        try {  // it was read from a text, so the text of what was read must be readable
+        try {  // it was read from a text, so its own text must be readable
             demand(ticket_template_from_json(to_json(job.ticket), "fuzz") == job.ticket);
         } catch (const InputError&) {
             std::abort();
@@ -52,9 +56,6 @@ void try_job(const Bytes& bytes) {
 }  // namespace
 }  // namespace qchopper
 
-// What begins with "PK" is a job file as it stands. No mutation would keep its checksums, so everything else is the
-// text of the ticket and, behind a zero, of the manifest; both are packed here, once as they are and once with the
-// sizes and hashes in the manifest put right.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace qchopper;
     const std::string text = text_of(data, size);

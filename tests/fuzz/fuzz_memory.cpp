@@ -1,3 +1,5 @@
+// The simulated cell's memory.json: saving what was read gives the same bytes.
+
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -8,12 +10,11 @@
 namespace qchopper {
 namespace {
 
-// What is taken is what is saved, to the last byte.
-void take(const std::string& text) {
+void try_memory(const std::string& text) {
     or_refused(InputFault::config, [&] { demand(to_json(memory_from_json(text, "fuzz")) == text); });
 }
 
-// The same values in the form of the file, with the checksum that no mutation would hit upon.
+// The same values in the form of the file, with the right checksum, which no mutation would find.
 std::optional<std::string> with_checksum(const std::string& text) {
     using Json = nlohmann::json;
     try {
@@ -31,10 +32,9 @@ std::optional<std::string> with_checksum(const std::string& text) {
 }  // namespace
 }  // namespace qchopper
 
-// The simulated cell's memory.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string text(data, data + size);
-    qchopper::take(text);
-    if (const std::optional<std::string> summed = qchopper::with_checksum(text)) qchopper::take(*summed);
+    qchopper::try_memory(text);
+    if (const std::optional<std::string> summed = qchopper::with_checksum(text)) qchopper::try_memory(*summed);
     return 0;
 }

@@ -1,3 +1,5 @@
+// The OBJ reader.
+
 #include "segment/io/read_obj.h"
 #include "tests/fuzz/reader.h"
 

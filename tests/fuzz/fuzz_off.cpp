@@ -1,3 +1,5 @@
+// The OFF reader.
+
 #include "segment/io/read_off.h"
 #include "tests/fuzz/reader.h"
 

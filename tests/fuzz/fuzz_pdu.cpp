@@ -1,6 +1,7 @@
+// Requests to the simulated cell, one after the other (cell_steps.h).
+
 #include "tests/fuzz/cell_steps.h"
 
-// What a simulated cell is sent, request by request (cell_steps.h).
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     qchopper::Input input(data, size);
     qchopper::CellSteps cell;

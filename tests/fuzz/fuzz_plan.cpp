@@ -1,8 +1,9 @@
+// The plan file: a plan that is read, written and read again is the same plan. Writing replaces control characters in
+// its texts, so it is written twice.
+
 #include "app/project/plan.h"
 #include "tests/fuzz/demand.h"
 
-// A plan that is taken, written and read again is the same plan; only control characters of its texts are replaced
-// when it is written, so it is written twice.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace qchopper;
     const std::string text = text_of(data, size);

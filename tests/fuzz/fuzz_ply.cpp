@@ -1,3 +1,5 @@
+// The PLY reader.
+
 #include "segment/io/read_ply.h"
 #include "tests/fuzz/reader.h"
 

@@ -1,14 +1,15 @@
+// project.json: a project that is read, written and read again is the same project.
+
 #include "app/project/project_json.h"
 #include "tests/fuzz/demand.h"
 
-// A project that is taken, written and read again is the same project.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace qchopper;
     const std::string text = text_of(data, size);
     or_refused(InputFault::config, [&] {
         const Project project = project_from_json(text, "project.json");
-        demand(project.history.standing <= project.history.decisions.size());
-        demand(project.cuts == standing_cuts(project.history));
+        demand(project.history.committed <= project.history.decisions.size());
+        demand(project.cuts == committed_cuts(project.history));
         Project again;
         try {
             again = project_from_json(to_json(project), "written.json");

@@ -1,8 +1,9 @@
+// Both STL readers: the text reader gets the bytes as they are, the binary reader gets them cut to whole triangles with
+// the right count, which no mutation would find.
+
 #include "segment/io/read_stl.h"
 #include "tests/fuzz/reader.h"
 
-// The text reader gets the bytes as they are; the binary reader gets them cut to whole triangles, with the count that
-// it demands, since no mutation would hit on it.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     qchopper::Bytes bytes(data, data + size);
     qchopper::try_to_read([&] { return qchopper::parse_ascii_stl(bytes, "fuzz"); });

@@ -1,15 +1,17 @@
+// A job file, the texts of its ticket and manifest, and two cell files.
+
 #include <memory>
 
 #include "base/file.h"
+#include "base/zip.h"
 #include "cam/job/job_file.h"
-#include "cam/job/zip.h"
 #include "tests/fuzz/seeds.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
 namespace {
 
-// Small, and with something in every list. It was not searched for: nothing here is evaluated or turned.
+// Small, with an entry in every list. The setup is written down, not computed.
 JobInput some_job() {
     JobInput input;
     const TriangleMesh box = shapes::box({-10, -5, 0}, {10, 5, 8}, 1);
@@ -18,13 +20,13 @@ JobInput some_job() {
     input.piece_count = 5;
     input.program_version = "0.1.0";
     input.project_id.fill(0x11);
-    input.scan_sha256.fill(0x22);
+    input.scan_sha256.bytes.fill(0x22);
     input.cell.name = "test";
     input.cell.id = 1;
     input.cell.stock = {{"small", {100, 60, 50}, Material::eps}};
     input.cell.tool = {1, "ball", 20, 18000, 9000, 24000};
     input.setup.base = 4;
-    input.setup.base_words = "the cap of cut 4";
+    input.setup.base_description = "the cap of cut 4";
     input.setup.box = {{-10, -5, 0}, {10, 5, 8}};
     input.setup.block = {100, 60, 50};
     input.setup.warnings = {"a warning"};
@@ -38,7 +40,7 @@ JobInput some_job() {
 std::vector<Encoded> job_seeds() {
     JobInput input = some_job();
     const Bytes whole = job_file(input);
-    parse_job(whole, "seed");  // a seed is worth something only if it is taken
+    parse_job(whole, "seed");  // throws if the seed is refused
     std::map<std::string, Bytes> files = unzip(whole, "seed");
     Bytes texts = files["ticket.json"];
     texts.push_back(0);

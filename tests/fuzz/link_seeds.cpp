@@ -1,3 +1,5 @@
+// One block of each kind, sequences of steps for the simulated cell (cell_steps.h), and a memory.json.
+
 #include <algorithm>
 
 #include "devices/codec.h"
@@ -8,7 +10,7 @@
 namespace qchopper {
 namespace {
 
-// Which block, which bit is changed, its words (fuzz_blocks.cpp).
+// Which block, which bit is changed, its registers (fuzz_blocks.cpp).
 Encoded block_seed(std::uint8_t which, const std::string& name, const Registers& registers) {
     Bytes bytes{which, 0, 77};
     for (const std::uint16_t word : registers) {
@@ -119,7 +121,7 @@ Bytes some_memory() {
     return {text.begin(), text.end()};
 }
 
-// A seed is worth something only if it gets where it is meant to.
+// Stops if the steps do not lead to so many starts.
 Encoded pdu_seed(const std::string& name, const Bytes& steps, std::uint32_t starts) {
     Input input(steps.data(), steps.size());
     CellSteps cell;

@@ -1,4 +1,5 @@
-// A folder of its own for readers that take no bytes but a file; removed at the end.
+// A new folder for readers that take a file instead of bytes; removed by the destructor. Aborts if it cannot be
+// created.
 
 #pragma once
 
@@ -10,7 +11,7 @@ namespace qchopper {
 
 struct MemoryFolder {
     MemoryFolder() {
-        // In memory where that is possible: what is written is synced, and a disk does that thirty times a second.
+        // In memory where that is possible: each file is synced, and a disk can do that about thirty times a second.
         const std::filesystem::path memory = "/dev/shm";
         std::error_code error;
         const bool has_memory = std::filesystem::is_directory(memory, error);

@@ -1,9 +1,12 @@
+// Two projects, a plan and a file of kept evaluations.
+
 #include <filesystem>
 #include <memory>
 
 #include "app/project/evaluation_store.h"
 #include "app/project/plan.h"
 #include "app/project/project_json.h"
+#include "base/sha256.h"
 #include "tests/fuzz/memory_folder.h"
 #include "tests/fuzz/seeds.h"
 
@@ -16,7 +19,7 @@ Ranked some_rank(int number) {
 
 Project some_project() {
     Project project;
-    project.scan = {"/scans/a bone.ply", std::string(64, 'a'), Unit::cm, 0.5, {1, 2.5, 1.0 / 3}, 12, 1000, {"scaled"}};
+    project.scan = {"/scans/a bone.ply", sha256({}), Unit::cm, 0.5, {1, 2.5, 1.0 / 3}, 12, 1000, {"scaled"}};
     project.preset = "bunny";
     project.settings.stop.min_cuts = 3;
     project.settings.stop.max_faces = 200;
@@ -31,8 +34,8 @@ Project some_project() {
     cut.fragments = 1;
     cut.runners_up = {some_rank(5)};
     project.history.decisions = {WeightsChange{{1, 2, 3, 0.1}}, cut, Reset{}};
-    project.history.standing = 2;
-    project.cuts = standing_cuts(project.history);
+    project.history.committed = 2;
+    project.cuts = committed_cuts(project.history);
     project.pieces = {{"B", 1, 8, 600, {0, 0, 1}}, {"C", 1, 8, 399, {0, 0, -1}}};
     project.fragment_list = {{"", 1, 4, 1, {0, 0, 0}}};
     project.warnings = {"scaled"};
@@ -62,7 +65,7 @@ Plan some_plan() {
     return plan;
 }
 
-// The file without the SHA-256 of itself at its end, which the fuzzer puts right.
+// The file without the SHA-256 at its end, which the fuzzer appends.
 Bytes some_evaluations() {
     const MemoryFolder folder;
     PieceEvaluations evaluations;
@@ -87,7 +90,7 @@ Bytes to_bytes(const std::string& text) {
 std::vector<Encoded> project_seeds() {
     const std::string project = to_json(some_project());
     const std::string plan = to_text(some_plan());
-    // A seed is worth something only if it is taken.
+    // These throw if a seed is refused.
     project_from_json(project, "seed");
     plan_from_text(plan, "seed");
     return {{"project", "decided", to_bytes(project)},

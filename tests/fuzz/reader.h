@@ -1,4 +1,4 @@
-// What every fuzzer of meshes does with its reader: any bytes end in a sound mesh or in an InputError.
+// The test of every mesh reader: any bytes give a sound mesh or an InputError.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace qchopper {
 
-// Stops where a mesh could hurt whoever takes it.
+// Coordinates are finite, corners are indices of points, caps are none or one per triangle.
 inline void demand_sound(const RawMesh& scan) {
     const TriangleMesh& mesh = scan.mesh;
     for (const Vec3& p : mesh.points) demand(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));

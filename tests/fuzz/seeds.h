@@ -1,4 +1,4 @@
-// The first inputs of the fuzzers of everything but meshes. Encoded::reader is the name of the fuzzer.
+// The first inputs of all fuzzers but those of meshes. Encoded::reader is the name of the fuzzer.
 
 #pragma once
 
@@ -12,7 +12,7 @@ namespace qchopper {
 std::vector<Encoded> job_seeds();
 // Of project.json, plans and kept evaluations.
 std::vector<Encoded> project_seeds();
-// Of what crosses the wire, and of the simulated cell's memory.
+// Of register blocks, requests, and the simulated cell's memory.
 std::vector<Encoded> link_seeds();
 
 }  // namespace qchopper

@@ -1,4 +1,4 @@
-// Our bus against the cell's server.
+// ModbusTcpBus against the cell's server.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ struct Link {
     std::unique_ptr<ModbusTcpBus> bus;
 };
 
-TEST(Bus, ReadsWhatTheCellSays) {
+TEST(Bus, ReadsTheStatusOfTheCell) {
     const Link link;
     const BusAnswer answer = link.bus->read_input(status_block.base, status_block.count);
     ASSERT_TRUE(answer.is_ok()) << answer.why;

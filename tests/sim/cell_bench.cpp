@@ -4,31 +4,6 @@
 
 namespace qchopper::bench {
 
-Sha256 good_digest() {
-    Sha256 digest{};
-    digest.fill(0x5A);
-    return digest;
-}
-
-WireTicket good_ticket(const Uuid& id) {
-    WireTicket ticket;
-    ticket.job_id = id;
-    ticket.file_sha256 = good_digest();
-    ticket.file_size = 1000;
-    ticket.file_name = "piece-1.qjob";
-    ticket.box_min = {-1000, -1000, 0};
-    ticket.box_max = {1000, 1000, 2000};
-    ticket.stock = {3000, 3000, 3000};
-    ticket.tool_no = 3;
-    ticket.tool_diameter_um = 12000;
-    ticket.estimated_time_s = 100;
-    ticket.piece_no = 1;
-    ticket.piece_count = 1;
-    ticket.cell_id = any_cell_id;
-    ticket.made_for = 1;
-    return ticket;
-}
-
 Bench::Bench(CellLimits limits, CellMemory memory) {
     hooks.save = [this](const CellMemory& what) {
         if (can_save) saved.push_back(what);
@@ -40,7 +15,7 @@ Bench::Bench(CellLimits limits, CellMemory memory) {
 
 AckResult Bench::send(Command command) {
     command.seq = ++seq;
-    take_command(cell, encode(command), now, hooks);
+    receive_command(cell, encode(command), now, hooks);
     EXPECT_EQ(cell.ack.seq, seq);
     return cell.ack.result;
 }
@@ -72,7 +47,7 @@ void Bench::write_ticket(const WireTicket& ticket) {
 }
 
 void Bench::beat() {
-    take_heartbeat(cell, encode(Heartbeat{cell.memory.epoch_held, owner, ++counter}), now);
+    receive_heartbeat(cell, encode(Heartbeat{cell.memory.epoch_held, owner, ++counter}), now);
 }
 
 void Bench::pass(std::int64_t ms) {

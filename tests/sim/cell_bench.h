@@ -1,4 +1,4 @@
-// A controller on the bench: commands go straight into the machine, time is what the test says.
+// A controller without a server: commands go straight into the machine, and the test sets the time.
 
 #pragma once
 
@@ -6,18 +6,13 @@
 #include <vector>
 
 #include "sim/machine.h"
+#include "tests/sim/good_ticket.h"
 
 namespace qchopper::bench {
 
 constexpr std::uint32_t owner = 0x11111111;
 constexpr std::uint32_t secret = 0x22222222;
-constexpr Uuid job_a{0xA, 1, 2, 3};
 constexpr Uuid job_b{0xB, 1, 2, 3};
-constexpr Uuid any_job{0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF};
-
-// A ticket that this cell takes: 100 s, stored as piece-1.qjob.
-WireTicket good_ticket(const Uuid& id = job_a);
-Sha256 good_digest();
 
 struct Bench {
     explicit Bench(CellLimits limits = {}, CellMemory memory = {});

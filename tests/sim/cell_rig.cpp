@@ -105,9 +105,9 @@ Bytes frame(std::uint16_t transaction, const Bytes& pdu, std::uint8_t unit) {
     const std::size_t length = pdu.size() + 1;
     Bytes bytes;
     bytes.reserve(6 + length);
-    for (const std::size_t word : {std::size_t{transaction}, std::size_t{0}, length}) {
-        bytes.push_back(static_cast<std::uint8_t>(word >> 8U));
-        bytes.push_back(static_cast<std::uint8_t>(word & 0xFFU));
+    for (const std::size_t value : {std::size_t{transaction}, std::size_t{0}, length}) {
+        bytes.push_back(static_cast<std::uint8_t>(value >> 8U));
+        bytes.push_back(static_cast<std::uint8_t>(value & 0xFFU));
     }
     bytes.push_back(unit);
     for (const std::uint8_t byte : pdu) bytes.push_back(byte);
@@ -122,9 +122,9 @@ Bytes read_request(std::uint8_t function, std::uint16_t address, std::uint16_t c
 Bytes write_request(std::uint16_t address, const Registers& registers) {
     Bytes pdu = read_request(16, address, static_cast<std::uint16_t>(registers.size()));
     pdu.push_back(static_cast<std::uint8_t>(2 * registers.size()));
-    for (const std::uint16_t word : registers) {
-        pdu.push_back(static_cast<std::uint8_t>(word >> 8));
-        pdu.push_back(static_cast<std::uint8_t>(word & 0xFF));
+    for (const std::uint16_t value : registers) {
+        pdu.push_back(static_cast<std::uint8_t>(value >> 8));
+        pdu.push_back(static_cast<std::uint8_t>(value & 0xFF));
     }
     return pdu;
 }

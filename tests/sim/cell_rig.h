@@ -1,4 +1,4 @@
-// What the tests of the link share: a job to send, a cell to send it to, a raw socket to misbehave with.
+// What the tests of the link share: a job to send, a cell to send it to, a raw socket for wrong frames.
 
 #pragma once
 
@@ -30,7 +30,7 @@ DispatchOptions quick_dispatch(const std::filesystem::path& drop);
 
 std::unique_ptr<ModbusTcpBus> connect(const CellSim& cell);
 
-// A TCP connection to 127.0.0.1 without any manners.
+// A TCP connection to 127.0.0.1 that sends any bytes.
 class RawSocket {
  public:
     explicit RawSocket(std::uint16_t port);

@@ -46,7 +46,7 @@ class Trial {
         ticket.about.estimated_time_s = 30;
         ticket.file_name = "a.qjob";
         ticket.file_size = 10;
-        ticket.file_sha256.fill(3);
+        ticket.file_sha256.bytes.fill(3);
         TicketOrder order;
         order.job_id = Uuid{5, 5, 5};
         order.cell_id = any_cell_id;
@@ -166,7 +166,7 @@ class Trial {
             case Kind::write_signature:
                 return write(signature_block, Registers(signature_block.count, 0));
             case Kind::heartbeat:
-                return write(heartbeat_block, encode(action.beat));
+                return write(heartbeat_block, encode(action.heartbeat));
             case Kind::wait:
                 while (seconds() < action.until_s) pass(0.05);
                 return {};

@@ -1,14 +1,13 @@
-// A request to stop while the cell answers but stands still, over real TCP: the hand-off is left within two seconds.
+// A request to stop while the cell is frozen or silent, over real TCP: the hand-off ends within two seconds.
 
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
 #include <thread>
 
+#include "tests/devices/loopback_server.h"
 #include "tests/sim/cell_rig.h"
 
 namespace qchopper {
@@ -19,38 +18,13 @@ using rig::Job;
 using rig::make_job;
 using rig::RawSocket;
 
-// Between the dispatcher and the cell. Once frozen, the cell's controller stands still: its STATUS is what it was, and
-// what is written is taken by its network card and by nobody else. Once silent, not even that.
+// Between the dispatcher and the cell. Once frozen, STATUS no longer changes, and what is written is answered but has
+// no effect. Once silent, nothing is answered.
 class FreezingRelay {
  public:
-    explicit FreezingRelay(std::uint16_t cell_port)
-        : cell_port_(cell_port), listener_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-        sockaddr_in address{};
-        address.sin_family = AF_INET;
-        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        socklen_t size = sizeof address;
-        EXPECT_EQ(bind(listener_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-        EXPECT_EQ(listen(listener_, 8), 0);
-        EXPECT_EQ(getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size), 0);
-        port = ntohs(address.sin_port);
-        thread_ = std::thread([this] {
-            for (;;) {
-                const int fd = accept(listener_, nullptr, nullptr);
-                if (fd < 0) return;
-                serve(fd);
-                close(fd);
-            }
-        });
-    }
-    ~FreezingRelay() {
-        shutdown(listener_, SHUT_RDWR);
-        thread_.join();
-        close(listener_);
-    }
-    FreezingRelay(const FreezingRelay&) = delete;
-    FreezingRelay& operator=(const FreezingRelay&) = delete;
+    explicit FreezingRelay(std::uint16_t cell_port) : cell_port_(cell_port) {}
+    std::uint16_t port() const { return server_.port; }
 
-    std::uint16_t port = 0;
     std::atomic<bool> is_frozen = false;
     std::atomic<bool> is_silent = false;
     std::atomic<int> swallowed_commands = 0;
@@ -89,7 +63,7 @@ class FreezingRelay {
     Bytes frozen_answer(const Bytes& request) {
         Bytes answer = status_;
         if (request[7] == 16) {
-            answer.assign(request.begin(), request.begin() + 12);
+            answer = Bytes(request.begin(), request.begin() + 12);
             answer[4] = 0;
             answer[5] = 6;
             swallowed_commands += request[9] == 0 ? 1 : 0;
@@ -100,9 +74,8 @@ class FreezingRelay {
     }
 
     std::uint16_t cell_port_;
-    int listener_;
     Bytes status_;
-    std::thread thread_;
+    LoopbackServer server_{[this](int fd, int) { serve(fd); }};  // last: it uses the others
 };
 
 struct Left {
@@ -111,7 +84,7 @@ struct Left {
     int swallowed = 0;
 };
 
-// Freezes the cell, or makes it silent, when the hand-off says `at`, and asks to stop `wait_s` after that.
+// Freezes the cell, or makes it silent, when the hand-off reports `at`, and requests to stop `wait_s` after that.
 Left stop_in_standstill(const std::string& at, double wait_s, bool silent = false) {
     const Folder folder;
     CellSimOptions cell_options = rig::quick_cell(folder.path / "drop");
@@ -139,11 +112,11 @@ Left stop_in_standstill(const std::string& at, double wait_s, bool silent = fals
             cancelled = true;
         });
     };
-    ModbusTcpBus bus({"127.0.0.1", relay.port});
+    ModbusTcpBus bus({"127.0.0.1", relay.port()});
     Left left;
     left.outcome = dispatch_job(bus, job.ticket, job.file, rig::quick_dispatch(folder.path / "drop"), context);
     left.after_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count();
-    EXPECT_TRUE(signal.joinable()) << "it never said " << at;
+    EXPECT_TRUE(signal.joinable()) << "it never reported " << at;
     if (signal.joinable()) signal.join();
     left.swallowed = relay.swallowed_commands;
     return left;

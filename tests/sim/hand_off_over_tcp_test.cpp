@@ -21,14 +21,22 @@ using rig::make_job;
 using rig::quick_cell;
 using rig::quick_dispatch;
 
+// A quick cell with a drop folder and a store of its own, and a way to dispatch jobs to it.
 struct Rig {
-    explicit Rig(CellSimOptions options = {}) {
+    explicit Rig(CellSimOptions given = {}) : cell_options(std::move(given)) {
         std::filesystem::create_directories(drop);
         CellSimOptions quick = quick_cell(drop);
-        options.drop_folder = drop;
-        options.limits.speed = quick.limits.speed;
-        options.limits.acting_ms = quick.limits.acting_ms;
-        cell = std::make_unique<CellSim>(std::move(options));
+        cell_options.drop_folder = drop;
+        cell_options.store_folder = folder.path / "store";
+        cell_options.limits.speed = quick.limits.speed;
+        cell_options.limits.acting_ms = quick.limits.acting_ms;
+        restart();
+        cell_options.port = cell->port();
+    }
+    // Off and on again: the same address, and the memory in the store.
+    void restart() {
+        cell.reset();
+        cell = std::make_unique<CellSim>(cell_options);
         cell->start();
     }
     JobOutcome dispatch(const Job& job, const DispatchOptions& options, const Context& context = {}) const {
@@ -37,6 +45,7 @@ struct Rig {
     }
     Folder folder;
     std::filesystem::path drop = folder.path / "drop";
+    CellSimOptions cell_options;
     std::unique_ptr<CellSim> cell;
 };
 
@@ -101,7 +110,7 @@ TEST(HandOffOverTcp, ARehearsalComesBeforeTheStart) {
     expect_complete(rig.dispatch(job, options));
 }
 
-TEST(HandOffOverTcp, WithoutConsentNothingStartsAndTheReportSaysSo) {
+TEST(HandOffOverTcp, WithoutConsentNothingStartsAndTheReportNamesTheReason) {
     CellSimOptions options;
     options.limits.consent = Consent::never;
     const Rig rig(options);
@@ -179,7 +188,7 @@ TEST(HandOffOverTcp, AFileChangedOnTheWayIsRefused) {
 TEST(HandOffOverTcp, AFileOtherThanItsTicketIsNotEvenSent) {
     const Rig rig;
     Job job = make_job();
-    job.ticket.file_sha256[0] ^= 1;
+    job.ticket.file_sha256.bytes[0] ^= 1;
     EXPECT_THROW(rig.dispatch(job, quick_dispatch(rig.drop)), InputError);
     job = make_job();
     job.file.clear();
@@ -187,7 +196,7 @@ TEST(HandOffOverTcp, AFileOtherThanItsTicketIsNotEvenSent) {
     EXPECT_EQ(rig.cell->status().ack_seq, 0U);
 }
 
-TEST(HandOffOverTcp, AJobBeyondTheReachIsRefusedWithWords) {
+TEST(HandOffOverTcp, AJobBeyondTheReachIsRefusedWithTheReason) {
     CellSimOptions options;
     options.limits.reach = {{-10, -10, 0}, {10, 10, 10}};
     const Rig rig(options);
@@ -242,7 +251,7 @@ TEST(HandOffOverTcp, AnotherCellThanTheOneWantedIsRefusedBeforeAnythingIsSent) {
     EXPECT_TRUE(std::filesystem::is_empty(rig.drop));
 }
 
-TEST(HandOffOverTcp, ASecondDispatcherIsToldThatTheCellIsTaken) {
+TEST(HandOffOverTcp, ASecondDispatcherFindsTheCellBusy) {
     const Rig rig;
     const Job job = make_job(100, 100);
     std::atomic<bool> second_was_refused = false;
@@ -402,63 +411,39 @@ TEST(HandOffOverTcp, CancelledWithStopTheMachineStops) {
 }
 
 TEST(HandOffOverTcp, ACellRestartedWhileTheJobRunsReportsThePowerCut) {
-    const Folder folder;
-    const std::filesystem::path drop = folder.path / "drop";
-    std::filesystem::create_directories(drop);
-    CellSimOptions options = quick_cell(drop);
-    options.store_folder = folder.path / "store";
-    auto cell = std::make_unique<CellSim>(options);
-    cell->start();
-    options.port = cell->port();
+    Rig rig;
     const Job job = make_job(100, 100000);
     bool restarted = false;
     Context context;
     context.on_progress = [&](const Progress&) {
-        if (restarted) return;
+        if (!restarted) rig.restart();
         restarted = true;
-        cell.reset();
-        cell = std::make_unique<CellSim>(options);
-        cell->start();
     };
-    ModbusTcpBus bus({"127.0.0.1", options.port});
-    const JobOutcome outcome = dispatch_job(bus, job.ticket, job.file, quick_dispatch(drop), context);
+    const JobOutcome outcome = rig.dispatch(job, quick_dispatch(rig.drop), context);
     EXPECT_EQ(outcome.verdict, StartVerdict::started) << whole(outcome);
     EXPECT_EQ(outcome.job_state, JobState::aborted) << whole(outcome);
     EXPECT_EQ(outcome.job_result, JobResult::power_loss);
     EXPECT_EQ(outcome.starts, 1U);
-    EXPECT_EQ(cell->status().starts_total, 1U);
-    EXPECT_EQ(cell->status().boot_count, 2U);
-    EXPECT_EQ(cell->status().state, PackState::aborted);
-    // The next job needs the machine cleared, which the cell's operator agrees to here.
-    const Job next = make_job(100, 2);
-    expect_complete(dispatch_job(bus, next.ticket, next.file, quick_dispatch(drop), {}));
-    EXPECT_EQ(cell->status().starts_total, 2U);
+    EXPECT_EQ(rig.cell->status().starts_total, 1U);
+    EXPECT_EQ(rig.cell->status().boot_count, 2U);
+    EXPECT_EQ(rig.cell->status().state, PackState::aborted);
+    // The next job needs the machine cleared, to which the cell's operator consents here.
+    expect_complete(rig.dispatch(make_job(100, 2), quick_dispatch(rig.drop)));
+    EXPECT_EQ(rig.cell->status().starts_total, 2U);
 }
 
-TEST(HandOffOverTcp, ALinkLostAtAnyStepEndsWithTheTruthAndAtMostOneStart) {
-    // The connection is cut once, just before the n-th thing that the journal notes.
+TEST(HandOffOverTcp, ALinkLostAtAnyStepEndsWithARightReportAndOneStart) {
+    // The connection is cut once, just before the action of the n-th row of the journal.
     for (int cut_at = 1; cut_at <= 12; ++cut_at) {
-        const Folder folder;
-        const std::filesystem::path drop = folder.path / "drop";
-        std::filesystem::create_directories(drop);
-        CellSimOptions cell_options = quick_cell(drop);
-        cell_options.store_folder = folder.path / "store";
-        auto cell = std::make_unique<CellSim>(cell_options);
-        cell->start();
-        cell_options.port = cell->port();
-        const Job job = make_job(100, 2);
-        DispatchOptions options = quick_dispatch(drop);
+        Rig rig;
+        DispatchOptions options = quick_dispatch(rig.drop);
         int rows = 0;
         options.journal = [&](const std::string&) {
-            if (++rows != cut_at + 1) return;
-            cell.reset();
-            cell = std::make_unique<CellSim>(cell_options);
-            cell->start();
+            if (++rows == cut_at + 1) rig.restart();
         };
-        ModbusTcpBus bus({"127.0.0.1", cell_options.port});
-        const JobOutcome outcome = dispatch_job(bus, job.ticket, job.file, options, {});
+        const JobOutcome outcome = rig.dispatch(make_job(100, 2), options);
         EXPECT_EQ(outcome.verdict, StartVerdict::started) << cut_at << whole(outcome);
-        EXPECT_EQ(cell->status().starts_total, 1U) << cut_at << whole(outcome);
+        EXPECT_EQ(rig.cell->status().starts_total, 1U) << cut_at << whole(outcome);
         EXPECT_EQ(outcome.starts, 1U) << cut_at << whole(outcome);
     }
 }

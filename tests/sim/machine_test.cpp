@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <utility>
+
 #include "devices/register_writer.h"
 #include "tests/sim/cell_bench.h"
 
@@ -17,6 +20,30 @@ using bench::owner;
 using bench::secret;
 
 constexpr std::uint32_t other_owner = 0x33333333;
+
+using Change = std::function<void(WireTicket&)>;
+
+WireTicket changed_ticket(const Change& change) {
+    WireTicket ticket = good_ticket();
+    change(ticket);
+    return ticket;
+}
+
+// After the end of job_a, with the lease: to Idle without a job.
+void clear_and_reset(Bench& bench) {
+    ASSERT_EQ(bench.send(CellCommand::clear_result, job_a), AckResult::ok);
+    ASSERT_EQ(bench.send(CellCommand::reset), AckResult::ok);
+    bench.pass(300);
+}
+
+// PREPARE of a verified job with such a ticket: the result and its detail. PENDING if and only if somebody is asked.
+std::pair<AckResult, std::uint32_t> prepare(const CellLimits& limits, const Change& change) {
+    Bench bench(limits);
+    bench.to_verified(changed_ticket(change));
+    const AckResult result = bench.send(CellCommand::prepare, job_a);
+    EXPECT_EQ(bench.cell.pending.has_value(), result == AckResult::pending);
+    return {result, bench.cell.ack.detail};
+}
 
 TEST(Machine, AJobRunsForItsTimeAndEnds) {
     Bench bench;
@@ -123,26 +150,24 @@ TEST(Start, IsDoneOnceHoweverOftenItIsSent) {
     Command again{
         bench.cell.memory.epoch_held, bench.seq, CellCommand::start, job_a, token, 0, 0, good_digest(), owner};
     const std::uint16_t bad = bench.cell.bad_frames;
-    for (int n = 0; n < 3; ++n) take_command(bench.cell, encode(again), bench.now, bench.hooks);
+    for (int n = 0; n < 3; ++n) receive_command(bench.cell, encode(again), bench.now, bench.hooks);
     EXPECT_EQ(bench.cell.ack.result, AckResult::ok);
     EXPECT_EQ(bench.cell.bad_frames, bad);
     // The same number with other contents, and a lower number, are not even acknowledged.
     again.token ^= 1;
-    take_command(bench.cell, encode(again), bench.now, bench.hooks);
+    receive_command(bench.cell, encode(again), bench.now, bench.hooks);
     EXPECT_EQ(bench.cell.bad_reason, AckResult::stale_seq);
     // A new command for the running job, and for the finished one.
     EXPECT_EQ(bench.send(CellCommand::start, job_a, token), AckResult::already);
     bench.pass(102000);
     ASSERT_EQ(bench.claim(), AckResult::ok);
     EXPECT_EQ(bench.send(CellCommand::start, job_a, token), AckResult::already_finished);
-    ASSERT_EQ(bench.send(CellCommand::clear_result, job_a), AckResult::ok);
-    ASSERT_EQ(bench.send(CellCommand::reset), AckResult::ok);
-    bench.pass(300);
+    clear_and_reset(bench);
     EXPECT_EQ(bench.send(CellCommand::start, job_a, token), AckResult::already_finished);
     EXPECT_EQ(bench.cell.memory.starts_total, 1U);
 }
 
-TEST(Start, IsRememberedBeforeAnythingMoves) {
+TEST(Start, IsSavedBeforeAnythingMoves) {
     Bench bench;
     bench.to_prepared();
     bench.can_save = false;
@@ -157,7 +182,7 @@ TEST(Start, IsRememberedBeforeAnythingMoves) {
     EXPECT_EQ(bench.saved.front().starts_total, 1U);
 }
 
-TEST(Start, NeedsTheTokenAndAWrongOneBurnsNothing) {
+TEST(Start, NeedsTheTokenAndAWrongOneChangesNothing) {
     Bench bench;
     bench.to_prepared();
     const std::uint32_t token = bench.cell.job.token;
@@ -258,10 +283,10 @@ TEST(Lease, AHeartbeatThatDoesNotChangeOrIsNotOursDoesNotCount) {
     bench.beat();
     const std::uint32_t epoch = bench.cell.memory.epoch_held;
     for (int n = 0; n < 60; ++n) {
-        take_heartbeat(bench.cell, encode(Heartbeat{epoch, owner, bench.counter}), bench.now);
-        take_heartbeat(bench.cell, encode(Heartbeat{epoch + 1, owner, static_cast<std::uint16_t>(n)}), bench.now);
-        take_heartbeat(bench.cell, encode(Heartbeat{epoch, other_owner, static_cast<std::uint16_t>(n)}), bench.now);
-        take_heartbeat(bench.cell, Registers(5, 0), bench.now);
+        receive_heartbeat(bench.cell, encode(Heartbeat{epoch, owner, bench.counter}), bench.now);
+        receive_heartbeat(bench.cell, encode(Heartbeat{epoch + 1, owner, static_cast<std::uint16_t>(n)}), bench.now);
+        receive_heartbeat(bench.cell, encode(Heartbeat{epoch, other_owner, static_cast<std::uint16_t>(n)}), bench.now);
+        receive_heartbeat(bench.cell, Registers(5, 0), bench.now);
         bench.pass(100);
     }
     EXPECT_FALSE(bench.cell.lease.has_value());
@@ -278,7 +303,7 @@ TEST(Lease, TheHeartbeatMayWrap) {
     EXPECT_TRUE(bench.cell.lease.has_value());
 }
 
-TEST(Lease, ASilentDispatcherHoldsTheJobOnlyIfTheTicketSaysSo) {
+TEST(Lease, WithoutHeartbeatsTheJobIsHeldOnlyIfTheTicketOrdersIt) {
     for (const LinkLoss policy : {LinkLoss::go_on, LinkLoss::hold}) {
         Bench bench;
         WireTicket ticket = good_ticket();
@@ -306,7 +331,7 @@ TEST(Frames, WhatCannotBeTrustedHasNoEffectAndIsCounted) {
     const auto spoil = [&](std::size_t at) {
         Registers registers = good;
         registers[at] ^= 0x0100;
-        take_command(bench.cell, registers, bench.now, bench.hooks);
+        receive_command(bench.cell, registers, bench.now, bench.hooks);
         return bench.cell.bad_reason;
     };
     EXPECT_EQ(spoil(0), AckResult::bad_magic);
@@ -314,10 +339,10 @@ TEST(Frames, WhatCannotBeTrustedHasNoEffectAndIsCounted) {
     EXPECT_EQ(spoil(16), AckResult::bad_crc);
     EXPECT_EQ(bench.cell.bad_frames, 3);
     EXPECT_EQ(bench.cell.ack.seq, before.seq);
-    take_command(bench.cell, Registers(60, 0), bench.now, bench.hooks);
+    receive_command(bench.cell, Registers(60, 0), bench.now, bench.hooks);
     EXPECT_EQ(bench.cell.bad_frames, 3);  // zeros are inert
     // The right frame still works.
-    take_command(bench.cell, good, bench.now, bench.hooks);
+    receive_command(bench.cell, good, bench.now, bench.hooks);
     EXPECT_EQ(bench.cell.ack.result, AckResult::ok);
     EXPECT_EQ(bench.cell.memory.starts_total, 1U);
 }
@@ -332,7 +357,7 @@ TEST(Frames, AnAcknowledgementThatWasOvertakenIsRepeatedOnRequest) {
     Command query{0, 0, CellCommand::query, job_a, 0, 0, 0, {}, other_owner};
     ASSERT_EQ(bench.send(query), AckResult::ok);
     EXPECT_EQ(bench.status().ack_owner, other_owner);
-    take_command(bench.cell, encode(start), bench.now, bench.hooks);
+    receive_command(bench.cell, encode(start), bench.now, bench.hooks);
     EXPECT_EQ(bench.status().ack_owner, owner);
     EXPECT_EQ(bench.status().ack_result, AckResult::ok);
     EXPECT_EQ(bench.cell.memory.starts_total, 1U);
@@ -366,9 +391,7 @@ TEST(Store, AnIdThatWasStartedOrCancelledIsNeverTakenAgain) {
     bench.to_running();
     bench.pass(102000);
     ASSERT_EQ(bench.claim(), AckResult::ok);
-    ASSERT_EQ(bench.send(CellCommand::clear_result, job_a), AckResult::ok);
-    ASSERT_EQ(bench.send(CellCommand::reset), AckResult::ok);
-    bench.pass(300);
+    clear_and_reset(bench);
     bench.write_ticket(good_ticket());
     EXPECT_EQ(bench.send(CellCommand::store, job_a), AckResult::job_id_reused);
     bench.write_ticket(good_ticket(job_b));
@@ -392,11 +415,10 @@ TEST(Store, WithoutATicketOrWithADamagedOneNothingIsStored) {
 }
 
 TEST(Store, EveryFieldThatIsWrongIsNamedByItsAddress) {
-    const auto refused_at = [](const std::function<void(WireTicket&)>& spoil) -> std::uint32_t {
+    const auto refused_at = [](const Change& change) -> std::uint32_t {
         Bench bench;
         bench.to_idle();
-        WireTicket ticket = good_ticket();
-        spoil(ticket);
+        const WireTicket ticket = changed_ticket(change);
         bench.write_ticket(ticket);
         EXPECT_EQ(bench.send(CellCommand::store, ticket.job_id), AckResult::ticket_field);
         return bench.cell.ack.detail;
@@ -436,11 +458,11 @@ TEST(Store, ANameWithSomethingHiddenBehindItsEndIsRefused) {
     }
 }
 
-TEST(Store, AsksForRoomBeforeItSaysThatThereIsNone) {
+TEST(Store, RemovesOldCopiesBeforeItRefusesAJobForLackOfSpace) {
     Bench bench;
     std::vector<std::uint64_t> asked;
     std::uint32_t free_kib = 0;
-    bench.hooks.make_room = [&](const CellMemory&, std::uint64_t bytes) {
+    bench.hooks.remove_old_copies = [&](const CellMemory&, std::uint64_t bytes) {
         asked.push_back(bytes);
         return free_kib;
     };
@@ -472,7 +494,7 @@ TEST(Fence, AnEpochFarAheadIsRefusedAndChangesNothing) {
     }
 }
 
-TEST(Verify, TellsWhatIsWrongWithTheFileAndMayBeRepeated) {
+TEST(Verify, NamesWhatIsWrongWithTheFileAndMayBeRepeated) {
     const auto verify = [](Bench& bench, const FileCheck& check) {
         EXPECT_EQ(bench.send(CellCommand::verify, job_a), AckResult::pending);
         file_checked(bench.cell, bench.cell.pending->number, check, bench.now, bench.hooks);
@@ -484,9 +506,9 @@ TEST(Verify, TellsWhatIsWrongWithTheFileAndMayBeRepeated) {
     EXPECT_EQ(verify(bench, {FileCheck::End::missing, 0, {}}), AckResult::file_missing);
     EXPECT_EQ(verify(bench, {FileCheck::End::io_error, 0, {}}), AckResult::store_io);
     EXPECT_EQ(verify(bench, {FileCheck::End::ok, 999, good_digest()}), AckResult::file_size);
-    EXPECT_EQ(verify(bench, {FileCheck::End::ok, 1000, Sha256{1}}), AckResult::hash_mismatch);
+    EXPECT_EQ(verify(bench, {FileCheck::End::ok, 1000, Sha256{{1}}}), AckResult::hash_mismatch);
     EXPECT_EQ(bench.status().transfer_state, TransferState::hash_mismatch);
-    EXPECT_EQ(bench.status().file_sha256, Sha256{1});
+    EXPECT_EQ(bench.status().file_sha256, Sha256{{1}});
     EXPECT_EQ(bench.send(CellCommand::prepare, job_a), AckResult::file_missing);
     EXPECT_EQ(verify(bench, {FileCheck::End::ok, 1000, good_digest()}), AckResult::ok);
     EXPECT_EQ(bench.status().transfer_state, TransferState::complete);
@@ -507,15 +529,7 @@ TEST(Prepare, ChecksReachStockAndToolBeforeAnybodyIsAsked) {
     limits.reach = {{-10, -10, 0}, {10, 10, 20}};
     limits.max_stock = {30, 30, 30};
     limits.tools = {{3}, {4}};
-    const auto answer = [&](const std::function<void(WireTicket&)>& spoil) {
-        Bench bench(limits);
-        WireTicket ticket = good_ticket();
-        spoil(ticket);
-        bench.to_verified(ticket);
-        const AckResult result = bench.send(CellCommand::prepare, job_a);
-        EXPECT_EQ(bench.cell.pending.has_value(), result == AckResult::pending);
-        return std::pair(result, bench.cell.ack.detail);
-    };
+    const auto answer = [&](const Change& change) { return prepare(limits, change); };
     EXPECT_EQ(answer([](WireTicket&) {}).first, AckResult::pending);
     EXPECT_EQ(answer([](WireTicket& t) { t.box_max[2] = 2001; }), std::pair(AckResult::envelope, 155U));
     EXPECT_EQ(answer([](WireTicket& t) { t.box_min[0] = -1001; }), std::pair(AckResult::envelope, 145U));
@@ -533,15 +547,7 @@ TEST(Prepare, ChecksReachStockAndToolBeforeAnybodyIsAsked) {
 TEST(Prepare, ChecksTheToolsSizeAndSpeedsAndThatNothingLiesBelowTheTable) {
     CellLimits limits;
     limits.tools = {{3, 12, 18000, 4000}, {4, 6, 24000, 6000}};
-    const auto answer = [&](const std::function<void(WireTicket&)>& spoil) {
-        Bench bench(limits);
-        WireTicket ticket = good_ticket();
-        spoil(ticket);
-        bench.to_verified(ticket);
-        const AckResult result = bench.send(CellCommand::prepare, job_a);
-        EXPECT_EQ(bench.cell.pending.has_value(), result == AckResult::pending);
-        return std::pair(result, bench.cell.ack.detail);
-    };
+    const auto answer = [&](const Change& change) { return prepare(limits, change); };
     const auto sound = [](WireTicket& t) {
         t.tool_diameter_um = 12000;
         t.spindle_max_rpm = 24000;
@@ -635,7 +641,7 @@ TEST(Chunks, TheFileGrowsOnlyInOrderAndOnlyByItsOwner) {
     const auto send = [&](std::uint32_t offset, Bytes data, std::uint32_t who = owner) {
         Chunk chunk{offset, std::move(data), 0};
         chunk.crc = chunk_crc(epoch, who, job_a, offset, chunk.data);
-        take_chunk(bench.cell, chunk);
+        receive_chunk(bench.cell, chunk);
         return bench.cell.transfer_result;
     };
     EXPECT_EQ(send(0, {1, 2, 3}, other_owner), AckResult::chunk_crc);
@@ -651,11 +657,11 @@ TEST(Chunks, TheFileGrowsOnlyInOrderAndOnlyByItsOwner) {
     EXPECT_EQ(bench.status().transfer_next, 5U);
     EXPECT_EQ(bench.send(CellCommand::verify, job_a), AckResult::pending);
     // Wrong after all: it comes again from the beginning.
-    file_checked(bench.cell, bench.cell.pending->number, {FileCheck::End::ok, 5, Sha256{1}}, bench.now, bench.hooks);
+    file_checked(bench.cell, bench.cell.pending->number, {FileCheck::End::ok, 5, Sha256{{1}}}, bench.now, bench.hooks);
     EXPECT_EQ(bench.status().transfer_next, 0U);
 }
 
-TEST(Query, TellsWhatTheCellKnowsToAnybody) {
+TEST(Query, AnswersAnyClientWithTheRecordOfTheJob) {
     Bench bench;
     bench.to_running();
     const auto ask = [&](const Uuid& id) {
@@ -666,12 +672,12 @@ TEST(Query, TellsWhatTheCellKnowsToAnybody) {
         EXPECT_EQ(bench.cell.answer.job_id, id);
         return bench.cell.answer;
     };
-    EXPECT_EQ(ask(job_a).job_state, JobState::running);
+    EXPECT_EQ(ask(job_a).state, JobState::running);
     EXPECT_EQ(ask(job_a).starts, 1U);
-    EXPECT_EQ(ask(job_b).job_state, JobState::none);
+    EXPECT_EQ(ask(job_b).state, JobState::none);
     EXPECT_EQ(bench.cell.ack.result, AckResult::unknown_job);
     bench.pass(102000);
-    EXPECT_EQ(ask(job_a).job_result, JobResult::complete);
+    EXPECT_EQ(ask(job_a).result, JobResult::complete);
     EXPECT_EQ(ask(job_a).end_time_ms - ask(job_a).start_time_ms, 100400U);
     EXPECT_EQ(ask(job_a).file_sha256, good_digest());
 }
@@ -710,7 +716,7 @@ TEST(Boot, AnEpochFromBeforeIsStaleAfterwards) {
     EXPECT_EQ(bench.send(claim), AckResult::ok);
 }
 
-TEST(Status, SaysThatTheCellIsSimulatedWhateverHappens) {
+TEST(Status, ShowsInEveryStateThatTheCellIsSimulated) {
     Bench bench;
     EXPECT_TRUE(bench.status().has(flag::simulated));
     bench.to_running();
@@ -718,7 +724,7 @@ TEST(Status, SaysThatTheCellIsSimulatedWhateverHappens) {
     EXPECT_TRUE(bench.status().has(flag::warning));  // unsigned
 }
 
-TEST(Status, ManySendersDoNotMakeTheCellForgetItsOwner) {
+TEST(Status, ManySendersDoNotRemoveTheAcknowledgementOfTheOwner) {
     Bench bench;
     bench.to_prepared();
     Command start{
@@ -730,7 +736,7 @@ TEST(Status, ManySendersDoNotMakeTheCellForgetItsOwner) {
         bench.send(query);
     }
     EXPECT_LE(bench.cell.senders.size(), 256U);
-    take_command(bench.cell, encode(start), bench.now, bench.hooks);
+    receive_command(bench.cell, encode(start), bench.now, bench.hooks);
     EXPECT_EQ(bench.status().ack_owner, owner);
     EXPECT_EQ(bench.status().ack_result, AckResult::ok);
 }

@@ -25,7 +25,7 @@ CellMemory a_memory() {
         record.start_seq = 4000000000U;
         record.start_time_ms = 1700000000000U + n;
         record.end_time_ms = 1700000009999U;
-        record.file_sha256.fill(n);
+        record.file_sha256.bytes.fill(n);
         record.last_block = 12;
     }
     return memory;

@@ -36,7 +36,7 @@ TEST(Pdu, AStatusReadIsTheStatus) {
     EXPECT_EQ(status.value, bench.status());
 }
 
-TEST(Pdu, PartOfABlockIsTheSameWordsAsInTheWhole) {
+TEST(Pdu, PartOfABlockIsTheSameRegistersAsInTheWhole) {
     Bench bench;
     const Bytes whole = answer(bench, read_request(4, 0, 100));
     for (std::uint16_t at = 0; at < 100; ++at) {

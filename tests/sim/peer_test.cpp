@@ -1,4 +1,4 @@
-// The cell against a client that is not ours: libmodbus, used directly.
+// The cell against an independent client: libmodbus, used directly.
 
 #include <gtest/gtest.h>
 #include <modbus.h>
@@ -40,7 +40,7 @@ TEST(Peer, LibmodbusReadsTheStatus) {
     EXPECT_TRUE(decode_status(std::span(registers).first(100)).is_ok());
 }
 
-TEST(Peer, LibmodbusClaimsTheCellWithWordsWrittenByHand) {
+TEST(Peer, LibmodbusClaimsTheCellWithRegistersWrittenByHand) {
     const Peer peer;
     std::uint16_t registers[60] = {0x5143, 0x0100, 0, 1, 0, 1, 100, 0};
     registers[38] = 0xABCD;
@@ -57,7 +57,7 @@ TEST(Peer, LibmodbusClaimsTheCellWithWordsWrittenByHand) {
     EXPECT_EQ(status[11], 1);  // EPOCH_HELD
 }
 
-TEST(Peer, LibmodbusIsToldWhatIsNotServed) {
+TEST(Peer, LibmodbusGetsAnExceptionForWhatIsNotServed) {
     const Peer peer;
     modbus_t* client = peer.client.get();
     std::uint16_t registers[MODBUS_MAX_READ_REGISTERS] = {};
@@ -74,7 +74,7 @@ TEST(Peer, LibmodbusIsToldWhatIsNotServed) {
     EXPECT_EQ(modbus_read_input_registers(client, 0, 1, registers), -1);
     EXPECT_EQ(errno, EMBXGTAR);
     modbus_set_slave(client, 1);
-    EXPECT_EQ(modbus_read_input_registers(client, 0, 1, registers), 1);  // and the connection is as good as before
+    EXPECT_EQ(modbus_read_input_registers(client, 0, 1, registers), 1);  // and the connection stays usable
 }
 
 TEST(Peer, GarbageInAllHoldingRegistersStartsNothing) {

@@ -40,7 +40,7 @@ TEST(Server, AFrameSplitAtAnyByteGetsTheSameAnswer) {
     const Bytes whole = frame(0x0A0B, read_request(4, 0, 3));
     socket.send(whole);
     const Bytes expected = socket.receive(15);
-    // STATUS begins with magic and version; the third word is the snapshot, which moves on.
+    // STATUS begins with magic and version; the third register is the snapshot, which changes.
     ASSERT_EQ(expected.size(), 15U);
     for (std::size_t at = 1; at < whole.size(); ++at) {
         socket.send(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(at)));
@@ -145,7 +145,7 @@ TEST(Server, ASlowClientDoesNotStallTheOthers) {
     EXPECT_LT(worst, 0.1);  // 0.02 on a quiet machine
 }
 
-TEST(Server, TheNinthConnectionIsTurnedAwayAndAFreedPlaceIsGivenAgain) {
+TEST(Server, TheNinthConnectionIsRefusedAndAFreedPlaceIsGivenAgain) {
     const Cell cell;
     std::vector<std::unique_ptr<RawSocket>> sockets;
     for (int n = 0; n < 8; ++n) {
@@ -160,14 +160,14 @@ TEST(Server, TheNinthConnectionIsTurnedAwayAndAFreedPlaceIsGivenAgain) {
     EXPECT_TRUE(is_served(RawSocket(cell.sim.port())));
 }
 
-TEST(Server, ThoseTurnedAwayAreCountedInOneLine) {
+TEST(Server, RefusedConnectionsAreCountedInOneLine) {
     const rig::Folder folder;
     std::mutex mutex;
     std::vector<std::string> lines;
     CellSimOptions options = rig::quick_cell(folder.path);
     options.on_message = [&](const std::string& line) {
         const std::lock_guard lock(mutex);
-        if (line.find("turned away") != std::string::npos) lines.push_back(line);
+        if (line.find("refused") != std::string::npos) lines.push_back(line);
     };
     CellSim sim(options);
     sim.start();
@@ -179,7 +179,7 @@ TEST(Server, ThoseTurnedAwayAreCountedInOneLine) {
     for (int i = 0; i < 40; ++i) EXPECT_TRUE(RawSocket(sim.port()).is_closed_within(2)) << i;
     sim.stop();
     ASSERT_EQ(lines.size(), 1U);
-    EXPECT_NE(lines[0].find("40 connections turned away, the last from 127.0.0.1"), std::string::npos) << lines[0];
+    EXPECT_NE(lines[0].find("40 connections refused, the last from 127.0.0.1"), std::string::npos) << lines[0];
 }
 
 TEST(Server, ManyConnectionsLeaveNoDescriptorBehind) {
@@ -293,7 +293,7 @@ TEST(Server, WithAListTheLastPlaceIsKeptForThoseOnIt) {
     EXPECT_TRUE(RawSocket(server.port()).is_closed_within(1));
 }
 
-TEST(Server, APortInUseIsAnErrorWithWords) {
+TEST(Server, APortInUseIsAnErrorThatNamesIt) {
     const Cell cell;
     ModbusServerOptions options;
     options.port = cell.sim.port();

@@ -33,18 +33,18 @@ std::string kept(const Store& store) {
     return names;
 }
 
-TEST(Copies, OfFinishedJobsMakeRoomTheOldestFirst) {
+TEST(Copies, OfFinishedJobsAreRemovedTheOldestFirst) {
     const rig::Folder folder;
     const Store store(folder.path / "store", 400 * kib);
     const CellMemory memory = fill(store);
     EXPECT_EQ(store.free_kib(), 100U);
-    store.make_room(memory, 100 * kib);
-    EXPECT_EQ(kept(store), "123") << "there was room";
-    store.make_room(memory, 101 * kib);
+    store.remove_old_copies(memory, 100 * kib);
+    EXPECT_EQ(kept(store), "123") << "there was enough space";
+    store.remove_old_copies(memory, 101 * kib);
     EXPECT_EQ(kept(store), "12") << "what never ran goes first";
-    store.make_room(memory, 300 * kib);
+    store.remove_old_copies(memory, 300 * kib);
     EXPECT_EQ(kept(store), "1") << "2 ended before 1";
-    store.make_room(memory, 500 * kib);
+    store.remove_old_copies(memory, 500 * kib);
     EXPECT_EQ(kept(store), "");
     EXPECT_EQ(store.free_kib(), 400U) << "more than the store has is not there";
 }

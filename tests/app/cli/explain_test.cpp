@@ -24,13 +24,13 @@ struct Explain : ::testing::Test {
     // Those that stand, as project.json has them.
     std::vector<json> cuts() const {
         const json history = json::parse(program::bytes_in(folder.path / "p.qch" / "project.json"))["history"];
-        std::vector<json> standing;
-        for (std::size_t i = 0; i < history["standing"].get<std::size_t>(); ++i) {
+        std::vector<json> committed;
+        for (std::size_t i = 0; i < history["committed"].get<std::size_t>(); ++i) {
             const json& decision = history["decisions"][i];
-            if (decision.contains("reset")) standing.clear();
-            if (decision.contains("cut")) standing.push_back(decision["cut"]);
+            if (decision.contains("reset")) committed.clear();
+            if (decision.contains("cut")) committed.push_back(decision["cut"]);
         }
-        return standing;
+        return committed;
     }
     void SetUp() override {
         fs::copy(program::prepared() / "scan.qch", folder.path / "p.qch", fs::copy_options::recursive);

@@ -121,7 +121,7 @@ TEST_F(Export, WrongUseIsToldAndWritesNothing) {
     fs::remove(folder.path / "p.qch" / "cell.toml");
     const program::Ended ended = run({"3mf", "--pose", "setup"});
     EXPECT_EQ(ended.code, 64);
-    EXPECT_NE(ended.err.find("knows no cell"), std::string::npos) << ended.err;
+    EXPECT_NE(ended.err.find("has no cell"), std::string::npos) << ended.err;
     EXPECT_EQ(program::run({"export", "nowhere.qch", "--format", "3mf"}, {folder.path}).code, 66);
 }
 

@@ -28,7 +28,7 @@ struct HandOver : ::testing::Test {
     std::string start_cell(const std::string& consent, const std::string& typed = "") {
         cell = std::make_unique<Process>(Arguments{"cell-sim", "--listen", "127.0.0.1:0", "--drop", "drop", "--speed",
                                                    "100000", "--consent", consent},
-                                         program::Surroundings{folder.path, typed});
+                                         program::RunOptions{folder.path, typed});
         if (!cell->waits_until_out("\n")) ADD_FAILURE() << cell->err();
         const std::string line = cell->out();
         const std::string head = "listening ";

@@ -57,7 +57,7 @@ TEST_F(Inspect, DeepTellsWhereTheScanRunsThroughItself) {
     EXPECT_EQ(deep["verdict"], "to repair");
     EXPECT_EQ(deep["reasons"].size(), 2U);
     EXPECT_EQ(deep["units"], "mm");
-    EXPECT_EQ(deep["size_in_words"], "60.0 mm x 40.0 mm x 40.0 mm");
+    EXPECT_EQ(deep["size_text"], "60.0 mm x 40.0 mm x 40.0 mm");
     EXPECT_EQ(program::difference(before, program::contents(folder.path)), "");
 
     const std::string words = run({"inspect", "bad.ply", "--deep"}).out;
@@ -73,10 +73,10 @@ TEST_F(Inspect, GivesTheThreeVerdicts) {
     EXPECT_TRUE(ready["reasons"].empty());
     EXPECT_EQ(ready["welded_vertices"].get<std::size_t>() + ready["vertices"].get<std::size_t>(),
               ready["vertices_in_file"]);
-    TriangleMesh sheet;
-    sheet.points = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 1}};
-    sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
-    write_file(folder.path / "sheet.ply", to_ply(sheet));
+    TriangleMesh open_component;
+    open_component.points = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 1}};
+    open_component.triangles = {{0, 1, 2}, {0, 2, 3}};
+    write_file(folder.path / "sheet.ply", to_ply(open_component));
     EXPECT_EQ(document({"inspect", "sheet.ply", "--json"})["verdict"], "unrepairable");
 }
 
@@ -87,7 +87,7 @@ TEST_F(Inspect, DocumentsEveryField) {
     std::set<std::string> fields;
     for (const auto& [name, value] : deep.items()) {
         fields.insert(name);
-        if (name == "fragments" || name == "sheets" || name == "self_intersections") {
+        if (name == "fragments" || name == "open_components" || name == "self_intersections") {
             for (const auto& [inner, unused] : value.items()) fields.insert(name + "." + inner);
         }
     }
@@ -104,7 +104,7 @@ TEST_F(Inspect, DocumentsEveryField) {
             names.erase(0, end + 1);
         }
     }
-    rows.insert({"fragments", "sheets"});  // told by their fields
+    rows.insert({"fragments", "open_components"});  // told by their fields
     EXPECT_EQ(fields, rows);
 }
 

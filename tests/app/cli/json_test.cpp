@@ -45,8 +45,8 @@ TEST_F(Json, OfInspect) {
     EXPECT_EQ(seen["closed"], true);
     EXPECT_EQ(seen["units"], nullptr);
     const json with_units = document(run({"inspect", "scan.ply", "--units", "cm", "--json"}), "qchopper-inspect-3");
-    EXPECT_EQ(seen["size_in_words"], nullptr);
-    EXPECT_TRUE(with_units["size_in_words"].is_string());
+    EXPECT_EQ(seen["size_text"], nullptr);
+    EXPECT_TRUE(with_units["size_text"].is_string());
 }
 
 TEST_F(Json, OfPrepare) {

@@ -11,7 +11,7 @@
 
 #include "app/cli/exit_code.h"
 #include "base/sha256.h"
-#include "cam/job/zip.h"
+#include "base/zip.h"
 #include "tests/app/cli/program.h"
 
 namespace qchopper {
@@ -40,7 +40,7 @@ struct OrderedJob : ::testing::Test {
         fs::create_directory(folder.path / "drop");
         cell = std::make_unique<Process>(
             program::Arguments{"cell-sim", "--listen", "127.0.0.1:0", "--drop", "drop", "--speed", "100000"},
-            program::Surroundings{folder.path});
+            program::RunOptions{folder.path});
         ASSERT_TRUE(cell->waits_until_out("\n")) << cell->err();
         to = cell->out().substr(10, cell->out().find('\n') - 10);
     }
@@ -120,7 +120,7 @@ TEST_F(OrderedJob, AJobThatDoesNotFitOrWasChangedIsRefused) {
         manifest["envelope"]["margins"][0]["mm"] = -1.5;
     };
     forge(misfit, true);
-    expect_refused(exit_mesh, "C.qjob says that its piece does not fit the cell");
+    expect_refused(exit_mesh, "C.qjob states that its piece does not fit the cell");
 
     restore();
     forge([](std::map<std::string, Bytes>& files, Json&) { files.at("piece.stl").at(200) ^= 1; }, false);
@@ -164,7 +164,7 @@ TEST_F(OrderedJob, OnlyRegularFilesAreRead) {
 TEST_F(OrderedJob, AFolderThatAKilledDryRunLeftIsRemovedByTheNext) {
     const fs::path temporary = folder.path / "tmp";
     fs::create_directory(temporary);
-    program::Surroundings around{folder.path};
+    program::RunOptions around{folder.path};
     around.temporary_folder = temporary;
     Process slow({"dry-run", "p.qch", "--speed", "1"}, around);
     ASSERT_TRUE(slow.waits_until_err("piece ")) << slow.err();

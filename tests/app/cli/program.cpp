@@ -47,8 +47,8 @@ bool comes_true(const std::function<bool()>& condition, double seconds) {
 
 }  // namespace
 
-Process::Process(const Arguments& arguments, const Surroundings& surroundings) {
-    put(streams_.path / "in", surroundings.input);
+Process::Process(const Arguments& arguments, const RunOptions& options) {
+    put(streams_.path / "in", options.input);
     std::vector<std::string> words{QCHOPPER_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
@@ -56,12 +56,12 @@ Process::Process(const Arguments& arguments, const Surroundings& surroundings) {
     argv.push_back(nullptr);
     pid_ = ::fork();
     if (pid_ != 0) return;
-    if (::chdir(surroundings.folder.c_str()) != 0) ::_exit(127);
+    if (::chdir(options.folder.c_str()) != 0) ::_exit(127);
     redirect(streams_.path / "in", O_RDONLY, STDIN_FILENO);
     redirect(streams_.path / "out", O_WRONLY | O_CREAT, STDOUT_FILENO);
     redirect(streams_.path / "err", O_WRONLY | O_CREAT, STDERR_FILENO);
-    if (surroundings.one_core) keep_to_one_core();
-    if (!surroundings.temporary_folder.empty()) ::setenv("TMPDIR", surroundings.temporary_folder.c_str(), 1);
+    if (options.one_core) keep_to_one_core();
+    if (!options.temporary_folder.empty()) ::setenv("TMPDIR", options.temporary_folder.c_str(), 1);
     ::execv(argv[0], argv.data());
     ::_exit(127);
 }
@@ -78,7 +78,7 @@ bool Process::has_ended() {
 }
 
 void Process::signal(int number) const {
-    ::kill(pid_, number);
+    if (!ended_) ::kill(pid_, number);
 }
 
 std::string Process::out() const {
@@ -117,8 +117,8 @@ Ended Process::wait(double seconds) {
     return ended;
 }
 
-Ended run(const Arguments& arguments, const Surroundings& surroundings) {
-    return Process(arguments, surroundings).wait();
+Ended run(const Arguments& arguments, const RunOptions& options) {
+    return Process(arguments, options).wait();
 }
 
 std::string bytes_in(const fs::path& file) {

@@ -17,7 +17,7 @@ using qchopper::Folder;
 
 using Arguments = std::vector<std::string>;
 
-struct Surroundings {
+struct RunOptions {
     std::filesystem::path folder;                 // where it runs
     std::string input = {};                       // what stdin holds; then it ends
     bool one_core = false;                        // may use one core only
@@ -34,7 +34,7 @@ struct Ended {
 
 class Process {
  public:
-    Process(const Arguments& arguments, const Surroundings& surroundings);
+    Process(const Arguments& arguments, const RunOptions& options);
     ~Process();  // kills it
     Process(const Process&) = delete;
     Process& operator=(const Process&) = delete;
@@ -57,7 +57,7 @@ class Process {
     bool ended_ = false;
 };
 
-Ended run(const Arguments& arguments, const Surroundings& surroundings);
+Ended run(const Arguments& arguments, const RunOptions& options);
 
 // Every file and folder in a folder with its bytes.
 using Contents = std::map<std::string, std::string>;
@@ -71,7 +71,7 @@ void put(const std::filesystem::path& file, const std::string& bytes);
 std::filesystem::path foam_cell();
 // Made once per process: a folder with scan.ply (vertebra, 3,000 faces) and scan.qch, prepared with two cuts.
 const std::filesystem::path& prepared();
-// What prepare was told for it, but for the output.
+// The arguments of prepare for it, without the output.
 Arguments prepare_arguments(const std::string& scan);
 
 }  // namespace qchopper::program

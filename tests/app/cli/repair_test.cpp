@@ -85,9 +85,9 @@ TEST_F(Repair, DocumentHoldsStepsCountsAndVerdict) {
     ASSERT_EQ(ended.code, exit_done) << ended.err;
     const json made = json::parse(ended.out);
     for (const char* key :
-         {"schema", "file",     "out",        "format",    "sha256", "units",  "faces_in",  "vertices_in",
-          "faces",  "vertices", "faces_gone", "faces_new", "passes", "steps",  "counts",    "self_intersections",
-          "marks",  "wrap",     "left_open",  "closed",    "solid",  "volume", "deviation", "warnings",
+         {"schema",      "file",       "out",        "format",    "sha256", "units",  "faces_in",  "vertices_in",
+          "faces",       "vertices",   "faces_gone", "faces_new", "passes", "steps",  "counts",    "self_intersections",
+          "pen_grooves", "alpha_wrap", "left_open",  "closed",    "solid",  "volume", "deviation", "warnings",
           "verdict"}) {
         EXPECT_TRUE(made.contains(key)) << key;
     }
@@ -100,9 +100,9 @@ TEST_F(Repair, DocumentHoldsStepsCountsAndVerdict) {
 }
 
 TEST_F(Repair, WhatIsNoSolidIsRefusedAndNothingIsWritten) {
-    TriangleMesh sheet = vertebra();
-    sheet.triangles.resize(20);
-    write_file(folder.path / "sheet.ply", to_ply(sheet));
+    TriangleMesh open_component = vertebra();
+    open_component.triangles.resize(20);
+    write_file(folder.path / "sheet.ply", to_ply(open_component));
     program::put(folder.path / "old.ply", "what was there");
     const program::Contents before = program::contents(folder.path);
     const std::pair<program::Arguments, ExitCode> cases[] = {

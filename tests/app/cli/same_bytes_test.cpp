@@ -41,7 +41,6 @@ void expect_same(const Contents& one, const Contents& other) {
 
 struct SameBytes : ::testing::Test {
     program::Folder folder;
-    const Arguments go_on{"prepare", "scan.qch"};
     void SetUp() override { fs::copy(program::prepared() / "scan.ply", folder.path / "scan.ply"); }
     Arguments start() const {
         Arguments arguments = program::prepare_arguments("scan.ply");
@@ -49,6 +48,19 @@ struct SameBytes : ::testing::Test {
         return arguments;
     }
     void expect_as_prepared() const { expect_same(project_in(folder.path), project_in(program::prepared())); }
+    // Sends a signal after the first cut is reported.
+    Ended stopped_after_the_first_cut(const Arguments& arguments, int signal_number) const {
+        Process process(arguments, {folder.path});
+        EXPECT_TRUE(process.waits_until_err("cut 1 on piece A")) << process.err();
+        process.signal(signal_number);
+        const Ended ended = process.wait();
+        EXPECT_GE(cuts_kept(), 1U);
+        return ended;
+    }
+    void go_on() const {
+        const Ended ended = program::run({"prepare", "scan.qch"}, {folder.path});
+        EXPECT_EQ(ended.code, 0) << ended.err;
+    }
     // The cuts that are kept of a project that was broken off.
     std::size_t cuts_kept() const {
         const Project project = load_project(folder.path / "scan.qch");
@@ -66,8 +78,7 @@ TEST_F(SameBytes, ElsewhereAndOnOneCore) {
 
 TEST_F(SameBytes, FromAFinishedProjectOnceMore) {
     EXPECT_EQ(program::run(start(), {folder.path}).code, 0);
-    const Ended again = program::run(go_on, {folder.path});
-    EXPECT_EQ(again.code, 0) << again.err;
+    go_on();
     expect_as_prepared();
 }
 
@@ -77,24 +88,14 @@ TEST_F(SameBytes, OfABeamThatIsKilledAfterTheFirstCut) {
     ASSERT_EQ(program::run(beam, {folder.path}).code, 0);
     const Contents whole = all_but_cache(folder.path / "scan.qch");
     fs::remove_all(folder.path / "scan.qch");
-    Process process(beam, {folder.path});
-    ASSERT_TRUE(process.waits_until_err("cut 1 on piece A")) << process.err();
-    process.signal(SIGKILL);
-    EXPECT_EQ(process.wait().killed_by, SIGKILL);
-    EXPECT_GE(cuts_kept(), 1U);
-    const Ended ended = program::run(go_on, {folder.path});
-    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(stopped_after_the_first_cut(beam, SIGKILL).killed_by, SIGKILL);
+    go_on();
     EXPECT_EQ(program::difference(whole, all_but_cache(folder.path / "scan.qch")), "");
 }
 
 TEST_F(SameBytes, KilledAfterTheFirstCut) {
-    Process process(start(), {folder.path});
-    ASSERT_TRUE(process.waits_until_err("cut 1 on piece A")) << process.err();
-    process.signal(SIGKILL);
-    EXPECT_EQ(process.wait().killed_by, SIGKILL);
-    EXPECT_GE(cuts_kept(), 1U);
-    const Ended ended = program::run(go_on, {folder.path});
-    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(stopped_after_the_first_cut(start(), SIGKILL).killed_by, SIGKILL);
+    go_on();
     expect_as_prepared();
 }
 
@@ -106,30 +107,22 @@ TEST_F(SameBytes, KilledWhileJobsAreWritten) {
     EXPECT_EQ(cuts_kept(), 2U);
     // What a program that was killed while it wrote leaves behind is cleared away.
     program::put(folder.path / "scan.qch" / "jobs" / "D.qjob.tmp.1", "half");
-    EXPECT_EQ(program::run(go_on, {folder.path}).code, 0);
+    go_on();
     expect_as_prepared();
 }
 
 TEST_F(SameBytes, StoppedByCtrlC) {
-    Process process(start(), {folder.path});
-    ASSERT_TRUE(process.waits_until_err("cut 1 on piece A")) << process.err();
-    process.signal(SIGINT);
-    const Ended stopped = process.wait();
+    const Ended stopped = stopped_after_the_first_cut(start(), SIGINT);
     EXPECT_EQ(stopped.code, exit_interrupted) << stopped.err;
     EXPECT_NE(stopped.err.find("cuts made so far are kept in scan.qch; go on with: qchopper prepare scan.qch"),
               std::string::npos)
         << stopped.err;
-    EXPECT_GE(cuts_kept(), 1U);
-    EXPECT_EQ(program::run(go_on, {folder.path}).code, 0);
+    go_on();
     expect_as_prepared();
 }
 
 TEST_F(SameBytes, StoppedByTheSystem) {
-    Process process(start(), {folder.path});
-    ASSERT_TRUE(process.waits_until_err("cut 1 on piece A")) << process.err();
-    process.signal(SIGTERM);
-    EXPECT_EQ(process.wait().code, exit_terminated);
-    EXPECT_GE(cuts_kept(), 1U);
+    EXPECT_EQ(stopped_after_the_first_cut(start(), SIGTERM).code, exit_terminated);
 }
 
 }  // namespace

@@ -165,7 +165,7 @@ TEST_F(Segment, DiscardsAPieceAndSaysSoInEveryReport) {
 
 TEST_F(Segment, TakesItsCellLaterButOnlyOnce) {
     const program::Arguments with_cell{"segment", "p.qch", "--cell", program::foam_cell()};
-    EXPECT_EQ(run({"segment", "p.qch", "--auto", "--fits-cell"}).code, 64) << "it knows no cell yet";
+    EXPECT_EQ(run({"segment", "p.qch", "--auto", "--fits-cell"}).code, 64) << "it has no cell yet";
     program::put(folder.path / "wrong.toml", "nonsense");
     EXPECT_EQ(run({"segment", "p.qch", "--cell", "wrong.toml"}).code, 78);
     EXPECT_FALSE(fs::exists(folder.path / "p.qch" / "cell.toml"));
@@ -175,7 +175,7 @@ TEST_F(Segment, TakesItsCellLaterButOnlyOnce) {
     EXPECT_EQ(answer({"p.qch", "--auto", "--fits-cell"})["ended_because"], "the stop rules hold");
     const program::Ended again = run(with_cell);
     EXPECT_EQ(again.code, 64);
-    EXPECT_NE(again.err.find("knows its cell already"), std::string::npos) << again.err;
+    EXPECT_NE(again.err.find("has a cell already"), std::string::npos) << again.err;
 }
 
 TEST_F(Segment, WritesThePiecesAfterADecisionIfItIsTold) {
@@ -215,10 +215,10 @@ TEST_F(Segment, TakesTheVolumeBelowWhichASolidIsAFragment) {
 
 TEST_F(Segment, NamesTheCandidateOfEveryPlane) {
     for (const json& plane : answer({"p.qch", "--step", "--top", "200"})["proposal"]["planes"]) {
-        EXPECT_TRUE(plane["normal_number"] >= 0 && plane["normal_number"] < 3) << plane.dump();
-        EXPECT_TRUE(plane["offset_number"] >= 0 && plane["offset_number"] < 40) << plane.dump();
+        EXPECT_TRUE(plane["normal_index"] >= 0 && plane["normal_index"] < 3) << plane.dump();
+        EXPECT_TRUE(plane["offset_index"] >= 0 && plane["offset_index"] < 40) << plane.dump();
     }
-    EXPECT_EQ(answer({"p.qch", "--plane", "0,0,1,0"})["cuts"][0]["normal_number"], -1);
+    EXPECT_EQ(answer({"p.qch", "--plane", "0,0,1,0"})["cuts"][0]["normal_index"], -1);
 }
 
 TEST_F(Segment, TakesAPlaneOfAnyFiniteNumbers) {

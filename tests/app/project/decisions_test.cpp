@@ -12,10 +12,10 @@ Cut cut(std::int32_t number, const std::string& piece) {
     return c;
 }
 
-TEST(Decisions, AreNamedInWords) {
-    EXPECT_EQ(words(cut(3, "B")), "cut 3 on piece B");
-    EXPECT_EQ(words(WeightsChange{}), "change of weights");
-    EXPECT_EQ(words(Reset{}), "reset");
+TEST(Decisions, AreDescribed) {
+    EXPECT_EQ(describe(cut(3, "B")), "cut 3 on piece B");
+    EXPECT_EQ(describe(WeightsChange{}), "change of weights");
+    EXPECT_EQ(describe(Reset{}), "reset");
 }
 
 TEST(Decisions, WhatStandsFollowsFromThoseInForce) {
@@ -26,29 +26,29 @@ TEST(Decisions, WhatStandsFollowsFromThoseInForce) {
     decide(h, cut(2, "B"));
     decide(h, Reset{});
     decide(h, cut(1, "A"));
-    EXPECT_EQ(standing_cuts(h), (std::vector<Cut>{cut(1, "A")}));
-    EXPECT_EQ(standing_weights(h), (Weights{2, 2, 2, 2})) << "a reset keeps the weights";
-    h.standing = 3;
-    EXPECT_EQ(standing_cuts(h), (std::vector<Cut>{cut(1, "A"), cut(2, "B")}));
-    h.standing = 1;
-    EXPECT_EQ(standing_weights(h), (Weights{1, 1, 1, 1}));
-    EXPECT_EQ(words(*to_undo(h)), "cut 1 on piece A");
-    EXPECT_EQ(words(*to_redo(h)), "change of weights");
-    h.standing = 0;
+    EXPECT_EQ(committed_cuts(h), (std::vector<Cut>{cut(1, "A")}));
+    EXPECT_EQ(committed_weights(h), (Weights{2, 2, 2, 2})) << "a reset keeps the weights";
+    h.committed = 3;
+    EXPECT_EQ(committed_cuts(h), (std::vector<Cut>{cut(1, "A"), cut(2, "B")}));
+    h.committed = 1;
+    EXPECT_EQ(committed_weights(h), (Weights{1, 1, 1, 1}));
+    EXPECT_EQ(describe(*to_undo(h)), "cut 1 on piece A");
+    EXPECT_EQ(describe(*to_redo(h)), "change of weights");
+    h.committed = 0;
     EXPECT_EQ(to_undo(h), nullptr);
-    EXPECT_TRUE(standing_cuts(h).empty());
+    EXPECT_TRUE(committed_cuts(h).empty());
 }
 
 TEST(Decisions, ThoseUndoneAreKeptUntilSomethingNewIsDecided) {
     History h;
     decide(h, cut(1, "A"));
     decide(h, cut(2, "B"));
-    h.standing = 1;
+    h.committed = 1;
     EXPECT_EQ(h.decisions.size(), 2U);
     decide(h, cut(2, "C"));
     EXPECT_EQ(h.decisions.size(), 2U);
     EXPECT_EQ(to_redo(h), nullptr);
-    EXPECT_EQ(words(*to_undo(h)), "cut 2 on piece C");
+    EXPECT_EQ(describe(*to_undo(h)), "cut 2 on piece C");
 }
 
 TEST(Decisions, FollowASearchThatTurnsToAnotherBranch) {
@@ -57,10 +57,10 @@ TEST(Decisions, FollowASearchThatTurnsToAnotherBranch) {
     decide(h, WeightsChange{{2, 2, 2, 2}});
     follow(h, {cut(1, "A"), cut(2, "B")});
     follow(h, {cut(1, "A"), cut(2, "C"), cut(3, "D")});
-    EXPECT_EQ(standing_cuts(h), (std::vector<Cut>{cut(1, "A"), cut(2, "C"), cut(3, "D")}));
+    EXPECT_EQ(committed_cuts(h), (std::vector<Cut>{cut(1, "A"), cut(2, "C"), cut(3, "D")}));
     EXPECT_EQ(h.decisions.size(), 4U) << "the branch that was given up is gone";
     const History before = h;
-    follow(h, standing_cuts(h));
+    follow(h, committed_cuts(h));
     EXPECT_EQ(h, before) << "nothing new, nothing decided";
 }
 

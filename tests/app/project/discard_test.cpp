@@ -33,7 +33,7 @@ struct Discarding : ::testing::Test {
 
     Project fresh() const {
         Project project;
-        project.scan = {"/a bone.ply", std::string(64, 'd'), Unit::mm, 1, {7, 8, 9}, 0, volume_mm3(mesh), {}};
+        project.scan = {"/a bone.ply", Sha256{{0xdd}}, Unit::mm, 1, {7, 8, 9}, 0, volume_mm3(mesh), {}};
         project.scan.faces = mesh.triangles.size();
         project.settings.candidates.offsets_per_normal = 5;
         project.history.weights_at_start = project.settings.objectives.weights;
@@ -56,7 +56,7 @@ struct Discarding : ::testing::Test {
         return volume;
     }
     // All that stands, without the history.
-    std::string standing() const {
+    std::string committed() const {
         Project project = load_project(folder);
         project.history = {};
         return to_json(project);
@@ -69,38 +69,38 @@ struct Discarding : ::testing::Test {
 };
 
 TEST_F(Discarding, IsADecisionThatIsUndoneRedoneAndResetLikeACut) {
-    std::vector<std::string> stood{standing()};
+    std::vector<std::string> stood{committed()};
     std::string first;
     {
         OpenProject project = open();
         accept(project, 0);
-        stood.push_back(standing());
+        stood.push_back(committed());
         first = project.segmentation().pieces.front().name;
         const std::string last = project.segmentation().pieces.back().name;
         EXPECT_TRUE(project.decide_discard(last));
-        stood.push_back(standing());
-        EXPECT_FALSE(project.piece_named(last));
+        stood.push_back(committed());
+        EXPECT_FALSE(piece_named(project.segmentation(), last));
         EXPECT_EQ(load_project(folder).discards, (std::vector<Discard>{{last, 1}}));
         accept(project, 1);
-        stood.push_back(standing());
+        stood.push_back(committed());
         EXPECT_TRUE(project.decide_discard(project.segmentation().pieces.front().name));
-        stood.push_back(standing());
+        stood.push_back(committed());
         EXPECT_EQ(project.project().discarded.size(), 2U);
         EXPECT_NEAR(volume_of(project.segmentation()), volume_mm3(mesh), 1e-9 * volume_mm3(mesh));
         EXPECT_TRUE(project.decide_reset());
-        stood.push_back(standing());
+        stood.push_back(committed());
         EXPECT_TRUE(project.project().discards.empty());
     }
     OpenProject project = open();
-    EXPECT_EQ(words(*to_undo(project.project().history)), "reset");
+    EXPECT_EQ(describe(*to_undo(project.project().history)), "reset");
     for (std::size_t i = stood.size() - 1; i-- > 0;) {
         ASSERT_TRUE(project.undo());
-        EXPECT_EQ(standing(), stood[i]) << i;
+        EXPECT_EQ(committed(), stood[i]) << i;
     }
     OpenProject again = open();
     for (std::size_t i = 1; i < stood.size(); ++i) {
         ASSERT_TRUE(again.redo());
-        EXPECT_EQ(standing(), stood[i]) << i;
+        EXPECT_EQ(committed(), stood[i]) << i;
         EXPECT_EQ(again.project(), load_project(folder)) << i;
         Project derived = load_project(folder);
         record(derived, replay(derived, mesh));
@@ -113,10 +113,10 @@ TEST_F(Discarding, OfTheOnlyPieceOrOfNoneChangesNothing) {
     while (project.segmentation().pieces.size() > 1) {
         ASSERT_TRUE(project.decide_discard(project.segmentation().pieces.back().name));
     }
-    const std::string before = standing();
+    const std::string before = committed();
     EXPECT_FALSE(project.decide_discard(project.segmentation().pieces.front().name));
     EXPECT_FALSE(project.decide_discard("no such piece"));
-    EXPECT_EQ(standing(), before);
+    EXPECT_EQ(committed(), before);
 }
 
 TEST_F(Discarding, IsSaidWithItsVolumeAndSurvivesTheSearch) {
@@ -174,7 +174,7 @@ TEST_F(Discarding, StandsInThePlanAndIsMadeAgain) {
     Segmentation segmentation = other.segmentation();
     std::size_t told = 0;
     const PlanReplay replayed =
-        replay_plan(plan, other.project().scan, segmentation, other.project().settings, other.book(),
+        replay_plan(plan, other.project().scan, segmentation, other.project().settings, other.cache(),
                     [&](const Segmentation& s) {
                         ++told;
                         other.adopt(s);
@@ -190,7 +190,7 @@ TEST_F(Discarding, StandsInThePlanAndIsMadeAgain) {
     elsewhere.discards[1].inside = elsewhere.discards[1].inside + Vec3{1000, 0, 0};
     Segmentation start = uncut(mesh, 0);
     const PlanReplay refused = replay_plan(elsewhere, other.project().scan, start, other.project().settings,
-                                           other.book(), [](const Segmentation&) {}, {});
+                                           other.cache(), [](const Segmentation&) {}, {});
     EXPECT_FALSE(refused.applies);
     EXPECT_EQ(refused.why.find("discard of piece " + plan.discards[1].piece), 0U) << refused.why;
     EXPECT_EQ(start.cuts.size(), 1U);

@@ -18,13 +18,13 @@ struct EvaluationFiles : ::testing::Test {
 
     // Ranks every piece by a cache of its own beside these files; returns how many it had to evaluate.
     std::size_t evaluated(const Segmentation& segmentation, const SearchSettings& settings) const {
-        EvaluationCache book(settings.objectives, settings.candidates,
-                             evaluation_store(folder, settings.objectives, settings.candidates));
+        EvaluationCache cache(settings.objectives, settings.candidates,
+                              evaluation_store(folder, settings.objectives, settings.candidates));
         for (std::size_t p = 0; p < segmentation.pieces.size(); ++p) {
             EvaluationCache without(settings.objectives, settings.candidates);
-            EXPECT_EQ(rank(segmentation, p, settings, book, {}), rank(segmentation, p, settings, without, {}));
+            EXPECT_EQ(rank(segmentation, p, settings, cache, {}), rank(segmentation, p, settings, without, {}));
         }
-        return book.evaluated_count();
+        return cache.evaluated_count();
     }
     std::vector<fs::path> files() const {
         std::vector<fs::path> all;
@@ -35,10 +35,10 @@ struct EvaluationFiles : ::testing::Test {
 
 Segmentation some_pieces(const SearchSettings& settings) {
     Segmentation segmentation = uncut(shapes::linked_tori(), 0);
-    EvaluationCache book(settings.objectives, settings.candidates);
+    EvaluationCache cache(settings.objectives, settings.candidates);
     SearchSettings search_settings = settings;
     search_settings.stop.min_cuts = 2;
-    search(segmentation, search_settings, book, {}, [](const Segmentation&) {}, {});
+    search(segmentation, search_settings, cache, {}, [](const Segmentation&) {}, {});
     return segmentation;
 }
 
@@ -48,7 +48,7 @@ SearchSettings quick() {
     return settings;
 }
 
-TEST_F(EvaluationFiles, AnotherBookFindsEveryEvaluationToTheLastBit) {
+TEST_F(EvaluationFiles, AnotherCacheFindsEveryEvaluationToTheLastBit) {
     const SearchSettings settings = quick();
     const Segmentation segmentation = some_pieces(settings);
     EXPECT_EQ(evaluated(segmentation, settings), segmentation.pieces.size());

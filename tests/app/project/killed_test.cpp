@@ -37,7 +37,7 @@ TriangleMesh scan() {
 void make_project(const fs::path& folder) {
     fs::create_directories(folder);
     Project project;
-    project.scan = {"/a bone.ply", std::string(64, 'c'), Unit::mm, 1, {}, 0, volume_mm3(scan()), {}};
+    project.scan = {"/a bone.ply", Sha256{{0xcc}}, Unit::mm, 1, {}, 0, volume_mm3(scan()), {}};
     project.settings.candidates.offsets_per_normal = 3;
     project.history.weights_at_start = project.settings.objectives.weights;
     record(project, uncut(scan(), 0));

@@ -25,7 +25,7 @@ struct OpenedProject : ::testing::Test {
     void SetUp() override {
         fs::create_directories(folder);
         Project project;
-        project.scan = {"/a bone.ply", std::string(64, 'b'),  Unit::mm,         1,
+        project.scan = {"/a bone.ply", Sha256{{0xbb}},        Unit::mm,         1,
                         {7, 8, 9},     mesh.triangles.size(), volume_mm3(mesh), {"it is yellow"}};
         project.settings.candidates.offsets_per_normal = 5;
         project.settings.stop.min_cuts = 3;
@@ -40,7 +40,7 @@ struct OpenedProject : ::testing::Test {
     }
 
     // All of project.json but the history, and what stands by it.
-    std::string standing() const {
+    std::string committed() const {
         Project project = load_project(folder);
         EXPECT_EQ(bytes("project.json"), to_json(project));
         std::string text;
@@ -70,14 +70,14 @@ struct OpenedProject : ::testing::Test {
     std::vector<std::string> decide_much(OpenProject& project) const {
         std::vector<std::string> before;
         const auto step = [&](const std::function<void()>& decide) {
-            before.push_back(standing());
+            before.push_back(committed());
             decide();
         };
         step([&] { accept(project, 0); });
         step([&] { EXPECT_TRUE(project.decide_weights({1, 2, 3, 40})); });
         step([&] { accept(project, 4); });
         step([&] {
-            const std::size_t piece = *project.piece_named(project.segmentation().pieces.front().name);
+            const std::size_t piece = *piece_named(project.segmentation(), project.segmentation().pieces.front().name);
             const Vec3 c = bounds(*project.segmentation().pieces[piece].mesh).centre();
             const auto own = project.own_plane(piece, {{1, 0, 0}, c.x + 1}, {});
             ASSERT_TRUE(own);
@@ -85,7 +85,7 @@ struct OpenedProject : ::testing::Test {
         });
         step([&] { EXPECT_TRUE(project.decide_reset()); });
         step([&] { accept(project, 2); });
-        before.push_back(standing());
+        before.push_back(committed());
         return before;
     }
 };
@@ -99,13 +99,13 @@ TEST_F(OpenedProject, UndoOfEveryDecisionGivesTheExactProjectOfBeforeAndRedoRetu
     OpenProject project = open();  // undo and redo survive a reload
     for (std::size_t i = stood.size() - 1; i-- > 0;) {
         ASSERT_TRUE(project.undo());
-        EXPECT_EQ(standing(), stood[i]) << i;
+        EXPECT_EQ(committed(), stood[i]) << i;
     }
     EXPECT_FALSE(project.undo());
     OpenProject again = open();
     for (std::size_t i = 1; i < stood.size(); ++i) {
         ASSERT_TRUE(again.redo());
-        EXPECT_EQ(standing(), stood[i]) << i;
+        EXPECT_EQ(committed(), stood[i]) << i;
     }
     EXPECT_FALSE(again.redo());
 }
@@ -151,7 +151,7 @@ TEST_F(OpenedProject, ARankingCutsNothingAndChangesNothingButTheCache) {
     EXPECT_TRUE(fs::exists(folder / "cache"));
     OpenProject third = open();
     EXPECT_EQ(third.ranking(piece, {}), ranked);
-    EXPECT_EQ(third.book().evaluated_count(), 0U) << "another program need not evaluation again";
+    EXPECT_EQ(third.cache().evaluated_count(), 0U) << "another program need not evaluate again";
 }
 
 TEST_F(OpenedProject, AMissChangesNothing) {
@@ -207,7 +207,7 @@ TEST_F(OpenedProject, OutputsAreNeverStale) {
 TEST_F(OpenedProject, TheSearchGoesOnFromTheOperatorsCutsAndCanBeUndoneCutByCut) {
     OpenProject project = open();
     accept(project, 5);
-    const std::string stood = standing();
+    const std::string stood = committed();
     std::size_t rounds = 0;
     project.search(
         {}, [&](const Segmentation&) { ++rounds; }, {}, std::nullopt);
@@ -215,7 +215,7 @@ TEST_F(OpenedProject, TheSearchGoesOnFromTheOperatorsCutsAndCanBeUndoneCutByCut)
     EXPECT_EQ(load_project(folder).cuts.size(), 3U);
     project.undo();
     project.undo();
-    EXPECT_EQ(standing(), stood);
+    EXPECT_EQ(committed(), stood);
 }
 
 TEST_F(OpenedProject, ASearchThatIsStoppedKeepsWhatWasDecided) {
@@ -244,7 +244,7 @@ struct Course {
     std::map<std::string, std::string> end;
 };
 
-// A program that is killed leaves one of the saved files. Whoever goes on from it, and is killed again after each
+// A program that is killed leaves one of the saved files. A run that goes on from it, killed again after each
 // decision or not, ends with the bytes of the program that was never interrupted.
 TEST_F(OpenedProject, ASearchThatIsInterruptedEndsWithTheSameBytesForEveryWidth) {
     const auto search_on = [&](const std::function<void()>& on_round, const Context& context) {

@@ -36,8 +36,8 @@ TEST(Plan, WrittenAndReadAgainIsTheSamePlan) {
 TEST(Plan, IsInTheFrameOfTheFile) {
     const Plan plan = some_plan();
     EXPECT_EQ(plan.cuts.size(), 3U);
-    EXPECT_TRUE(looks_like_a_plan(to_text(plan)));
-    EXPECT_FALSE(looks_like_a_plan("solid"));
+    EXPECT_TRUE(has_plan_header(to_text(plan)));
+    EXPECT_FALSE(has_plan_header("solid"));
     const TriangleMesh mesh = shapes::linked_tori();
     for (const PlanCut& cut : plan.cuts) {
         EXPECT_NEAR(cut.plane.offset - height(cut.plane.normal, plan.scan.centre), cut.from_centre, 1e-12);

@@ -15,7 +15,7 @@ namespace qchopper::planned {
 // `mesh` is about its own centre, which lay at `centre` in the file.
 inline ScanSource source_of(const TriangleMesh& mesh, Vec3 centre) {
     const Bytes bytes = to_ply(mesh);
-    return {"/scans/bone.ply", to_hex(sha256(bytes)), Unit::mm, 1, centre, mesh.triangles.size(), volume_mm3(mesh), {}};
+    return {"/scans/bone.ply", sha256(bytes), Unit::mm, 1, centre, mesh.triangles.size(), volume_mm3(mesh), {}};
 }
 
 // Cut by the greedy search.
@@ -27,8 +27,8 @@ inline Project project_of(const TriangleMesh& mesh, Vec3 centre, int cuts) {
     project.settings.objectives.fragment_volume_mm3 = 1e-5 * project.scan.volume_mm3;
     project.history.weights_at_start = project.settings.objectives.weights;
     Segmentation segmentation = uncut(mesh, project.settings.objectives.fragment_volume_mm3);
-    EvaluationCache book(project.settings.objectives, project.settings.candidates);
-    search(segmentation, project.settings, book, {}, [](const Segmentation&) {}, {});
+    EvaluationCache cache(project.settings.objectives, project.settings.candidates);
+    search(segmentation, project.settings, cache, {}, [](const Segmentation&) {}, {});
     record(project, segmentation);
     return project;
 }

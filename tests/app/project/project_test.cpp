@@ -25,7 +25,7 @@ struct ProjectFolder : ::testing::Test {
 
 Project searched_project(const TriangleMesh& mesh, Segmentation& segmentation) {
     Project project;
-    project.scan = {"/scans/a bone.ply", std::string(64, 'a'), Unit::cm, 0.5, {1, 2.5, 1.0 / 3}, 12,
+    project.scan = {"/scans/a bone.ply", Sha256{{0xaa}},   Unit::cm, 0.5, {1, 2.5, 1.0 / 3}, 12,
                     volume_mm3(mesh),    {"scaled by 0.5"}};
     project.preset = "bunny";
     project.settings.candidates.offsets_per_normal = 5;
@@ -35,8 +35,8 @@ Project searched_project(const TriangleMesh& mesh, Segmentation& segmentation) {
     project.settings.stop.max_obb = Vec3{1, 2, 3};
     project.settings.stop.combine = Stop::any;
     segmentation = uncut(mesh, project.settings.objectives.fragment_volume_mm3);
-    EvaluationCache book(project.settings.objectives, project.settings.candidates);
-    search(segmentation, project.settings, book, {}, [](const Segmentation&) {}, {});
+    EvaluationCache cache(project.settings.objectives, project.settings.candidates);
+    search(segmentation, project.settings, cache, {}, [](const Segmentation&) {}, {});
     project.history.weights_at_start = project.settings.objectives.weights;
     record(project, segmentation);
     return project;
@@ -51,8 +51,8 @@ TEST_F(ProjectFolder, WhatIsSavedIsLoadedToTheLastBit) {
     Project decided = project;
     decide(decided.history, Reset{});
     decide(decided.history, WeightsChange{{1, 2, 3, 0.1}});
-    decided.history.standing = 1;
-    decided.cuts = standing_cuts(decided.history);
+    decided.history.committed = 1;
+    decided.cuts = committed_cuts(decided.history);
     decided.settings.beam = 7;
     decided.settings.near = 1.0 / 3;
     save_project(folder, decided);
@@ -89,11 +89,27 @@ TEST_F(ProjectFolder, EveryBrokenProjectFileIsOneClearError) {
     write_file(folder / "project.json", std::string_view("{\"schema\": \"other\"}"));
     EXPECT_THROW(load_project(folder), InputError);
     std::string too_many = text;
-    too_many.replace(too_many.find("\"standing\": "), 12, "\"standing\": 9");
+    too_many.replace(too_many.find("\"committed\": "), 13, "\"committed\": 9");
     write_file(folder / "project.json", too_many);
-    EXPECT_THROW(load_project(folder), InputError) << "more decisions stand than there are";
+    EXPECT_THROW(load_project(folder), InputError) << "more decisions are in force than there are";
     fs::remove(folder / "project.json");
     EXPECT_THROW(load_project(folder), InputError);
+}
+
+TEST_F(ProjectFolder, AMalformedHashIsRefused) {
+    Project project;
+    project.jobs = {{"A", Sha256{{0xaa}}, std::string(32, '0')}};
+    const std::string text = to_json(project);
+    EXPECT_EQ(project_from_json(text, "p"), project);
+    for (const Sha256& digest : {project.scan.sha256, project.jobs[0].sha256}) {
+        const std::size_t at = text.find(to_hex(digest));
+        ASSERT_NE(at, std::string::npos);
+        for (const char* other : {"g", "A", "", "00"}) {
+            std::string malformed = text;
+            malformed.replace(at, 1, other);
+            EXPECT_THROW(project_from_json(malformed, "p"), InputError) << other;
+        }
+    }
 }
 
 TEST_F(ProjectFolder, TheLockKeepsASecondWriterOut) {

@@ -35,8 +35,8 @@ Replayed replayed(const Plan& plan, const Scan& scan) {
     SearchSettings settings;
     settings.objectives.fragment_volume_mm3 = 1e-5 * source.volume_mm3;
     Replayed r{uncut(scan.mesh, settings.objectives.fragment_volume_mm3), {}, 0};
-    EvaluationCache book(settings.objectives, settings.candidates);
-    r.replay = replay_plan(plan, source, r.segmentation, settings, book, [&](const Segmentation&) { ++r.told; }, {});
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    r.replay = replay_plan(plan, source, r.segmentation, settings, cache, [&](const Segmentation&) { ++r.told; }, {});
     return r;
 }
 

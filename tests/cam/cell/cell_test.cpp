@@ -37,7 +37,7 @@ to = "127.0.0.1:15020"
 drop = "drop"
 )";
 
-// What read_cell says of the good file with one text replaced.
+// The error that read_cell throws for the good file with one text replaced.
 struct Refusal {
     std::string what;
     std::string to_do;

@@ -1,5 +1,5 @@
 #include "cam/job/job_file.h"
-#include "cam/job/sheet.h"
+#include "cam/job/setup_sheet.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <random>
 
 #include "base/error.h"
-#include "cam/job/zip.h"
+#include "base/zip.h"
 #include "segment/io/read_mesh.h"
 #include "tests/cam/job/some_job.h"
 
@@ -75,7 +75,7 @@ TEST(Job, WhatIsReadIsWhatWasWritten) {
     EXPECT_EQ(job.project_id, input.project_id);
     EXPECT_EQ(job.scan_sha256, input.scan_sha256);
     EXPECT_EQ(job.setup, input.setup);
-    EXPECT_EQ(job.bounds, input.piece.bounds);
+    EXPECT_EQ(job.half_spaces, input.piece.half_spaces);
     EXPECT_EQ(job.envelope, input.envelope);
     EXPECT_EQ(job.block_name, input.cell.stock[input.setup.stock].name);
     EXPECT_EQ(job.faces, input.piece.mesh->triangles.size());
@@ -148,7 +148,7 @@ TEST(Job, ACutOffFileIsRefusedAtEveryLength) {
     }
 }
 
-// Dates and rights too: what says nothing about the job is written in one way only.
+// Dates and rights too: what does not describe the job has only one form.
 TEST(Job, EveryDamagedByteIsFound) {
     const Bytes bytes = job_file(some_job(3));
     std::mt19937 random(3);
@@ -182,7 +182,7 @@ TEST(Job, TheTextsInsideHaveOneForm) {
     const auto cut = [](const std::string& text) { return text.substr(0, text.size() / 2); };
     EXPECT_NE(with(cut).find("is not JSON from byte"), std::string::npos) << with(cut);
     for (const auto& change : {std::function<std::string(std::string)>(compact), {twice}, {huge}, {deep}, {cut}}) {
-        EXPECT_EQ(with(change).find("json.exception"), std::string::npos) << "the library speaks";
+        EXPECT_EQ(with(change).find("json.exception"), std::string::npos) << "a message of the library";
     }
 }
 
@@ -213,7 +213,7 @@ TEST(Job, ForgedManifestsAreRefusedAndSayWhere) {
         {[](Json& j) { j["piece"]["number"] = 0; }, "number is not one of 1 to count"},
         {[](Json& j) { j["piece"]["number"] = 6; }, "number is not one of 1 to count"},
         {[](Json& j) { j["cell"]["id"] = 0; }, "id is the number of no cell"},
-        {[](Json& j) { j["bounds"] = nullptr; }, "bounds is not a list"},
+        {[](Json& j) { j["half_spaces"] = nullptr; }, "half_spaces is not a list"},
         {[](Json& j) { j["piece"]["volume_mm3"] = "much"; }, "volume_mm3"},
         {[](Json& j) { j["scan_sha256"] = "00"; }, "scan_sha256 is not 64"},
         {[](Json& j) {
@@ -250,7 +250,7 @@ TEST(Job, ForgedTicketsAreRefused) {
               std::string::npos);
     EXPECT_NE(refusal(forged("ticket.json", [](Json& j) { j["box"]["max"][0] = 1e10; })).find("box is out of range"),
               std::string::npos);
-    EXPECT_EQ(refusal(forged("ticket.json", [](Json&) {})), "taken") << "the forger itself does no harm";
+    EXPECT_EQ(refusal(forged("ticket.json", [](Json&) {})), "taken") << "forging without a change changes nothing";
 }
 
 TEST(Job, MissingAndForeignFilesAreRefused) {

@@ -40,7 +40,7 @@ TEST(Preview, AViewerSeesMetresWithTheTopUp) {
     EXPECT_NEAR(top.x, 0, 1e-12);
     EXPECT_NEAR(top.z, 0, 1e-12);
     const Vec3 front = seen(model.nodes[0], {0, -1, 0});
-    EXPECT_NEAR(front.z, 0.001, 1e-12) << "what lies before us looks at us";
+    EXPECT_NEAR(front.z, 0.001, 1e-12) << "the front of the piece faces the viewer";
 }
 
 TEST(Preview, TheNodeIsNamedAndCarriesNotes) {

@@ -18,7 +18,7 @@ inline JobInput some_job(int rings = 8) {
     input.piece_count = 5;
     input.program_version = "0.1.0";
     for (std::size_t i = 0; i < 16; ++i) input.project_id[i] = static_cast<std::uint8_t>(17 * i);
-    for (std::size_t i = 0; i < 32; ++i) input.scan_sha256[i] = static_cast<std::uint8_t>(255 - i);
+    for (std::size_t i = 0; i < 32; ++i) input.scan_sha256.bytes[i] = static_cast<std::uint8_t>(255 - i);
     input.cell = cell();
     input.setup = choose_setup(input.piece, input.cell);
     input.envelope = check_envelope(input.setup, input.cell);

@@ -35,7 +35,7 @@ TEST(Envelope, EveryMarginIsThatOfTheDrawing) {
         EXPECT_NEAR(margin.mm, wanted.at(margin.name), 1e-9) << margin.name;
     }
     EXPECT_TRUE(report.fits());
-    EXPECT_EQ(envelope_words("B", report), "piece B fits, tightest: piece in block, length 10 mm");
+    EXPECT_EQ(describe_envelope("B", report), "piece B fits, tightest: piece in block, length 10 mm");
 }
 
 TEST(Envelope, APieceThatFillsItsBlockFits) {
@@ -47,7 +47,8 @@ TEST(Envelope, APieceThatFillsItsBlockFits) {
 TEST(Envelope, ATooHighPieceIsNamedWithItsMargin) {
     const EnvelopeReport report = report_for({150, 150, 427}, cell());
     EXPECT_FALSE(report.fits());
-    EXPECT_EQ(envelope_words("B", report), "piece B does not fit: 32 mm too high for block tall (200 x 200 x 400 mm)");
+    EXPECT_EQ(describe_envelope("B", report),
+              "piece B does not fit: 32 mm too high for block tall (200 x 200 x 400 mm)");
 }
 
 TEST(Envelope, EachWallOfTheCellCanBeTheOneInTheWay) {
@@ -72,14 +73,15 @@ TEST(Envelope, EachWallOfTheCellCanBeTheOneInTheWay) {
         EXPECT_FALSE(report.fits()) << one.name;
         EXPECT_EQ(report.worst().name, one.name);
         EXPECT_NEAR(report.worst().mm, -1, 1e-9) << one.name;
-        EXPECT_NE(envelope_words("B", report).find("does not fit: 1 mm " + report.worst().problem), std::string::npos);
+        EXPECT_NE(describe_envelope("B", report).find("does not fit: 1 mm " + report.worst().problem),
+                  std::string::npos);
     }
 }
 
 TEST(Envelope, ATenthTooMuchIsNotCalledZero) {
     Cell in = cell();
     in.table.size_x = 99.9;
-    EXPECT_NE(envelope_words("B", report_for({80, 40, 30}, in)).find("0.1 mm of its block beyond the table"),
+    EXPECT_NE(describe_envelope("B", report_for({80, 40, 30}, in)).find("0.1 mm of its block beyond the table"),
               std::string::npos);
 }
 

@@ -12,23 +12,23 @@
 namespace qchopper {
 namespace {
 
-std::vector<FootPoint> cloud(std::mt19937& random, int count, bool on_grid) {
+std::vector<Point2> cloud(std::mt19937& random, int count, bool on_grid) {
     std::uniform_real_distribution<double> u(-5, 5);
-    std::vector<FootPoint> points;
+    std::vector<Point2> points;
     for (int i = 0; i < count; ++i) {
-        FootPoint p{u(random), 0.4 * u(random)};
-        if (on_grid) p = {std::round(p[0]), std::round(p[1])};
+        Point2 p{u(random), 0.4 * u(random)};
+        if (on_grid) p = {std::round(p.x), std::round(p.y)};
         points.push_back(p);
     }
     return points;
 }
 
-Rectangle around(const std::vector<FootPoint>& points, FootPoint u) {
+Rectangle around(const std::vector<Point2>& points, Point2 u) {
     const double most = 1e300;
     double low[2] = {most, most};
     double high[2] = {-most, -most};
-    for (const FootPoint& p : points) {
-        const double at[2] = {u[0] * p[0] + u[1] * p[1], -u[1] * p[0] + u[0] * p[1]};
+    for (const Point2& p : points) {
+        const double at[2] = {u.x * p.x + u.y * p.y, -u.y * p.x + u.x * p.y};
         for (int k = 0; k < 2; ++k) {
             low[k] = std::min(low[k], at[k]);
             high[k] = std::max(high[k], at[k]);
@@ -40,14 +40,14 @@ Rectangle around(const std::vector<FootPoint>& points, FootPoint u) {
 TEST(Footprint, HullHoldsAllPointsAndTurnsOneWay) {
     std::mt19937 random(1);
     for (int round = 0; round < 300; ++round) {
-        const std::vector<FootPoint> points = cloud(random, 3 + round % 60, round % 2 == 0);
-        const std::vector<FootPoint> hull = convex_hull(points);
+        const std::vector<Point2> points = cloud(random, 3 + round % 60, round % 2 == 0);
+        const std::vector<Point2> hull = convex_hull(points);
         if (hull.size() < 3) continue;
         for (std::size_t i = 0; i < hull.size(); ++i) {
-            const FootPoint a = hull[i];
-            const FootPoint b = hull[(i + 1) % hull.size()];
-            for (const FootPoint& p : points) {
-                EXPECT_GE((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]), -1e-9);
+            const Point2 a = hull[i];
+            const Point2 b = hull[(i + 1) % hull.size()];
+            for (const Point2& p : points) {
+                EXPECT_GE((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x), -1e-9);
             }
         }
     }
@@ -56,10 +56,10 @@ TEST(Footprint, HullHoldsAllPointsAndTurnsOneWay) {
 TEST(Footprint, NoTurnHasASmallerRectangle) {
     std::mt19937 random(2);
     for (int round = 0; round < 200; ++round) {
-        const std::vector<FootPoint> points = cloud(random, 3 + round % 40, round % 2 == 0);
+        const std::vector<Point2> points = cloud(random, 3 + round % 40, round % 2 == 0);
         const Rectangle best = smallest_rectangle(points);
         const Rectangle checked = around(points, best.along);
-        EXPECT_NEAR(checked.length, best.length, 1e-9) << "it is the rectangle that it says";
+        EXPECT_NEAR(checked.length, best.length, 1e-9) << "the sizes are those of the rectangle along `along`";
         EXPECT_NEAR(checked.width, best.width, 1e-9);
         EXPECT_GE(best.length, best.width);
         for (int turn = 0; turn < 720; ++turn) {
@@ -73,14 +73,14 @@ TEST(Footprint, ATurnedRectangleIsFoundExactly) {
     for (const double angle : {0.0, 0.1, 0.7, 1.5, 2.9}) {
         const double c = std::cos(angle);
         const double s = std::sin(angle);
-        std::vector<FootPoint> points;
-        for (const FootPoint p : std::vector<FootPoint>{{0, 0}, {7, 0}, {7, 2}, {0, 2}, {3, 1}}) {
-            points.push_back({c * p[0] - s * p[1], s * p[0] + c * p[1]});
+        std::vector<Point2> points;
+        for (const Point2 p : std::vector<Point2>{{0, 0}, {7, 0}, {7, 2}, {0, 2}, {3, 1}}) {
+            points.push_back({c * p.x - s * p.y, s * p.x + c * p.y});
         }
         const Rectangle best = smallest_rectangle(points);
         EXPECT_NEAR(best.length, 7, 1e-12);
         EXPECT_NEAR(best.width, 2, 1e-12);
-        EXPECT_NEAR(std::abs(best.along[0] * c + best.along[1] * s), 1, 1e-12);
+        EXPECT_NEAR(std::abs(best.along.x * c + best.along.y * s), 1, 1e-12);
     }
 }
 
@@ -90,11 +90,11 @@ TEST(Footprint, PointsInLineAndASinglePointHaveNoWidth) {
     const Rectangle line = smallest_rectangle({{0, 0}, {3, 4}, {1.5, 2}, {0, 0}});
     EXPECT_DOUBLE_EQ(line.length, 5);
     EXPECT_EQ(line.width, 0);
-    EXPECT_DOUBLE_EQ(line.along[0], 0.6);
+    EXPECT_DOUBLE_EQ(line.along.x, 0.6);
 }
 
 TEST(Footprint, AHullOfManyPointsIsTurnedAroundOnce) {
-    std::vector<FootPoint> circle;
+    std::vector<Point2> circle;
     for (int i = 0; i < 200000; ++i) {
         const double angle = 2 * std::numbers::pi * i / 200000;
         circle.push_back({std::cos(angle), std::sin(angle)});
@@ -102,7 +102,7 @@ TEST(Footprint, AHullOfManyPointsIsTurnedAroundOnce) {
     EXPECT_NEAR(smallest_rectangle(circle).area(), 4, 1e-6);
 }
 
-TEST(Footprint, ShadowLeavesHolesOut) {
+TEST(Footprint, ProjectedAreaLeavesHolesOut) {
     const TriangleMesh torus = shapes::torus({5, 5, 5}, 10, 3, 96);
     const double ring = std::numbers::pi * (13 * 13 - 7 * 7);
     EXPECT_NEAR(projected_area_mm2(torus, {0, 0, 1}), ring, 0.01 * ring);
@@ -111,7 +111,7 @@ TEST(Footprint, ShadowLeavesHolesOut) {
     EXPECT_NEAR(projected_area_mm2(torus, {1, 0, 0}), edge_on, 0.01 * edge_on);
 }
 
-TEST(Footprint, ShadowOfABoxFromAnySide) {
+TEST(Footprint, ProjectedAreaOfABoxFromAnySide) {
     const TriangleMesh box = shapes::box({0, 0, 0}, {3, 40, 700});
     std::mt19937 random(5);
     std::normal_distribution<double> gauss;

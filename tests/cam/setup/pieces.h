@@ -55,11 +55,11 @@ inline std::vector<Piece> cut_shapes() {
 inline Piece rotated(const Piece& piece, Vec3 axis, double angle_rad, Vec3 shift) {
     Piece turned = piece;
     turned.mesh = std::make_shared<TriangleMesh>(shapes::moved(shapes::rotated(*piece.mesh, axis, angle_rad), shift));
-    for (Bound& bound : turned.bounds) {
+    for (HalfSpace& half_space : turned.half_spaces) {
         TriangleMesh normal;
-        normal.points = {bound.plane.normal};
-        bound.plane.normal = shapes::rotated(normal, axis, angle_rad).points[0];
-        bound.plane.offset += dot(bound.plane.normal, shift);
+        normal.points = {half_space.plane.normal};
+        half_space.plane.normal = shapes::rotated(normal, axis, angle_rad).points[0];
+        half_space.plane.offset += dot(half_space.plane.normal, shift);
     }
     return turned;
 }

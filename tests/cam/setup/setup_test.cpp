@@ -17,7 +17,7 @@ using namespace test_pieces;
 // qchopper::Setup in full below: a test is a class that has a Setup of its own.
 
 // Undercut as the specification prints it, triangle by triangle, with nothing shared with the module under test.
-double undercut_by_hand(const Piece& piece, const Bound& base) {
+double undercut_by_hand(const Piece& piece, const HalfSpace& base) {
     const TriangleMesh& mesh = *piece.mesh;
     double below = 0;
     double all = 0;
@@ -74,19 +74,19 @@ TEST(Setup, TheBaseIsTheCapWithTheLeastUndercutThatCarries) {
     int with_base = 0;
     for (const Piece& piece : cut_shapes()) {
         const qchopper::Setup setup = choose_setup(piece, cell());
-        const bool any = std::any_of(piece.bounds.begin(), piece.bounds.end(),
-                                     [&](const Bound& bound) { return owns(piece, bound.cut); });
+        const bool any = std::any_of(piece.half_spaces.begin(), piece.half_spaces.end(),
+                                     [&](const HalfSpace& half_space) { return owns(piece, half_space.cut); });
         ASSERT_EQ(setup.base.has_value(), any) << piece.name;
         if (!any) continue;
         ++with_base;
-        for (const Bound& bound : piece.bounds) {
-            if (!owns(piece, bound.cut)) continue;
-            const double by_hand = undercut_by_hand(piece, bound);
-            if (bound.cut == *setup.base) {
+        for (const HalfSpace& half_space : piece.half_spaces) {
+            if (!owns(piece, half_space.cut)) continue;
+            const double by_hand = undercut_by_hand(piece, half_space);
+            if (half_space.cut == *setup.base) {
                 EXPECT_NEAR(setup.undercut, by_hand, 1e-12) << piece.name;
-                EXPECT_EQ(setup.up, bound.up());
+                EXPECT_EQ(setup.up, half_space.up());
             }
-            const double base_mm2 = facing(*piece.mesh, bound.up(), bound.cut).base;
+            const double base_mm2 = facing(*piece.mesh, half_space.up(), half_space.cut).base;
             if (setup.base_is_stable && base_mm2 > 0.5 * setup.projected_area_mm2) {
                 EXPECT_LE(setup.undercut, by_hand + 1e-9) << piece.name;
             }
@@ -156,9 +156,9 @@ TEST(Setup, ATieGoesToTheLowerCut) {
     EXPECT_EQ(choose_setup(piece, cell()).base, 2);
 }
 
-TEST(Setup, ABoundWhoseCapIsGoneIsNoBase) {
+TEST(Setup, AHalfSpaceWhoseCapIsGoneIsNoBase) {
     Piece piece = standing_box({0, 0, 0}, {10, 10, 10}, 3);
-    piece.bounds.insert(piece.bounds.begin(), Bound{1, {{0, 0, 1}, -5}, true});
+    piece.half_spaces.insert(piece.half_spaces.begin(), HalfSpace{1, {{0, 0, 1}, -5}, true});
     EXPECT_EQ(choose_setup(piece, cell()).base, 3);
 }
 
@@ -168,7 +168,7 @@ TEST(Setup, ABaseThatCannotCarryIsPassedOverOrTakenWithAWarning) {
     const auto halves = cut_piece(whole, {{0, 0, 1}, 54.321}, 0);
     ASSERT_TRUE(halves && halves->pieces.size() == 2);
     const Piece& stump = halves->pieces[1];
-    ASSERT_FALSE(stump.bounds[0].above);
+    ASSERT_FALSE(stump.half_spaces[0].above);
     const qchopper::Setup on_tip = choose_setup(stump, cell());
     EXPECT_EQ(on_tip.base, 0);
     EXPECT_FALSE(on_tip.base_is_stable);

@@ -12,21 +12,21 @@ using namespace test_pieces;
 TEST(Undercut, OnAClosedPieceUpIsDownAndBase) {
     int bases = 0;
     for (const Piece& piece : cut_shapes()) {
-        for (const Bound& bound : piece.bounds) {
-            const Facing sums = facing(*piece.mesh, bound.up(), bound.cut);
+        for (const HalfSpace& half_space : piece.half_spaces) {
+            const Facing sums = facing(*piece.mesh, half_space.up(), half_space.cut);
             EXPECT_NEAR(sums.up, sums.down + sums.base, 1e-9 * area_mm2(*piece.mesh)) << piece.name;
             if (sums.base_triangles == 0) continue;
             ++bases;
             EXPECT_LT(sums.undercut(), 0.5);
         }
         const Facing without = facing(*piece.mesh, {0, 0, 1}, std::nullopt);
-        EXPECT_NEAR(without.undercut(), 0.5, 1e-9) << "with the base counted the share says nothing";
+        EXPECT_NEAR(without.undercut(), 0.5, 1e-9) << "with the base counted the share is always one half";
     }
     EXPECT_GT(bases, 20);
 }
 
-// A table top on a leg: the leg and all below the top are out of sight.
-TEST(Undercut, WhatStandsBelowIsHidden) {
+// A table top on a leg: the leg and all below the top are occluded.
+TEST(Undercut, WhatStandsBelowIsOccluded) {
     const TriangleMesh leg = shapes::box({1, 1, 0}, {2, 2, 1});
     const TriangleMesh top = shapes::box({0, 0, 2}, {3, 3, 3});
     const TriangleMesh both = shapes::joined({leg, top});
@@ -35,14 +35,14 @@ TEST(Undercut, WhatStandsBelowIsHidden) {
     EXPECT_NEAR(occluded_area_ratio(both, rays, {0, 0, -1}, std::nullopt), (1.0 + 9) / (6 + 30), 0.2);
 }
 
-TEST(Undercut, TheBaseIsNeverHidden) {
+TEST(Undercut, TheBaseIsNeverOccluded) {
     const Piece piece = standing_box({0, 0, 0}, {3, 4, 5}, 0, 3);
     const RayTree rays(*piece.mesh);
     EXPECT_EQ(occluded_area_ratio(*piece.mesh, rays, {0, 0, 1}, 0), 0);
     EXPECT_NEAR(occluded_area_ratio(*piece.mesh, rays, {0, 0, 1}, std::nullopt), 12.0 / 94, 1e-9);
 }
 
-TEST(Undercut, HalfOfABallIsHidden) {
+TEST(Undercut, HalfOfABallIsOccluded) {
     const TriangleMesh ball = shapes::ball({100, 200, 3000}, 50, 40);
     const RayTree rays(ball);
     for (const Vec3 up : {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{0.6, 0, 0.8}}) {

@@ -34,6 +34,13 @@ struct Drawing {
     }
 };
 
+// The caps of all loops, and the number of their regions.
+std::pair<CapTriangles, std::size_t> caps_of(const Drawing& d) {
+    const std::vector<Loop> loops = capped(d.loops);
+    const std::vector<CapRegion> regions = nest(d.points, loops);
+    return {triangulate_regions(d.points, loops, regions), regions.size()};
+}
+
 // Every loop edge belongs to one triangle, every other edge to two that run it in opposite directions.
 void expect_closes(const Drawing& d, const std::vector<std::array<std::uint32_t, 3>>& triangles, const char* what) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
@@ -77,8 +84,8 @@ TEST(Cap, RingsInRingsBecomeRegionsWithHoles) {
     d.circle({10, 0}, 20, 16);
     d.circle({10, 0}, -10, 9);
     d.circle({200, 0}, 10, 12);
-    const CapTriangles caps = triangulate_caps(d.points, d.loops);
-    EXPECT_EQ(caps.regions, 3U);
+    const auto [caps, regions] = caps_of(d);
+    EXPECT_EQ(regions, 3U);
     EXPECT_EQ(caps.forced_regions, 0U);
     EXPECT_EQ(caps.triangles.size(), expected_triangles(d, 3));
     EXPECT_NEAR(covered(d, caps.triangles), drawn(d), 1e-9);
@@ -103,7 +110,7 @@ TEST(Cap, EarsAgreeWithTheDelaunayTriangulationOnSimpleRegions) {
                      3 + static_cast<int>(random() % 6));
         }
         const auto ears = clip_ears(d.points, d.loops[0], std::span(d.loops).subspan(1));
-        const CapTriangles caps = triangulate_caps(d.points, d.loops);
+        const auto [caps, regions] = caps_of(d);
         ASSERT_EQ(caps.forced_regions, 0U);
         ASSERT_EQ(ears.size(), caps.triangles.size());
         ASSERT_EQ(ears.size(), expected_triangles(d, 1));
@@ -127,8 +134,8 @@ TEST(Cap, LoopsThatCrossThemselvesOrEachOtherStillClose) {
             }
             d.loop(scribble);
         }
-        const CapTriangles caps = triangulate_caps(d.points, d.loops);
-        ASSERT_EQ(caps.triangles.size(), expected_triangles(d, caps.regions));
+        const auto [caps, regions] = caps_of(d);
+        ASSERT_EQ(caps.triangles.size(), expected_triangles(d, regions));
         ASSERT_NEAR(covered(d, caps.triangles), drawn(d), 1e-6);
         expect_closes(d, caps.triangles, "scribble");
     }
@@ -139,8 +146,8 @@ TEST(Cap, APointOnAnotherLoopsEdgeAndPointsInOnePlaceStillClose) {
     d.loop({{0, 0}, {10, 0}, {10, 10}, {0, 10}});
     d.loop({{5, 0}, {4, 4}, {6, 4}});  // touches the outer edge from inside: collinear, clockwise
     d.loop({{20, 0}, {30, 0}, {30, 0}, {30, 10}, {20, 10}});
-    const CapTriangles caps = triangulate_caps(d.points, d.loops);
-    EXPECT_EQ(caps.regions, 2U);
+    const auto [caps, regions] = caps_of(d);
+    EXPECT_EQ(regions, 2U);
     EXPECT_EQ(caps.triangles.size(), expected_triangles(d, 2));
     EXPECT_NEAR(covered(d, caps.triangles), drawn(d), 1e-9);
     expect_closes(d, caps.triangles, "touching");

@@ -50,10 +50,10 @@ std::size_t expect_invariants(const Piece& piece, const Plane& plane, const std:
     std::size_t faces = 0;
     for (const Piece& p : pieces->pieces) {
         EXPECT_TRUE(edges(*p.mesh).faults.is_closed()) << what;
-        EXPECT_EQ(p.bounds.back().cut, 7) << what;
+        EXPECT_EQ(p.half_spaces.back().cut, 7) << what;
         const Extent range = extent(*p.mesh, plane.normal);
         const double slack = 1e-9 * (size + std::abs(plane.offset));
-        if (p.bounds.back().above)
+        if (p.half_spaces.back().above)
             EXPECT_GE(range.low, plane.offset - slack) << what;
         else
             EXPECT_LE(range.high, plane.offset + slack) << what;
@@ -82,8 +82,8 @@ TEST(Cut, RandomPlanesOnEveryShapeKeepTheInvariants) {
     }
 }
 
-// Planes asked exactly through vertices, through edges' middles and along flat faces, in the axes' directions, in the
-// faces' directions and in random ones.
+// Offsets wanted exactly through vertices, through middles of edges and along flat faces, with normals along the axes,
+// of faces and at random.
 TEST(Cut, PlanesThroughVerticesEdgesAndFlatRegionsKeepTheInvariants) {
     std::mt19937 random(2);
     std::size_t cuts = 0;
@@ -110,7 +110,7 @@ TEST(Cut, PlanesThroughVerticesEdgesAndFlatRegionsKeepTheInvariants) {
     EXPECT_GT(cuts, 500U);
 }
 
-TEST(Cut, PiecesOfPiecesKeepTheInvariantsAndTheirBounds) {
+TEST(Cut, PiecesOfPiecesKeepTheInvariantsAndTheirHalfSpaces) {
     std::mt19937 random(5);
     for (const auto& [name, mesh, solids] : shapes::all_closed()) {
         std::vector<Piece> pieces{piece_of(mesh)};
@@ -133,19 +133,19 @@ TEST(Cut, PiecesOfPiecesKeepTheInvariantsAndTheirBounds) {
         for (const Piece& p : pieces) {
             sum += volume_mm3(*p.mesh);
             EXPECT_TRUE(edges(*p.mesh).faults.is_closed()) << name;
-            for (const Bound& bound : p.bounds) {  // the piece lies on its side of every bound
-                const Extent range = extent(*p.mesh, bound.plane.normal);
-                const double slack = 1e-9 * (std::abs(bound.plane.offset) + range.size());
-                if (bound.above)
-                    EXPECT_GE(range.low, bound.plane.offset - slack);
+            for (const HalfSpace& half_space : p.half_spaces) {  // the piece lies in every one of its half-spaces
+                const Extent range = extent(*p.mesh, half_space.plane.normal);
+                const double slack = 1e-9 * (std::abs(half_space.plane.offset) + range.size());
+                if (half_space.above)
+                    EXPECT_GE(range.low, half_space.plane.offset - slack);
                 else
-                    EXPECT_LE(range.high, bound.plane.offset + slack);
+                    EXPECT_LE(range.high, half_space.plane.offset + slack);
             }
             for (std::size_t t = 0; t < p.mesh->triangles.size(); ++t) {
                 const std::int32_t cap = p.mesh->cap_of[t];
                 if (cap == no_cap) continue;
-                EXPECT_TRUE(
-                    std::any_of(p.bounds.begin(), p.bounds.end(), [&](const Bound& b) { return b.cut == cap; }));
+                EXPECT_TRUE(std::any_of(p.half_spaces.begin(), p.half_spaces.end(),
+                                        [&](const HalfSpace& half_space) { return half_space.cut == cap; }));
             }
         }
         EXPECT_NEAR(sum / whole, 1, 1e-9) << name;
@@ -154,8 +154,9 @@ TEST(Cut, PiecesOfPiecesKeepTheInvariantsAndTheirBounds) {
 
 TEST(Cut, ATorusAcrossItsAxisFallsIntoTwoAndAlongItIntoRings) {
     const Piece torus = piece_of(shapes::torus({0, 0, 0}, 40, 12, 24));
-    EXPECT_EQ(expect_invariants(torus, {{1, 0, 0}, 0.37}, "across"), 2U);
-    EXPECT_EQ(cut(*torus.mesh, {{1, 0, 0}, 0.37}, 1)->loops, 2U);
+    const Plane across{{1, 0, 0}, 0.37};
+    EXPECT_EQ(expect_invariants(torus, across, "across"), 2U);
+    EXPECT_EQ(cut(*torus.mesh, across, 1)->loops, 2U);
     EXPECT_EQ(expect_invariants(torus, {{0, 0, 1}, 0.37}, "along"), 2U);
     EXPECT_EQ(expect_invariants(torus, {{1, 0, 0}, 35}, "a corner of the ring"), 2U);
     const Piece bent = piece_of(shapes::torus({0, 0, 0}, 40, 12, 24));

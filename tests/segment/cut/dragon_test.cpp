@@ -1,5 +1,5 @@
-// The natural torture test: a real scan of 871,306 faces with some two hundred pairs of faces that pass through each
-// other. Its pieces must be closed on every plane all the same.
+// A real scan of 871,306 faces with some two hundred pairs of faces that intersect. Its halves must be closed on every
+// plane all the same.
 
 #include <gtest/gtest.h>
 

@@ -37,20 +37,20 @@ TEST(Nudge, StaysInTheWindowAndLeavesNoVertexOnThePlane) {
 
 TEST(Nudge, AtAFlatRegionTheSmallerCapWins) {
     const Piece stairs = piece_of(shapes::stairs());
-    // The treads at z = 10 and z = 20 look up: just above them the section is smaller.
+    // The treads at z = 10 and z = 20 face up: just above them the section is smaller.
     EXPECT_GT(nudge_one(stairs, {0, 0, 1}, 10)->offset, 10);
     EXPECT_GT(nudge_one(stairs, {0, 0, 1}, 20)->offset, 20);
-    // Turned over they look down: just below them it is smaller.
+    // Upside down they face down: just below them it is smaller.
     const Piece turned = piece_of(shapes::rotated(shapes::stairs(), {1, 0, 0}, 3.14159265358979323846));
     EXPECT_LT(nudge_one(turned, {0, 0, 1}, -10)->offset, -10 + 1e-9);
-    // A riser looks towards -x: the section just before it is smaller.
+    // A riser faces towards -x: the section just before it is smaller.
     EXPECT_LT(nudge_one(stairs, {1, 0, 0}, 10)->offset, 10);
     const double at = nudge_one(stairs, {0, 0, 1}, 10)->offset;
     const auto halves = cut(*stairs.mesh, {{0, 0, 1}, at}, 1);
     EXPECT_NEAR(halves->cap_area_mm2, 20 * 30, 1e-6);
 }
 
-// An offset that was typed, or read in float32, lies a little beside the flat region that it means. Beside the region
+// An offset that was typed, or read as float32, lies a little beside the flat region intended. Beside the region
 // by up to 1e-9 of the extent, on either side, in either orientation: the smaller cap wins as on the region itself.
 TEST(Nudge, BesideAFlatRegionByABillionthOfTheExtentIsOnIt) {
     for (const bool is_turned : {false, true}) {
@@ -97,7 +97,7 @@ TEST(Nudge, EndsAndCapsAreMissed) {
     for (const Piece& piece : made->pieces) EXPECT_FALSE(nudge_one(piece, {0, 0, 1}, 3.3));
 }
 
-TEST(Nudge, ManyOffsetsAtOnceAreAnsweredAsOneByOne) {
+TEST(Nudge, ManyOffsetsAtOnceGiveTheResultsOfEachAlone) {
     const Piece piece = piece_of(shapes::linked_tori());
     std::vector<double> wanted;
     for (int i = 40; i > 0; --i) wanted.push_back(-70 + 3.1 * i);

@@ -33,12 +33,12 @@ struct TemporaryFile {
     TemporaryFile& operator=(const TemporaryFile&) = delete;
 };
 
-ImportedScan taken(const TriangleMesh& mesh, const ImportOptions& options = {1, 1}) {
+ImportedScan imported_from(const TriangleMesh& mesh, const ImportOptions& options = {1, 1}) {
     return import_scan(TemporaryFile(to_ply(mesh)).path, options);
 }
 
 std::string refused(const TriangleMesh& mesh) {
-    return refusal([&] { taken(mesh); });
+    return refusal([&] { imported_from(mesh); });
 }
 
 bool has_warning(const ImportReport& report, const std::string& words) {
@@ -49,7 +49,7 @@ bool has_warning(const ImportReport& report, const std::string& words) {
 TEST(ImportedScan, EveryClosedShapeComesOutAsItWentIn) {
     for (const shapes::Named& shape : shapes::all_closed()) {
         const TriangleMesh mesh = shapes::moved(shape.mesh, {1000, -2000, 500});
-        const ImportedScan imported = taken(mesh);
+        const ImportedScan imported = imported_from(mesh);
         EXPECT_EQ(imported.mesh.triangles, mesh.triangles) << shape.name;
         EXPECT_TRUE(edges(imported.mesh).faults.is_closed()) << shape.name;
         EXPECT_NEAR(norm(bounds(imported.mesh).centre()), 0, 1e-9) << shape.name;
@@ -65,7 +65,7 @@ TEST(ImportedScan, EveryClosedShapeComesOutAsItWentIn) {
 
 TEST(ImportedScan, FormatDoesNotMatter) {
     const TriangleMesh ball = shapes::ball({5, 5, 5}, 50, 20);
-    const ImportedScan from_ply = taken(ball);
+    const ImportedScan from_ply = imported_from(ball);
     const ImportedScan from_stl = import_scan(TemporaryFile(to_stl(ball)).path, {1, 1});
     EXPECT_EQ(from_stl.mesh.triangles.size(), from_ply.mesh.triangles.size());
     EXPECT_EQ(from_stl.mesh.points.size(), from_ply.mesh.points.size());
@@ -74,19 +74,19 @@ TEST(ImportedScan, FormatDoesNotMatter) {
 
 TEST(ImportedScan, UnitsAndScaleEnlarge) {
     const TriangleMesh box = shapes::box({1, 1, 1}, {2, 3, 4});
-    const ImportedScan inches = taken(box, {mm_per(unit_named("in")), 1});
+    const ImportedScan inches = imported_from(box, {mm_per(unit_named("in")), 1});
     EXPECT_NEAR(volume_mm3(inches.mesh), 6 * 25.4 * 25.4 * 25.4, 1e-6);
     EXPECT_FALSE(has_warning(inches.report, "--scale"));
-    const ImportedScan twice = taken(box, {mm_per(unit_named("cm")), 2});
+    const ImportedScan twice = imported_from(box, {mm_per(unit_named("cm")), 2});
     EXPECT_NEAR(volume_mm3(twice.mesh), 6 * 8000, 1e-6);
     EXPECT_TRUE(has_warning(twice.report, "--scale"));
     EXPECT_EQ(twice.centre, (Vec3{30, 40, 50}));
 }
 
 TEST(ImportedScan, WarnsOfAnUnlikelySize) {
-    EXPECT_TRUE(has_warning(taken(shapes::box({0, 0, 0}, {1, 1, 1})).report, "--units"));
-    EXPECT_TRUE(has_warning(taken(shapes::box({0, 0, 0}, {1, 1, 1}), {1e5, 1}).report, "--units"));
-    EXPECT_FALSE(has_warning(taken(shapes::box({0, 0, 0}, {1, 1, 1}), {1000, 1}).report, "--units"));
+    EXPECT_TRUE(has_warning(imported_from(shapes::box({0, 0, 0}, {1, 1, 1})).report, "--units"));
+    EXPECT_TRUE(has_warning(imported_from(shapes::box({0, 0, 0}, {1, 1, 1}), {1e5, 1}).report, "--units"));
+    EXPECT_FALSE(has_warning(imported_from(shapes::box({0, 0, 0}, {1, 1, 1}), {1000, 1}).report, "--units"));
 }
 
 TEST(ImportedScan, UnitsHaveNames) {
@@ -110,7 +110,7 @@ TEST(ImportedScan, RefusesImpossibleScales) {
     for (const ImportOptions& options :
          {ImportOptions{0, 1}, ImportOptions{1, -1}, ImportOptions{1, std::nan("")}, ImportOptions{1e300, 1e300}}) {
         try {
-            taken(box, options);
+            imported_from(box, options);
             ADD_FAILURE();
         } catch (const InputError& error) {
             EXPECT_EQ(error.fault, InputFault::use);
@@ -123,12 +123,12 @@ TEST(ImportedScan, TurnsWhatIsInsideOutAndKeepsCavities) {
         shapes::joined({shapes::box({0, 0, 0}, {9, 9, 9}), shapes::turned_inside_out(shapes::ball({4, 4, 4}, 2)),
                         shapes::ball({20, 4, 4}, 3)});
     const double volume = volume_mm3(hollow);
-    const ImportedScan kept = taken(hollow);
+    const ImportedScan kept = imported_from(hollow);
     EXPECT_EQ(kept.report.repair.shells_turned, 0U);
     EXPECT_EQ(kept.report.repair.cavities, 1U);
     EXPECT_NEAR(volume_mm3(kept.mesh), volume, 1e-9 * volume);
 
-    const ImportedScan turned = taken(shapes::turned_inside_out(hollow));
+    const ImportedScan turned = imported_from(shapes::turned_inside_out(hollow));
     EXPECT_EQ(turned.report.repair.shells_turned, 3U);
     EXPECT_EQ(turned.report.repair.cavities, 1U);
     EXPECT_NEAR(volume_mm3(turned.mesh), volume, 1e-9 * volume);
@@ -137,14 +137,14 @@ TEST(ImportedScan, TurnsWhatIsInsideOutAndKeepsCavities) {
 
 TEST(ImportedScan, WarnsOfSolidsInSolids) {
     const ImportedScan imported =
-        taken(shapes::joined({shapes::box({0, 0, 0}, {90, 90, 90}), shapes::ball({40, 40, 40}, 20)}));
+        imported_from(shapes::joined({shapes::box({0, 0, 0}, {90, 90, 90}), shapes::ball({40, 40, 40}, 20)}));
     EXPECT_EQ(imported.report.repair.shells_turned, 0U);
     EXPECT_TRUE(has_warning(imported.report, "overlaps itself"));
 }
 
 TEST(ImportedScan, SplitsSurfacesThatOnlyTouch) {
     const ImportedScan imported =
-        taken(shapes::joined({shapes::box({0, 0, 0}, {10, 10, 10}), shapes::box({10, 10, 10}, {20, 20, 20})}));
+        imported_from(shapes::joined({shapes::box({0, 0, 0}, {10, 10, 10}), shapes::box({10, 10, 10}, {20, 20, 20})}));
     EXPECT_EQ(imported.report.repair.welded, 1U);
     EXPECT_EQ(imported.report.repair.points_copied, 1U);
     EXPECT_EQ(imported.report.repair.shells, 2U);
@@ -158,7 +158,7 @@ TEST(ImportedScan, ClosesHolesThatTouch) {
         const bool second = middle.x > 20 && middle.x < 30 && middle.y > 20 && middle.y < 30;
         return middle.z == 40 && (first || second);
     });
-    const ImportedScan imported = taken(box);
+    const ImportedScan imported = imported_from(box);
     EXPECT_EQ(imported.report.repair.points_copied, 1U);
     EXPECT_EQ(imported.report.repair.holes_filled, 1U);  // the two have become one
     EXPECT_EQ(imported.report.repair.faces_added, 4U);
@@ -166,19 +166,19 @@ TEST(ImportedScan, ClosesHolesThatTouch) {
     EXPECT_TRUE(has_warning(imported.report, "1 hole closed"));
 }
 
-TEST(ImportedScan, RefusesWhatIsNoSolidAndSaysWhere) {
+TEST(ImportedScan, RefusesWhatIsNoSolidWithThePlace) {
     const TriangleMesh box = shapes::moved(shapes::box({0, 0, 0}, {10, 10, 10}, 2), {100, 0, 0});
     TriangleMesh fin = box;
     const Triangle side = box.triangles[0];
     fin.points.push_back({130, 0, 20});
     fin.triangles.push_back({side[0], side[1], static_cast<std::uint32_t>(fin.points.size() - 1)});
     const std::string large_fin = refused(fin);
-    EXPECT_NE(large_fin.find("1 part of it is a sheet"), std::string::npos) << large_fin;
+    EXPECT_NE(large_fin.find("1 open component encloses nothing"), std::string::npos) << large_fin;
     EXPECT_NE(large_fin.find("the first around (1"), std::string::npos) << large_fin;  // the file's coordinates
 
-    TriangleMesh sheet = box;
-    sheet.triangles.resize(1);
-    EXPECT_NE(refused(sheet).find("open"), std::string::npos);
+    TriangleMesh open_component = box;
+    open_component.triangles.resize(1);
+    EXPECT_NE(refused(open_component).find("open"), std::string::npos);
 
     TriangleMesh line = box;
     line.triangles = {{0, 1, 0}, {1, 1, 1}};
@@ -187,11 +187,11 @@ TEST(ImportedScan, RefusesWhatIsNoSolidAndSaysWhere) {
     EXPECT_NE(refused(shapes::moved(box, {1e300, 0, 0})).find("100 000 km"), std::string::npos);
 }
 
-TEST(ImportedScan, MendsEdgesThatAreNoSolids) {
+TEST(ImportedScan, RepairsEdgesThatAreNotManifold) {
     const TriangleMesh box = shapes::box({0, 0, 0}, {10, 10, 10}, 2);
     TriangleMesh turned = box;
     std::swap(turned.triangles[3][0], turned.triangles[3][1]);
-    const ImportedScan agreeing = taken(turned);
+    const ImportedScan agreeing = imported_from(turned);
     EXPECT_EQ(agreeing.report.repair.faces_turned, 1U);
     EXPECT_NEAR(volume_mm3(agreeing.mesh), 1000, 1e-9);
     EXPECT_TRUE(has_warning(agreeing.report, "1 face was turned"));
@@ -200,22 +200,22 @@ TEST(ImportedScan, MendsEdgesThatAreNoSolids) {
     const Triangle side = box.triangles[0];
     fin.points.push_back(fin.points[side[0]] + Vec3{0.01, 0.01, 0.01});
     fin.triangles.push_back({side[0], side[1], static_cast<std::uint32_t>(fin.points.size() - 1)});
-    const ImportedScan parted = taken(fin);
-    EXPECT_EQ(parted.mesh.triangles.size(), box.triangles.size());
-    EXPECT_TRUE(has_warning(parted.report, "1 edge belonged to three faces"));
-    EXPECT_TRUE(has_warning(parted.report, "1 small open component"));
+    const ImportedScan split = imported_from(fin);
+    EXPECT_EQ(split.mesh.triangles.size(), box.triangles.size());
+    EXPECT_TRUE(has_warning(split.report, "1 edge belonged to three faces"));
+    EXPECT_TRUE(has_warning(split.report, "1 small open component"));
 }
 
 TEST(ImportedScan, PlacesInErrorsAreInTheUnitsOfTheFile) {
-    TriangleMesh sheet = shapes::moved(shapes::box({0, 0, 0}, {1, 1, 1}), {7, 7, 7});
-    sheet.triangles.resize(2);
-    const std::string what = refusal([&] { taken(sheet, {25.4, 3}); });
+    TriangleMesh open_component = shapes::moved(shapes::box({0, 0, 0}, {1, 1, 1}), {7, 7, 7});
+    open_component.triangles.resize(2);
+    const std::string what = refusal([&] { imported_from(open_component, {25.4, 3}); });
     EXPECT_TRUE(what.find("(7.5, ") != std::string::npos || what.find("(8, ") != std::string::npos) << what;
 }
 
-TEST(ImportedScan, AsksForAUnitThatNobodySaid) {
+TEST(ImportedScan, AsksForAMissingUnit) {
     try {
-        taken(shapes::box({0, 0, 0}, {1, 1, 1}), {});
+        imported_from(shapes::box({0, 0, 0}, {1, 1, 1}), {});
         ADD_FAILURE();
     } catch (const InputError& error) {
         EXPECT_EQ(error.fault, InputFault::use);
@@ -262,7 +262,7 @@ struct RealScan {
     std::size_t holes;
 };
 
-TEST(ImportedScan, TakesInTheRealScans) {
+TEST(ImportedScan, ImportsTheRealScans) {
     NEEDS_MESH("bunny_bun_zipper.ply");
     const RealScan scans[] = {{"bunny_bun_zipper.ply", 69664, 1, 0, 5},
                               {"ct_head_371k.ply", 371162, 222, 6, 0},

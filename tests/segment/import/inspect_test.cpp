@@ -76,7 +76,7 @@ TEST(Inspect, CallsSolidsThatOnlyTouchReady) {
     EXPECT_EQ(found.non_manifold, 1U);
     EXPECT_EQ(found.touching, 1U);
     EXPECT_EQ(judge(found).verdict, Verdict::ready);
-    EXPECT_EQ(judge(found).reasons.size(), 1U);  // that the edge is parted
+    EXPECT_EQ(judge(found).reasons.size(), 1U);  // that the edge is split
 
     TriangleMesh with_fin = shapes::box({0, 0, 0}, {1, 1, 1});
     with_fin.points.push_back({2, 2, 0.5});
@@ -86,7 +86,7 @@ TEST(Inspect, CallsSolidsThatOnlyTouchReady) {
     EXPECT_EQ(judge(inspect(raw(with_fin))).verdict, Verdict::to_repair);
 }
 
-TEST(Inspect, TellsCavitiesFromShellsThatAreInsideOut) {
+TEST(Inspect, DistinguishesCavitiesFromShellsThatAreInsideOut) {
     const TriangleMesh ball = shapes::turned_inside_out(shapes::ball({5, 5, 5}, 2));
     EXPECT_EQ(inspect(raw(ball)).inside_out, 1U);
     const Inspection hollow = inspect(raw(shapes::joined({shapes::box({0, 0, 0}, {10, 10, 10}), ball})));
@@ -95,7 +95,7 @@ TEST(Inspect, TellsCavitiesFromShellsThatAreInsideOut) {
     EXPECT_EQ(hollow.shells, 2U);
 }
 
-TEST(Inspect, TellsTheLongestHoleAndWhereItIs) {
+TEST(Inspect, FindsTheLongestHoleAndItsCentre) {
     TriangleMesh mesh = shapes::box({0, 0, 0}, {8, 8, 8}, 8);
     EXPECT_EQ(inspect(raw(mesh)).longest_hole(), nullptr);
     const auto lies_in = [&](const Triangle& t, double low, double high) {
@@ -111,7 +111,7 @@ TEST(Inspect, TellsTheLongestHoleAndWhereItIs) {
     EXPECT_EQ(found.longest_hole()->edges, 8U);
     EXPECT_DOUBLE_EQ(found.longest_hole()->length, 8);
     EXPECT_EQ(found.longest_hole()->centre, (Vec3{5, 5, 8}));
-    EXPECT_EQ(found.sheets, 0U);
+    EXPECT_EQ(found.open_components, 0U);
 }
 
 TEST(Inspect, CountsFragmentsWithTheirCavities) {
@@ -145,7 +145,7 @@ TEST(Inspect, DeepFindsSelfIntersections) {
     EXPECT_EQ(inspect(raw(touching), deep).self_intersected->pairs, 0U);
 }
 
-TEST(Inspect, JudgesWhatItSees) {
+TEST(Inspect, JudgesByTheCounts) {
     for (const shapes::Named& shape : shapes::all_closed()) {
         const Judgement judged = judge(inspect(raw(shape.mesh)));
         EXPECT_EQ(judged.verdict, Verdict::ready) << shape.name;
@@ -170,7 +170,7 @@ TEST(Inspect, JudgesWhatItSees) {
 }
 
 // Reading and welding in one gives what reading, then welding gives.
-TEST(Inspect, SaysTheSameOfAnStlFileThatIsWeldedWhileItIsRead) {
+TEST(Inspect, GivesTheSameForAnStlFileThatIsWeldedWhileItIsRead) {
     for (const shapes::Named& shape : shapes::all_closed()) {
         TriangleMesh mesh = shape.mesh;
         for (std::size_t v = 0; v < mesh.points.size(); v += 3) mesh.points[v].x *= -0.0;
@@ -189,7 +189,7 @@ TEST(Inspect, SaysTheSameOfAnStlFileThatIsWeldedWhileItIsRead) {
     }
 }
 
-TEST(Inspect, DescribesTheRealScansWithoutAWord) {
+TEST(Inspect, CountsTheRealScans) {
     NEEDS_MESH("nasty");
     const Inspection bunny = inspect(read_mesh(real_mesh("bunny_bun_zipper.ply")));
     EXPECT_EQ(bunny.holes.size(), 5U);
@@ -206,14 +206,14 @@ TEST(Inspect, DescribesTheRealScansWithoutAWord) {
     EXPECT_EQ(inspect(read_mesh(real_mesh("nasty/made_inside_out.stl"))).open_edges, 223U);
 }
 
-TEST(Inspect, SaysSizesInWords) {
-    EXPECT_EQ(size_in_words({1820, 940, 710}), "1.82 m x 0.94 m x 0.71 m");
-    EXPECT_EQ(size_in_words({999.4, 15, 345}), "99.9 cm x 1.5 cm x 34.5 cm");
-    EXPECT_EQ(size_in_words({12, 3.456, 99.9}), "12.0 mm x 3.5 mm x 99.9 mm");
-    EXPECT_EQ(size_in_words({999.6, 1, 1}), "1.00 m x 0.00 m x 0.00 m");
-    EXPECT_EQ(size_in_words({25000, 18000, 3000}), "25.0 m x 18.0 m x 3.0 m");
-    EXPECT_EQ(size_in_words({0, 0, 0}), "0.00 mm x 0.00 mm x 0.00 mm");
-    EXPECT_FALSE(size_in_words({1e308, 1e308, 1e308}).empty());
+TEST(Inspect, DescribesSizes) {
+    EXPECT_EQ(describe_size({1820, 940, 710}), "1.82 m x 0.94 m x 0.71 m");
+    EXPECT_EQ(describe_size({999.4, 15, 345}), "99.9 cm x 1.5 cm x 34.5 cm");
+    EXPECT_EQ(describe_size({12, 3.456, 99.9}), "12.0 mm x 3.5 mm x 99.9 mm");
+    EXPECT_EQ(describe_size({999.6, 1, 1}), "1.00 m x 0.00 m x 0.00 m");
+    EXPECT_EQ(describe_size({25000, 18000, 3000}), "25.0 m x 18.0 m x 3.0 m");
+    EXPECT_EQ(describe_size({0, 0, 0}), "0.00 mm x 0.00 mm x 0.00 mm");
+    EXPECT_FALSE(describe_size({1e308, 1e308, 1e308}).empty());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What one unit of a scan is: the file knows, or the operator says so; nobody guesses, and they must not disagree.
+// The unit of a scan: from the file or from the operator, never guessed; if both give one they must agree.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -32,7 +32,7 @@ class Units : public testing::Test {
         return bounds(import_scan(folder / "scan", options).mesh).size();
     }
 
-    // What is said where it is refused as wrong use.
+    // The message with which it is refused as wrong use.
     std::string refused(const Bytes& bytes, std::optional<double> mm_per_unit) {
         try {
             size(bytes, mm_per_unit);
@@ -52,7 +52,7 @@ class Units : public testing::Test {
     const Bytes no_word = package_3mf({{"3D/a.model", model_3mf(object_3mf(box, 1), "<item objectid=\"1\"/>")}});
 };
 
-TEST_F(Units, AScanWithoutOneNeedsToBeTold) {
+TEST_F(Units, AScanWithoutOneNeedsOne) {
     EXPECT_EQ(size(ply, 10), (Vec3{10, 20, 30}));
     const std::string what = refused(ply, {});
     EXPECT_NE(what.find("PLY, binary little-endian, which has no unit. To do: pass --units mm, cm, m or in"),
@@ -65,21 +65,21 @@ TEST_F(Units, AScanWithoutOneNeedsToBeTold) {
 TEST_F(Units, TheFilesOwnIsTaken) {
     EXPECT_EQ(size(gltf, {}), (Vec3{1000, 3000, 2000}));
     EXPECT_EQ(size(inches, {}), (Vec3{25.4, 50.8, 3 * 25.4}));
-    EXPECT_EQ(size(no_word, {}), (Vec3{1, 2, 3}));  // 3MF: millimetres unless it says otherwise
+    EXPECT_EQ(size(no_word, {}), (Vec3{1, 2, 3}));  // 3MF: millimetres unless the file has another unit
 }
 
-TEST_F(Units, ToSayTheSameAsTheFileIsFine) {
+TEST_F(Units, TheSameAsThatOfTheFileIsAccepted) {
     EXPECT_EQ(size(gltf, 1000), size(gltf, {}));
     EXPECT_EQ(size(inches, 25.4), size(inches, {}));
 }
 
-TEST_F(Units, ToSayAnotherThanTheFileIsRefused) {
-    EXPECT_NE(refused(gltf, 1).find("says itself that its unit is m, but --units says mm"), std::string::npos);
-    EXPECT_NE(refused(inches, 1000).find("its unit is in, but --units says m"), std::string::npos);
-    EXPECT_NE(refused(no_word, 25.4).find("its unit is mm, but --units says in"), std::string::npos);
+TEST_F(Units, AnotherThanThatOfTheFileIsRefused) {
+    EXPECT_NE(refused(gltf, 1).find("has the unit m, but --units is mm"), std::string::npos);
+    EXPECT_NE(refused(inches, 1000).find("has the unit in, but --units is m"), std::string::npos);
+    EXPECT_NE(refused(no_word, 25.4).find("has the unit mm, but --units is in"), std::string::npos);
 }
 
-// A project knows its scan by this hash, so it must tell of every file that the scan lies in.
+// A project identifies its scan by this hash, so it must depend on every file of the scan.
 TEST_F(Units, TheHashOfAScanCoversTheFilesBesideIt) {
     std::string json = gltf_of(box);
     const std::size_t begin = json.find("data:");

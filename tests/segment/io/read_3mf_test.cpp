@@ -52,7 +52,7 @@ TEST(Read3mf, ReadsTheNamespaceOf2013) {
     EXPECT_EQ(read(before).mm_per_unit, 25.4);
     std::string other = now;
     other.replace(other.find(today), today.size(), "http://schemas.microsoft.com/3dmanufacturing/2012/01");
-    EXPECT_NE(refused(other).find("it is no 3MF model"), std::string::npos) << refused(other);
+    EXPECT_NE(refused(other).find("it is not a 3MF model"), std::string::npos) << refused(other);
 }
 
 TEST(Read3mf, TakesTheUnitThatTheModelDeclares) {
@@ -185,7 +185,7 @@ TEST(Read3mf, SaysWhatIsWrongAndWhere) {
                                        item(1, "1e308 0 0 0 1e308 0 0 0 1e308 1e308 1e308 1e308")),
                  "not a finite number");
     expect_words("<!DOCTYPE model [<!ENTITY a \"b\">]>" + model_3mf(object, item(1)).substr(38), "a document type");
-    expect_words("<svg/>", "it is no 3MF model");
+    expect_words("<svg/>", "it is not a 3MF model");
     expect_words("", "no element found");
 }
 

@@ -238,7 +238,7 @@ TEST(ReadMesh, SaysWhatIsWrongAndWhere) {
         EXPECT_NE(what.find("bone.ply"), std::string::npos) << what;
     };
     expect_words("", "is empty");
-    expect_words("a scan, honestly\n", "begins like no PLY");
+    expect_words("a scan, honestly\n", "does not begin like a PLY");
     expect_words("OFF\n3 1 0\n", "line 2 of the OFF: announces 3 points and 1 faces, more than");
     expect_words(replaced(good, "\n3 ", "\n3 99 "), "names vertex 99, but there are 8");
     expect_words(replaced(good, "\n3 ", "\n3 -1 "), "names vertex -1");

@@ -65,7 +65,7 @@ TEST(Gunzip, RefusesABombBeforeItGoesOff) {
 }
 
 TEST(Gunzip, SaysWhatItHoldsIfThatIsNoScan) {
-    EXPECT_NE(refusal([&] { parse_mesh(gzipped(bytes_of("hello")), "a.gz"); }).find("begins like no PLY"),
+    EXPECT_NE(refusal([&] { parse_mesh(gzipped(bytes_of("hello")), "a.gz"); }).find("does not begin like a PLY"),
               std::string::npos);
     EXPECT_NE(refusal([&] { parse_mesh(gzipped({}), "a.gz"); }).find("empty"), std::string::npos);
     // a packed file in a packed file is unpacked once

@@ -9,7 +9,7 @@
 namespace qchopper {
 namespace {
 
-TEST(Inside, AInteriorPointLiesInItsSolidAndInNoOther) {
+TEST(Inside, AnInteriorPointLiesInItsSolidAndInNoOther) {
     for (const auto& [name, mesh, count] : shapes::all_closed()) {
         const Segmentation segmentation = uncut(mesh, 0);
         for (const Piece& piece : segmentation.pieces) {
@@ -51,7 +51,7 @@ TEST(Inside, LinesThroughVerticesAndAlongEdgesCountRight) {
     }
 }
 
-TEST(Inside, AInteriorPointIsFarFromTheSurface) {
+TEST(Inside, AnInteriorPointIsFarFromTheSurface) {
     const Vec3 of_ball = *interior_point(shapes::ball({3, -2, 5}, 10, 20));
     EXPECT_LT(norm(of_ball - Vec3{3, -2, 5}), 1);
     const Vec3 of_slab = *interior_point(shapes::box({0, 0, 0}, {100, 100, 1}));
@@ -98,7 +98,7 @@ TEST(Nesting, ABallInTheHoleOfARingIsNotInTheRing) {
 }
 
 // Everything on one grid: rays pass through edges and corners of the other boxes all the time.
-TEST(Nesting, BoxesOnOneGridAreNoTrouble) {
+TEST(Nesting, HandlesBoxesOnOneGrid) {
     const TriangleMesh boxes =
         shapes::joined({shapes::box({-6, -6, -6}, {6, 6, 6}, 12), shapes::box({-2, -2, -2}, {2, 2, 2}, 4),
                         shapes::box({-1, -1, -1}, {1, 1, 1}, 2), shapes::box({3, 3, 3}, {5, 5, 5}, 2)});

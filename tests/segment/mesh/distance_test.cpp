@@ -30,10 +30,10 @@ TEST(Distance, IsZeroWhenNothingChanged) {
 TEST(Distance, OfShapesThatWereMovedIsBounded) {
     for (const shapes::Named& shape : shapes::all_closed()) {
         const Deviation moved = deviation(shape.mesh, shapes::moved(shape.mesh, {0, 0, 0.125}));
-        for (const Farthest& way : {moved.from_scan, moved.from_result}) {
-            EXPECT_LE(way.mm, 0.125 + 1e-9) << shape.name;
-            EXPECT_GE(way.at_most, way.mm) << shape.name;
-            EXPECT_LE(way.at_most, 1.01 * way.mm + 1e-4 + 1e-12) << shape.name;
+        for (const Farthest& one_way : {moved.from_scan, moved.from_result}) {
+            EXPECT_LE(one_way.mm, 0.125 + 1e-9) << shape.name;
+            EXPECT_GE(one_way.at_most, one_way.mm) << shape.name;
+            EXPECT_LE(one_way.at_most, 1.01 * one_way.mm + 1e-4 + 1e-12) << shape.name;
         }
     }
 }
@@ -42,12 +42,12 @@ TEST(Distance, OfABoxThatGrewIsThatOfItsCorner) {
     const Deviation grown = deviation(shapes::box({0, 0, 0}, {4, 4, 4}, 2), shapes::box({0, 0, 0}, {7, 8, 4}, 2));
     EXPECT_NEAR(grown.from_result.mm, 5, 0.05);  // corner (7, 8) from (4, 4)
     EXPECT_GE(grown.from_result.at_most, 5);
-    // The old corner (4, 4, 2) lies deep inside: 2 from top and bottom. What is farther in is looked at too.
+    // The old corner (4, 4, 2) lies deep inside: 2 from top and bottom. Points farther inside are covered as well.
     EXPECT_NEAR(grown.from_scan.mm, 2, 0.03);
 }
 
-// All corners of the lid lie on the ball, its middle does not: the inside of triangles counts.
-TEST(Distance, SeesTheInsideOfLargeFaces) {
+// All corners of the lid lie on the ball, its middle does not: the interior of triangles counts.
+TEST(Distance, CoversTheInteriorOfLargeFaces) {
     const double radius = 10;
     const TriangleMesh ball = shapes::ball({0, 0, 0}, radius, 64);
     TriangleMesh lid;
@@ -64,7 +64,7 @@ TEST(Distance, SeesTheInsideOfLargeFaces) {
     EXPECT_GE(found.at_most, found.mm);
 }
 
-TEST(Distance, LooksOnlyAtWhatChanged) {
+TEST(Distance, LeavesOutWhatHasNotChanged) {
     TriangleMesh scan = shapes::box({0, 0, 0}, {4, 4, 4}, 4);
     TriangleMesh result = scan;
     result.points.push_back(result.points[result.triangles[5][0]] + Vec3{0, 0, 1});
@@ -82,7 +82,7 @@ TEST(Distance, ToNothingIsInfinite) {
     EXPECT_EQ(deviation({}, {}).largest().mm, 0);
 }
 
-TEST(Distance, StaysABoundWhenItMayLookAtFewPoints) {
+TEST(Distance, StaysABoundWhenFewPointsAreAllowed) {
     const TriangleMesh ball = shapes::ball({0, 0, 0}, 10, 32);
     const TriangleMesh box = shapes::box({-8, -8, -8}, {8, 8, 8});
     DistanceOptions hasty;

@@ -12,7 +12,7 @@
 namespace qchopper {
 namespace {
 
-void expect_as_before(const TriangleMesh& mesh, const std::string& name) {
+void expect_equals_reference(const TriangleMesh& mesh, const std::string& name) {
     const Edges found = edges(mesh);
     const Unpaired expected = unpaired(mesh, found);
     const Links links = qchopper::links(mesh);
@@ -21,25 +21,26 @@ void expect_as_before(const TriangleMesh& mesh, const std::string& name) {
     EXPECT_EQ(links.non_manifold, expected.non_manifold) << name;
     EXPECT_EQ(links.extra_fans.size(), count_non_manifold_vertices(mesh, found)) << name;
     if (found.faults.non_manifold + found.faults.inconsistent > 0) return;
-    TriangleMesh ours = mesh;
-    split_fans(ours, links.extra_fans);
-    TriangleMesh theirs = mesh;
-    split_non_manifold_vertices(theirs, found);
-    EXPECT_EQ(count_non_manifold_vertices(ours, edges(ours)), 0U) << name;
-    EXPECT_EQ(edges(ours).faults.open, found.faults.open) << name;
+    TriangleMesh split = mesh;
+    split_fans(split, links.extra_fans);
+    TriangleMesh reference = mesh;
+    split_non_manifold_vertices(reference, found);
+    EXPECT_EQ(count_non_manifold_vertices(split, edges(split)), 0U) << name;
+    EXPECT_EQ(edges(split).faults.open, found.faults.open) << name;
     // The same copies, perhaps in another order.
-    ASSERT_EQ(ours.points.size(), theirs.points.size()) << name;
+    ASSERT_EQ(split.points.size(), reference.points.size()) << name;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
-            EXPECT_EQ(ours.points[ours.triangles[t][k]], theirs.points[theirs.triangles[t][k]]);
-            EXPECT_EQ(ours.triangles[t][k] < mesh.points.size(), theirs.triangles[t][k] < mesh.points.size()) << name;
+            EXPECT_EQ(split.points[split.triangles[t][k]], reference.points[reference.triangles[t][k]]);
+            EXPECT_EQ(split.triangles[t][k] < mesh.points.size(), reference.triangles[t][k] < mesh.points.size())
+                << name;
         }
     }
 }
 
-TEST(Links, SayWhatEdgesAndNonManifoldVerticesSay) {
+TEST(Links, EqualEdgesAndNonManifoldVertices) {
     for (const shapes::Named& shape : shapes::all_closed()) {
-        expect_as_before(shape.mesh, shape.name);
+        expect_equals_reference(shape.mesh, shape.name);
         for (unsigned seed = 0; seed < 12; ++seed) {
             std::mt19937 random(seed);
             TriangleMesh torn = shape.mesh;
@@ -47,7 +48,7 @@ TEST(Links, SayWhatEdgesAndNonManifoldVerticesSay) {
             for (int i = 0; i < 8 && torn.triangles.size() > 8; ++i) {
                 torn.triangles.erase(torn.triangles.begin() + static_cast<std::ptrdiff_t>(any()));
             }
-            expect_as_before(torn, shape.name + " torn");
+            expect_equals_reference(torn, shape.name + " torn");
             for (int i = 0; i < 4; ++i) {
                 Triangle& t = torn.triangles[any()];
                 std::swap(t[0], t[1]);
@@ -56,16 +57,16 @@ TEST(Links, SayWhatEdgesAndNonManifoldVerticesSay) {
                 torn.points[p] = torn.points[random() % torn.points.size()];
             }
             weld(torn);
-            expect_as_before(torn, shape.name + " in disorder");
+            expect_equals_reference(torn, shape.name + " in disorder");
         }
     }
 }
 
-TEST(Links, SeePointsWithVeryManyTriangles) {
+TEST(Links, HandlePointsWithVeryManyTriangles) {
     TriangleMesh poles = shapes::ball({0, 0, 0}, 5, 100);
-    expect_as_before(poles, "poles");
+    expect_equals_reference(poles, "poles");
     poles.triangles.erase(poles.triangles.begin());
-    expect_as_before(poles, "open pole");
+    expect_equals_reference(poles, "open pole");
     std::vector<TriangleMesh> many;
     for (int i = 0; i < 40; ++i)
         many.push_back(shapes::rotated(shapes::pyramid({-0.1, -0.1, -5}, 0.2, 5), {1, 0, 0}, 0.1 * i));
@@ -74,7 +75,7 @@ TEST(Links, SeePointsWithVeryManyTriangles) {
         if (norm(p) < 1e-9) p = {};
     }
     weld(star);
-    expect_as_before(star, "star");
+    expect_equals_reference(star, "star");
     EXPECT_EQ(links(star).extra_fans.size(), 39U);
 }
 

@@ -39,7 +39,7 @@ TEST(Manifold, SplitsAPointWhereTwoSurfacesTouch) {
 
 // The two holes become one: its border passes the point twice, once for each copy.
 TEST(Manifold, JoinsHolesThatTouchInAPoint) {
-    // two squares taken out of a side of a box that share a corner
+    // two squares that share a corner are removed from a side of a box
     TriangleMesh box = shapes::box({0, 0, 0}, {4, 4, 4}, 4);
     std::erase_if(box.triangles, [&](const Triangle& t) {
         const Vec3 middle = (1.0 / 3) * (box.points[t[0]] + box.points[t[1]] + box.points[t[2]]);
@@ -73,7 +73,7 @@ TEST(Manifold, BorderLoopsRunAroundTheHole) {
     EXPECT_GT(centre_of(ball, loops[0]).z, 4);
 }
 
-TEST(Manifold, TellsNonManifoldEdgesFromOpenOnes) {
+TEST(Manifold, DistinguishesNonManifoldEdgesFromOpenOnes) {
     TriangleMesh box = shapes::box({0, 0, 0}, {1, 1, 1});
     std::swap(box.triangles[0][0], box.triangles[0][1]);
     const Unpaired turned = unpaired(box, edges(box));

@@ -10,7 +10,7 @@
 namespace qchopper {
 namespace {
 
-// The corners of all triangles in space, whatever their numbers.
+// The coordinates of all triangles, independent of the numbering.
 std::vector<std::array<std::array<double, 3>, 3>> soup(const TriangleMesh& mesh) {
     std::vector<std::array<std::array<double, 3>, 3>> result;
     for (const Triangle& t : mesh.triangles) {
@@ -34,13 +34,13 @@ TEST(Order, OnlyTheNumbersChange) {
     }
 }
 
-TEST(Order, PointsComeInTheOrderInWhichTheTrianglesNameThem) {
+TEST(Order, PointsComeInTheOrderOfTheTriangles) {
     for (const auto& [name, mesh, solids] : shapes::all_closed()) {
-        std::uint32_t named = 0;
+        std::uint32_t used = 0;
         for (const Triangle& t : in_memory_order(mesh).triangles) {
             for (const std::uint32_t v : t) {
-                EXPECT_LE(v, named) << name;
-                named = std::max(named, v + 1);
+                EXPECT_LE(v, used) << name;
+                used = std::max(used, v + 1);
             }
         }
     }

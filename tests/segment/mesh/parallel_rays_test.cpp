@@ -33,10 +33,10 @@ double distance_to_exit(const TriangleMesh& mesh, Vec3 from, Vec3 direction) {
     return least;
 }
 
-TEST(ParallelRays, AgreesWithEachTriangleAskedInTurnOnEveryShape) {
+TEST(ParallelRays, AgreesWithTheDefinitionOnEveryShape) {
     std::mt19937 random(3);
     std::normal_distribution<double> normal;
-    std::size_t asked = 0;
+    std::size_t compared = 0;
     for (const auto& [name, mesh, solids] : shapes::all_closed()) {
         for (int round = 0; round < 4; ++round) {
             const Vec3 n = normalized({normal(random), normal(random), normal(random)});
@@ -47,16 +47,16 @@ TEST(ParallelRays, AgreesWithEachTriangleAskedInTurnOnEveryShape) {
                 const double along = dot(normalized(area_vector(mesh, t)), n);
                 if (std::abs(along) > 0.5) queries.push_back({middle, along < 0});
             }
-            const std::vector<double> ways = ray_distances(mesh, n, queries, 1e9);
+            const std::vector<double> distances = ray_distances(mesh, n, queries, 1e9);
             for (std::size_t q = 0; q < queries.size(); ++q) {
                 const double distance = distance_to_exit(mesh, queries[q].from, queries[q].up ? n : -n);
                 ASSERT_TRUE(std::isfinite(distance)) << name;
-                ASSERT_NEAR(ways[q], distance, 1e-3) << name << " " << q;
-                ++asked;
+                ASSERT_NEAR(distances[q], distance, 1e-3) << name << " " << q;
+                ++compared;
             }
         }
     }
-    EXPECT_GT(asked, 5000U);
+    EXPECT_GT(compared, 5000U);
 }
 
 TEST(ParallelRays, ThroughEdgesAndVerticesOfAGridTheBoxIsNeverMissed) {
@@ -65,17 +65,17 @@ TEST(ParallelRays, ThroughEdgesAndVerticesOfAGridTheBoxIsNeverMissed) {
     for (int i = 1; i < 20; ++i) {
         for (int j = 1; j < 20; ++j) queries.push_back({{0.5 * i, 0.5 * j, 4}, (i + j) % 2 == 0});
     }
-    const std::vector<double> ways = ray_distances(box, {0, 0, 1}, queries, 6);
-    for (std::size_t q = 0; q < queries.size(); ++q) EXPECT_DOUBLE_EQ(ways[q], queries[q].up ? 6 : 4) << q;
+    const std::vector<double> distances = ray_distances(box, {0, 0, 1}, queries, 6);
+    for (std::size_t q = 0; q < queries.size(); ++q) EXPECT_DOUBLE_EQ(distances[q], queries[q].up ? 6 : 4) << q;
 }
 
 TEST(ParallelRays, StopsAtACavityAndMeetsNothingOutside) {
     const TriangleMesh mesh = shapes::nested();
     const std::vector<RayQuery> queries{{{50, 50, 95}, false}, {{50, 50, 110}, true}, {{150, 50, 50}, false}};
-    const std::vector<double> ways = ray_distances(mesh, {0, 0, 1}, queries, 20);
-    EXPECT_DOUBLE_EQ(ways[0], 15);
-    EXPECT_TRUE(std::isinf(ways[1]));
-    EXPECT_TRUE(std::isinf(ways[2]));
+    const std::vector<double> distances = ray_distances(mesh, {0, 0, 1}, queries, 20);
+    EXPECT_DOUBLE_EQ(distances[0], 15);
+    EXPECT_TRUE(std::isinf(distances[1]));
+    EXPECT_TRUE(std::isinf(distances[2]));
     EXPECT_TRUE(std::isinf(ray_distances(mesh, {0, 0, 1}, queries, 14.9)[0]));
     EXPECT_TRUE(ray_distances(mesh, {0, 0, 1}, {}, 20).empty());
 }

@@ -48,8 +48,8 @@ TEST(Exploded, NeighboursOnTheTwoSidesOfACutSeparate) {
         ASSERT_EQ(shifts.size(), pieces.size());
         for (std::size_t i = 0; i < pieces.size(); ++i) {
             for (std::size_t k = 0; k < pieces.size(); ++k) {
-                for (const Bound& a : pieces[i].bounds) {
-                    for (const Bound& b : pieces[k].bounds) {
+                for (const HalfSpace& a : pieces[i].half_spaces) {
+                    for (const HalfSpace& b : pieces[k].half_spaces) {
                         if (a.cut != b.cut || !a.above || b.above) continue;
                         ++pairs;
                         const Vec3 n = a.plane.normal;
@@ -85,8 +85,8 @@ TEST(Exploded, OnePieceStaysNearlyWhereItIs) {
 TEST(Exploded, PiecesTakeTheirColourAndShift) {
     const std::vector<Piece> pieces = pieces_of(shapes::ball({0, 0, 0}, 3));
     const std::vector<Vec3> shifts = exploded_shifts(pieces);
-    const std::vector<Coloured> apart = coloured(pieces, shifts);
-    const std::vector<Coloured> together = coloured(pieces);
+    const std::vector<ColouredMesh> apart = coloured(pieces, shifts);
+    const std::vector<ColouredMesh> together = coloured(pieces);
     ASSERT_EQ(apart.size(), pieces.size());
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         EXPECT_EQ(apart[i].mesh, pieces[i].mesh.get());

@@ -55,7 +55,7 @@ TEST(Picture, ABallIsADiscOfItsColourInTheMiddle) {
     PictureOptions options = small();
     options.frame = 0.1;
     options.outline = 0;
-    const std::vector<Coloured> scene{{&ball, red, {}}};
+    const std::vector<ColouredMesh> scene{{&ball, red, {}}};
     const Picture picture = decode(render_png(scene, options));
     ASSERT_EQ(picture.width, 160);
     ASSERT_EQ(picture.height, 120);
@@ -85,7 +85,7 @@ TEST(Picture, ABallIsADiscOfItsColourInTheMiddle) {
 
 TEST(Picture, TheLightComesFromTheUpperLeft) {
     const TriangleMesh ball = shapes::ball({0, 0, 0}, 10, 60);
-    const std::vector<Coloured> scene{{&ball, bone_colour, {}}};
+    const std::vector<ColouredMesh> scene{{&ball, bone_colour, {}}};
     const Picture picture = decode(render_png(scene, small()));
     EXPECT_GT(brightness(picture.at(80 - 25, 60 - 25)), brightness(picture.at(80 + 25, 60 + 25)) + 60);
 }
@@ -94,7 +94,7 @@ TEST(Picture, EachMeshIsDrawnWhereItsShiftPutsIt) {
     const TriangleMesh ball = shapes::ball({0, 0, 0}, 10, 30);
     PictureOptions options = small();
     options.view = {0, 1, 0};  // x to the right, z up
-    const std::vector<Coloured> scene{{&ball, red, {-15, 0, 0}}, {&ball, blue, {15, 0, 0}}};
+    const std::vector<ColouredMesh> scene{{&ball, red, {-15, 0, 0}}, {&ball, blue, {15, 0, 0}}};
     const Picture picture = decode(render_png(scene, options));
     const Rgb left = picture.at(45, 60);
     const Rgb right = picture.at(115, 60);
@@ -107,7 +107,7 @@ TEST(Picture, WhatStandsInFrontHidesWhatIsBehind) {
     const TriangleMesh ball = shapes::ball({0, 0, 0}, 10, 30);
     PictureOptions options = small();
     options.view = {0, 1, 0};
-    const std::vector<Coloured> scene{{&ball, red, {0, 50, 0}}, {&ball, blue, {0, -50, 0}}};
+    const std::vector<ColouredMesh> scene{{&ball, red, {0, 50, 0}}, {&ball, blue, {0, -50, 0}}};
     const Rgb middle = decode(render_png(scene, options)).at(80, 60);
     EXPECT_GT(middle.b, 2 * middle.r);
 }
@@ -118,8 +118,8 @@ TEST(Picture, CapsAreLighterThanTheSkinInTheSameHue) {
     capped.cap_of.assign(capped.triangles.size(), 0);
     PictureOptions options = small();
     options.view = {0, 1, 0};
-    const Rgb skin = decode(render_png(std::vector<Coloured>{{&plain, blue, {}}}, options)).at(80, 60);
-    const Rgb cap = decode(render_png(std::vector<Coloured>{{&capped, blue, {}}}, options)).at(80, 60);
+    const Rgb skin = decode(render_png(std::vector<ColouredMesh>{{&plain, blue, {}}}, options)).at(80, 60);
+    const Rgb cap = decode(render_png(std::vector<ColouredMesh>{{&capped, blue, {}}}, options)).at(80, 60);
     EXPECT_GT(brightness(cap), brightness(skin) + 30);
     EXPECT_GT(cap.b, cap.r);
     EXPECT_GT(cap.b, cap.g);
@@ -130,7 +130,7 @@ TEST(Picture, ADarkLineRunsAlongTheBorderOfAPiece) {
     PictureOptions options = small();
     options.view = {0, 1, 0};
     options.supersampling = 2;
-    const std::vector<Coloured> scene{{&box, red, {}}, {&box, red, {10, 0, 0}}};  // side by side, equal in colour
+    const std::vector<ColouredMesh> scene{{&box, red, {}}, {&box, red, {10, 0, 0}}};  // side by side, equal in colour
     const Picture with = decode(render_png(scene, options));
     EXPECT_LT(brightness(with.at(80, 60)), 0.85 * brightness(with.at(60, 60)));
     options.outline = 0;
@@ -140,7 +140,7 @@ TEST(Picture, ADarkLineRunsAlongTheBorderOfAPiece) {
 
 TEST(Picture, SameBytesForAnyNumberOfThreads) {
     const TriangleMesh torus = shapes::torus({0, 0, 0}, 20, 6, 48);
-    const std::vector<Coloured> scene{{&torus, red, {}}, {&torus, blue, {0, 0, 20}}};
+    const std::vector<ColouredMesh> scene{{&torus, red, {}}, {&torus, blue, {0, 0, 20}}};
     const Bytes many = render_png(scene, small());
     const ThreadLimit one(1);
     EXPECT_EQ(render_png(scene, small()), many);
@@ -150,9 +150,9 @@ TEST(Picture, NothingToDrawOrSenselessOptionsAreRefused) {
     const TriangleMesh empty;
     const TriangleMesh ball = shapes::ball({0, 0, 0}, 1, 4);
     EXPECT_THROW(render_png({}), InputError);
-    EXPECT_THROW(render_png(std::vector<Coloured>{{&empty, red, {}}}), InputError);
-    EXPECT_THROW(render_png(std::vector<Coloured>{{nullptr, red, {}}}), InputError);
-    const std::vector<Coloured> scene{{&ball, red, {}}, {&empty, red, {}}, {nullptr, red, {}}};
+    EXPECT_THROW(render_png(std::vector<ColouredMesh>{{&empty, red, {}}}), InputError);
+    EXPECT_THROW(render_png(std::vector<ColouredMesh>{{nullptr, red, {}}}), InputError);
+    const std::vector<ColouredMesh> scene{{&ball, red, {}}, {&empty, red, {}}, {nullptr, red, {}}};
     EXPECT_NO_THROW(render_png(scene, small()));
     const auto refused = [&](auto spoil) {
         PictureOptions options = small();
@@ -178,13 +178,13 @@ TEST(Picture, LooksStraightDownAndAtAFlatThing) {
     PictureOptions options = small();
     for (const Vec3 view : {Vec3{0, 0, -1}, Vec3{0, 0, 1}, Vec3{0, 1, 0}}) {
         options.view = view;
-        EXPECT_FALSE(render_png(std::vector<Coloured>{{&flat, red, {}}}, options).empty());
+        EXPECT_FALSE(render_png(std::vector<ColouredMesh>{{&flat, red, {}}}, options).empty());
     }
 }
 
-TEST(Picture, CountsItsRowsAndStopsWhenTold) {
+TEST(Picture, CountsItsRowsAndStopsWhenCancelled) {
     const TriangleMesh ball = shapes::ball({0, 0, 0}, 1, 8);
-    const std::vector<Coloured> scene{{&ball, red, {}}};
+    const std::vector<ColouredMesh> scene{{&ball, red, {}}};
     std::size_t last = 0;
     std::atomic<bool> stop{false};
     Context context;

@@ -30,7 +30,7 @@ Place place_of(const TriangleMesh& mesh, std::uint32_t point) {
     return {p.x + 0.0, p.y + 0.0, p.z + 0.0};
 }
 
-// By places, so that it knows nothing of welding: how much more often each directed edge occurs than its reverse.
+// By coordinates, so that it is independent of welding: how much more often each directed edge occurs than its reverse.
 bool balances(const TriangleMesh& mesh) {
     std::map<std::array<Place, 2>, int> more;
     for (const Triangle& t : mesh.triangles) {
@@ -126,7 +126,7 @@ TEST(Balance, OfTheTestsOwnSoups) {
     EXPECT_FALSE(balances(open));
 }
 
-TEST(Balance, IsToldAsThePlainCountTellsIt) {
+TEST(Balance, IsFoundAsByThePlainCount) {
     for (std::uint32_t seed = 0; seed < 600; ++seed) {
         TriangleMesh mesh = balanced_soup({false, seed});
         if (seed % 3 == 1) mesh.triangles.pop_back();
@@ -138,7 +138,7 @@ TEST(Balance, IsToldAsThePlainCountTellsIt) {
 }
 
 TEST(Balance, EverySoupBecomesClosedShellsOfTheSameFaces) {
-    std::size_t parted = 0;
+    std::size_t with_splits = 0;
     for (std::uint32_t seed = 0; seed < soups; ++seed) {
         SCOPED_TRACE(seed);
         TriangleMesh mesh = balanced_soup({seed % 2 == 0, seed});
@@ -152,7 +152,7 @@ TEST(Balance, EverySoupBecomesClosedShellsOfTheSameFaces) {
             EXPECT_EQ(mesh, welded);
             continue;
         }
-        parted += counts->edges_split > 0;
+        with_splits += counts->edges_split > 0;
         expect_closed_manifold(mesh);
         EXPECT_EQ(faces_left_over(mesh), expected);
         EXPECT_EQ(mesh.triangles.size(), left);
@@ -165,7 +165,7 @@ TEST(Balance, EverySoupBecomesClosedShellsOfTheSameFaces) {
         ASSERT_TRUE(again == mesh) << "twice is not once";
         if (HasFatalFailure()) return;
     }
-    EXPECT_GE(parted, soups / 2);
+    EXPECT_GE(with_splits, soups / 2);
 }
 
 // The cutter's own condition: halves close and their volumes add up.
@@ -198,7 +198,7 @@ void expect_it_can_be_cut(TriangleMesh mesh, std::uint32_t seed, int planes) {
 }
 
 void expect_nothing_was_filled(const RepairReport& report) {
-    EXPECT_EQ(report.holes_filled + report.faces_added + report.points_added + report.open_components, 0U);
+    EXPECT_EQ(report.holes_filled + report.faces_added + report.points_added + report.open_components_dropped, 0U);
     EXPECT_EQ(report.repeated + report.faces_turned + report.edges_cut + report.stitched, 0U);
     EXPECT_EQ(report.open_edges, 0U);
 }
@@ -276,9 +276,9 @@ TEST(Balance, ManyWedgesAroundOneEdgeStayApart) {
     }
 }
 
-// Twelve cubes without two in the middle layer that touch in an edge. Parted by its wedges of material, the surface
+// Twelve cubes without two in the middle layer that touch in an edge. Split by its wedges of material, the surface
 // would go around both ends of that edge twice: the edge would have four faces.
-TEST(Balance, AnEdgeBetweenTwoHollowsIsPartedTheOtherWay) {
+TEST(Balance, AnEdgeBetweenTwoHollowsIsSplitTheOtherWay) {
     TriangleMesh block;
     for (const double z : {0.0, 1.0, 2.0}) {
         for (const Vec3 low : {Vec3{0, 0, z}, {1, 0, z}, {0, 1, z}, {1, 1, z}}) {

@@ -16,7 +16,8 @@ void expect_twice_is_once(const TriangleMesh& mesh) {
     EXPECT_EQ(again, mesh);
 }
 
-TriangleMesh sheet(Vec3 corner, double side, int n) {
+// The lowest side of a box.
+TriangleMesh flat_square(Vec3 corner, double side, int n) {
     TriangleMesh mesh = shapes::box(corner, corner + Vec3{side, side, side}, n);
     std::erase_if(mesh.triangles, [&](const Triangle& t) {
         return mesh.points[t[0]].z > corner.z || mesh.points[t[1]].z > corner.z || mesh.points[t[2]].z > corner.z;
@@ -57,19 +58,19 @@ TEST(Faces, AWallBetweenTwoSolidsGoesWithBothSides) {
         shapes::joined({shapes::box({0, 0, 0}, {10, 10, 10}, 3), shapes::box({10, 0, 0}, {20, 10, 10}, 3)});
     weld(mesh);
     const RepeatedFaces counts = drop_repeated_faces(mesh);
-    EXPECT_EQ(counts.of_sheets, 36U);
+    EXPECT_EQ(counts.of_doubled_components, 36U);
     EXPECT_EQ(counts.repeated, 0U);
     EXPECT_TRUE(edges(mesh).faults.is_closed());
     EXPECT_NEAR(volume_mm3(mesh), 2000, 1e-9);
     expect_twice_is_once(mesh);
 }
 
-TEST(Faces, AFlatDoubleSheetThatFloatsGoes) {
+TEST(Faces, AFlatDoubledComponentApartFromTheSolidIsDropped) {
     const TriangleMesh box = shapes::box({0, 0, 0}, {10, 10, 10}, 2);
-    const TriangleMesh fin = sheet({20, 20, 20}, 5, 4);
+    const TriangleMesh fin = flat_square({20, 20, 20}, 5, 4);
     TriangleMesh mesh = shapes::joined({box, fin, shapes::turned_inside_out(fin)});
     weld(mesh);
-    EXPECT_EQ(drop_repeated_faces(mesh).of_sheets, 2 * fin.triangles.size());
+    EXPECT_EQ(drop_repeated_faces(mesh).of_doubled_components, 2 * fin.triangles.size());
     EXPECT_EQ(mesh.triangles, box.triangles);
     expect_twice_is_once(mesh);
 }

@@ -1,5 +1,5 @@
 // Every file of the folder `nasty` has one row: what repair makes of it, or why it is refused. The table is a sample of
-// kinds; nothing in the program knows any of these files.
+// kinds; nothing in the program is special to any of these files.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ constexpr std::size_t refused = 0;  // with InputFault::mesh, for which the prog
 struct Row {
     const char* file;
     std::size_t faces;               // of the result
-    std::vector<std::string> words;  // what the steps tell ("step: words"; of STL without the weld), or the refusal
+    std::vector<std::string> words;  // of the steps ("step: words"; of STL without the weld), or the refusal
 };
 void PrintTo(const Row& row, std::ostream* out) {
     *out << row.file;
@@ -33,17 +33,17 @@ void PrintTo(const Row& row, std::ostream* out) {
 
 const Row rows[] = {
     {"assimp_OBJ_box_UTF16BE.obj", 12, {}},
-    {"assimp_OBJ_concave_polygon.obj", refused, {"is open: 1 part of it is a sheet"}},
+    {"assimp_OBJ_concave_polygon.obj", refused, {"is open: 1 open component encloses nothing"}},
     {"assimp_OBJ_regr01.obj",
      2760,
-     {"weld: 837 points welded", "faces: 6 faces of flat double sheets dropped",
+     {"weld: 837 points welded", "faces: 6 faces of flat doubled components dropped",
       "split: 28 edges of more than two faces split, 79 copies of points made",
       "degenerate: 10 faces without area removed",
-      "fill: 4 holes closed, with 62 faces, 3 of them faired, 13 points added, 1 open component taken away",
+      "fill: 4 holes closed, with 62 faces, 3 of them faired, 13 points added, 1 open component dropped",
       "fragments: 1 fragment with 0.038 % of the surface kept"}},
     {"assimp_PLY_cube_uv.ply", 12, {"weld: 16 points welded"}},
     {"assimp_PLY_issue623.ply", refused, {"holds no faces"}},
-    {"assimp_STL_triangle_with_two_solids.stl", refused, {"is open: 2 parts of it are sheets"}},
+    {"assimp_STL_triangle_with_two_solids.stl", refused, {"is open: 2 open components enclose nothing"}},
     {"assimp_invalid_empty.ply", refused, {"is empty"}},
     {"assimp_invalid_malformed.obj", refused, {"line 28 of the OBJ: a face names point 0, but there are 8"}},
     {"cgal_blobby-shuffled.off", 4050, {"orient: 2,017 faces turned to agree with their neighbours"}},
@@ -51,7 +51,7 @@ const Row rows[] = {
     {"cgal_colored_tetra.ply", 4, {}},
     {"cgal_cow.off", 5804, {"weld: 1 point welded", "split: 1 copy of a point made"}},
     {"cgal_cube_quad.off", 12, {}},
-    {"cgal_degtri_sliding.off", refused, {"is open: 1 part of it is a sheet"}},
+    {"cgal_degtri_sliding.off", refused, {"is open: 1 open component encloses nothing"}},
     {"cgal_diplodocus.off",
      47960,
      {"weld: 2 points welded", "split: 2 edges of more than two faces split, 2 copies of points made"}},
@@ -60,8 +60,8 @@ const Row rows[] = {
      {"weld: 65 points welded", "split: 65 copies of points made",
       "fill: 106 holes closed, with 1,117 faces, 1 of them faired, 2 points added"}},
     {"cgal_knot2.off", 11520, {}},
-    {"cgal_pig.stl", refused, {"is open: 11 parts of it are sheets"}},
-    {"cgal_tetra_intersected_by_triangle.off", refused, {"is open: 1 part of it is a sheet"}},
+    {"cgal_pig.stl", refused, {"is open: 11 open components enclose nothing"}},
+    {"cgal_tetra_intersected_by_triangle.off", refused, {"is open: 1 open component encloses nothing"}},
     {"cgal_tetrahedron.off", 4, {"outwards: 1 shell turned outwards"}},
     {"common_data_igea.ply", 268686, {}},
     {"lib3mf_TestFiles_CPP_UnitTests_3mfbase11_AdjMount.3mf", 1704, {}},
@@ -72,14 +72,14 @@ const Row rows[] = {
     {"made_flipped_half.stl",
      69664,
      {"orient: 34,725 faces turned to agree with their neighbours", "fill: 5 holes closed, with 213 faces"}},
-    {"made_header_solid_binary.stl", refused, {"is open: 1,549 parts of it are sheets"}},
+    {"made_header_solid_binary.stl", refused, {"is open: 1,549 open components enclose nothing"}},
     {"made_inside_out.stl", 69664, {"fill: 5 holes closed, with 213 faces", "outwards: 1 shell turned outwards"}},
     {"made_nan_inf.stl", refused, {"vertex 1 of triangle 17 (byte 958) has a coordinate that is not a finite number"}},
     {"made_nested_cavity_cube.stl", 24, {}},
     {"made_truncated.stl", refused, {"a binary STL of 69451 triangles has 3472634 bytes, but the file has 2000000"}},
     {"manifold_extras_ember_tests_testfiles_raw_meshes_472042.stl", 3632, {}},
     {"manifold_self_intersectA.obj", 17160, {}},
-    {"ocl_stl_mount_rush.stl", refused, {"is open: 44 parts of it are sheets"}},
+    {"ocl_stl_mount_rush.stl", refused, {"is open: 44 open components enclose nothing"}},
     {"pmp_data_off_hole_capsule.off", 192, {"fill: 3 holes closed, with 40 faces, 3 of them faired, 9 points added"}},
     {"pychop3d_test_past_failures_bracket.stl", 2386, {}},
     {"pychop3d_test_past_failures_electronics_housing.stl", 3412, {}},
@@ -88,13 +88,13 @@ const Row rows[] = {
     {"pychop3d_test_test_meshes_wing.stl",
      8192,
      {"degenerate: 50 faces without area removed, 95 faces without area left", "fill: 2 holes closed, with 160 faces"}},
-    {"slic3r-prusa_tests_data_extruder_idler_quads.obj", 7334, {"faces: 10 faces of flat double sheets dropped"}},
+    {"slic3r-prusa_tests_data_extruder_idler_quads.obj", 7334, {"faces: 10 faces of flat doubled components dropped"}},
     {"slic3r-prusa_tests_data_test_stl_ASCII_20mmbox-CR.stl", 12, {}},
     {"trimesh_box.STL", 8954, {}},
     {"trimesh_counterXP.3MF", 83750, {"weld: 1,149 points welded, 290 unused points dropped"}},
     {"trimesh_cube_and_sphere_same_name.3mf", 5132, {}},
     {"trimesh_fuze_ascii.ply", 1000, {}},
-    {"trimesh_joined_tetrahedra.obj", 6, {"faces: 2 faces of flat double sheets dropped"}},
+    {"trimesh_joined_tetrahedra.obj", 6, {"faces: 2 faces of flat doubled components dropped"}},
     {"trimesh_multibody.stl",
      32,
      {"orient: 6 faces turned to agree with their neighbours", "outwards: 2 shells turned outwards"}},
@@ -103,7 +103,7 @@ const Row rows[] = {
     {"trimesh_origin_inside.STL", 28, {}},
     {"trimesh_plate_holes.STL", 1252, {}},
     {"trimesh_simple_pole.glb", 580, {"weld: 624 points welded"}},
-    {"trimesh_soup.stl", refused, {"is open: 100 parts of it are sheets"}},
+    {"trimesh_soup.stl", refused, {"is open: 100 open components enclose nothing"}},
 };
 
 ImportOptions options() {
@@ -112,7 +112,7 @@ ImportOptions options() {
     return options;
 }
 
-std::vector<std::string> told(const RepairReport& report) {
+std::vector<std::string> words_of(const RepairReport& report) {
     std::vector<std::string> all;
     for (const RepairStep& step : steps(report)) {
         if (step.count > 0) all.push_back(step.name + ": " + step.words);
@@ -198,7 +198,7 @@ TEST_P(Nasty, IsRepairedOrRefusedWithWords) {
     EXPECT_EQ(scan.report.faces_out, row.faces);
     EXPECT_TRUE(scan.report.is_solid());
     EXPECT_GT(scan.report.volume, 0);
-    std::vector<std::string> words = told(scan.report);
+    std::vector<std::string> words = words_of(scan.report);
     const bool is_stl = scan.format == MeshFormat::stl_ascii || scan.format == MeshFormat::stl_binary;
     if (is_stl) std::erase_if(words, [](const std::string& w) { return w.starts_with("weld:"); });
     EXPECT_EQ(words, row.words);

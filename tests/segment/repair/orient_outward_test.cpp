@@ -20,7 +20,7 @@ TEST(Outward, SolidsStayAndWhatIsInsideOutIsTurned) {
     }
 }
 
-TEST(Outward, OnlyCountsWhenToldSo) {
+TEST(Outward, OnlyCountsWhenAskedTo) {
     const TriangleMesh ball = shapes::turned_inside_out(shapes::ball({0, 0, 0}, 5));
     TriangleMesh mesh = ball;
     const Outward counts = orient_outward(mesh, false);

@@ -114,7 +114,7 @@ TEST(Repair, StepsComeInTheirOrderWithWordsAndCounts) {
     }
     EXPECT_EQ(names,
               (std::vector<std::string>{"weld", "weld_borders", "faces", "split", "orient", "stitch", "degenerate",
-                                        "fill", "outwards", "fragments", "resolve", "marks", "wrap"}));
+                                        "fill", "outwards", "fragments", "resolve", "pen_grooves", "alpha_wrap"}));
 }
 
 TEST(Repair, StepsCanBeLeftOut) {
@@ -173,7 +173,7 @@ TEST(Repair, LargeHolesAreFairedAndSmallOnesFilledFlat) {
     EXPECT_EQ(repair(small, options).report.holes_faired, 1U);
 }
 
-TEST(Repair, TellsTheDistanceInMillimetres) {
+TEST(Repair, MeasuresTheDistanceInMillimetres) {
     TriangleMesh ball = shapes::ball({0, 0, 0}, 10, 12);
     std::erase_if(ball.triangles, [&](const Triangle& t) {
         return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return ball.points[v].z > 8; });
@@ -188,21 +188,22 @@ TEST(Repair, TellsTheDistanceInMillimetres) {
     EXPECT_EQ(repair(shapes::ball({0, 0, 0}, 10), options).report.deviation->largest().triangles, 0U);
 }
 
-// A sheet lies on what closes it flat: of that no distance is known for sure but after millions of points.
-TEST(Repair, OfWhatIsRefusedNoDistanceIsLookedFor) {
-    TriangleMesh sheet;
-    for (std::uint32_t i = 0; i < 15; ++i) sheet.points.push_back({double(i / 5), double(i % 5), 0});
+// An open component coincides with what fills it flat: its distance is certain only after millions of points.
+TEST(Repair, OfWhatIsRefusedNoDistanceIsMeasured) {
+    TriangleMesh open_component;
+    for (std::uint32_t i = 0; i < 15; ++i) open_component.points.push_back({double(i / 5), double(i % 5), 0});
     for (const std::uint32_t a : {0U, 1U, 2U, 3U, 5U, 6U, 7U, 8U}) {
-        sheet.triangles.push_back({a, a + 5, a + 6});
-        sheet.triangles.push_back({a, a + 6, a + 1});
+        open_component.triangles.push_back({a, a + 5, a + 6});
+        open_component.triangles.push_back({a, a + 6, a + 1});
     }
     RepairOptions options;
     options.measure_deviation = true;
-    const Repaired refused = repair(sheet, options);
-    EXPECT_EQ(refused.report.sheets, 1U);
+    const Repaired refused = repair(open_component, options);
+    EXPECT_EQ(refused.report.open_components_left, 1U);
     EXPECT_FALSE(refused.report.deviation.has_value());
     options.fill.fill = Fill::none;
-    EXPECT_TRUE(repair(sheet, options).report.deviation.has_value()) << "what may stay open is written, and measured";
+    EXPECT_TRUE(repair(open_component, options).report.deviation.has_value())
+        << "what may stay open is written, and measured";
 }
 
 TEST(Repair, LengthsAreMillimetres) {
@@ -236,25 +237,25 @@ TEST(Repair, ResolvesOnlyWhenAskedAndStaysASolid) {
     EXPECT_EQ(repair(result.mesh, options).mesh, result.mesh);
 }
 
-TEST(Repair, LooksForMarksOnlyWhenAsked) {
+TEST(Repair, FindsPenGroovesOnlyWhenAsked) {
     const TriangleMesh ball = shapes::ball({0, 0, 0}, 40, 96);
-    EXPECT_FALSE(repair(ball).report.marks.has_value());
+    EXPECT_FALSE(repair(ball).report.pen_grooves.has_value());
     RepairOptions options;
-    options.smooth_marks = true;
+    options.smooth_pen_grooves = true;
     const Repaired result = repair(ball, options);
-    ASSERT_TRUE(result.report.marks.has_value());
-    EXPECT_EQ(result.report.marks->marks, 0U);
+    ASSERT_TRUE(result.report.pen_grooves.has_value());
+    EXPECT_EQ(result.report.pen_grooves->count, 0U);
     EXPECT_EQ(result.mesh, ball);
 }
 
-TEST(Repair, WrapsOnlyWhenAskedAndSaysHowFar) {
+TEST(Repair, WrapsOnlyWhenAskedAndMeasuresTheDistance) {
     TriangleMesh soup = unwelded(shapes::ball({0, 0, 0}, 10, 12));
     std::mt19937 random(2);
     std::uniform_real_distribution<double> noise(-0.2, 0.2);
     for (Vec3& p : soup.points) p = p + Vec3{noise(random), noise(random), noise(random)};
     EXPECT_FALSE(repair(soup).report.is_solid());
     RepairOptions options;
-    options.wrap_mm = 2;
+    options.alpha_wrap_mm = 2;
     options.measure_deviation = true;
     const Repaired wrapped = repair(soup, options);
     EXPECT_TRUE(wrapped.report.is_solid());

@@ -13,6 +13,7 @@
 #include "segment/repair/self_intersections.h"
 #include "segment/repair/weld.h"
 #include "tests/segment/io/help.h"
+#include "tests/segment/repair/nasty_meshes.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
@@ -27,7 +28,7 @@ std::array<Vec3, 3> places(const TriangleMesh& mesh, const Triangle& t) {
     return {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]};
 }
 
-// What holds whatever the mesh.
+// Holds for every mesh.
 Resolved expect_invariants(TriangleMesh& mesh, const std::string& name) {
     const TriangleMesh before = mesh;
     const Resolved result = resolve_self_intersections(mesh);
@@ -75,7 +76,7 @@ TEST(Resolve, LeavesSoundMeshesAsTheyAre) {
     }
 }
 
-TEST(Resolve, MendsAPlaceThatIsPiercedAndNothingElse) {
+TEST(Resolve, RepairsAPlaceThatIsPiercedAndNothingElse) {
     TriangleMesh mesh = pierced();
     const TriangleMesh before = mesh;
     const Resolved result = expect_invariants(mesh, "pierced plate");
@@ -89,7 +90,7 @@ TEST(Resolve, MendsAPlaceThatIsPiercedAndNothingElse) {
     EXPECT_EQ(again, mesh);
 }
 
-TEST(Resolve, MendsCrumpledSurfacesOrLeavesThemAsTheyWere) {
+TEST(Resolve, RepairsCrumpledSurfacesOrLeavesThemAsTheyWere) {
     std::size_t before = 0;
     std::size_t after = 0;
     for (unsigned seed = 0; seed < 10; ++seed) {
@@ -125,7 +126,7 @@ TEST(Resolve, StaysAwayFromOpenBorders) {
     EXPECT_EQ(edges(mesh).faults.open, open);
 }
 
-TEST(Resolve, MendsTheDragon) {
+TEST(Resolve, RepairsTheDragon) {
     NEEDS_MESH("dragon_vrip_871k.ply");
     TriangleMesh mesh = read_mesh(real_mesh("dragon_vrip_871k.ply")).mesh;
     weld(mesh);
@@ -141,22 +142,14 @@ TEST(Resolve, MendsTheDragon) {
 
 TEST(Resolve, KeepsItsInvariantsOnWhatOthersFoundNasty) {
     NEEDS_MESH("nasty");
-    std::size_t looked_at = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(real_mesh("nasty"))) {
-        TriangleMesh mesh;
-        try {
-            mesh = read_mesh(entry.path()).mesh;
-        } catch (const InputError&) {
-            continue;
-        }
-        weld(mesh);
-        if (mesh.triangles.size() > 20'000) continue;
+    std::size_t resolved = 0;
+    for_each_nasty_mesh(20'000, [&](TriangleMesh mesh, const std::string& name) {
         const Edges found = edges(mesh);
         if (found.faults.non_manifold + found.faults.inconsistent == 0) split_non_manifold_vertices(mesh, found);
-        expect_invariants(mesh, entry.path().filename());
-        ++looked_at;
-    }
-    EXPECT_GT(looked_at, 10U);
+        expect_invariants(mesh, name);
+        ++resolved;
+    });
+    EXPECT_GT(resolved, 10U);
 }
 
 }  // namespace

@@ -9,19 +9,19 @@
 #include <iterator>
 #include <random>
 
-#include "segment/repair/weld.h"
-#include "tests/segment/io/help.h"
-#include "tests/shapes.h"
-
 #include "base/parallel.h"
 #include "segment/io/read_mesh.h"
+#include "segment/repair/weld.h"
+#include "tests/segment/io/help.h"
+#include "tests/segment/repair/nasty_meshes.h"
+#include "tests/shapes.h"
 
 namespace qchopper {
 namespace {
 
 using Pairs = std::vector<std::array<std::uint32_t, 2>>;
 
-// What CGAL says; nothing for a mesh that its half-edges cannot tell. A triangle without area is a pair with itself.
+// The pairs of CGAL; nothing for a mesh that its half-edges cannot hold. A triangle without area is a pair with itself.
 std::optional<Pairs> by_cgal(const TriangleMesh& mesh) {
     using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
     using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
@@ -59,7 +59,7 @@ void expect_as_cgal(const TriangleMesh& mesh, const std::string& name) {
     EXPECT_EQ(by_us(mesh), *expected) << name;
 }
 
-// Every triangle moved by a whim of its own: they run through each other everywhere.
+// Every triangle at a random place: they intersect everywhere.
 TriangleMesh soup(std::size_t triangles, double size, unsigned seed, bool on_grid) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> place(0, 1);
@@ -106,7 +106,7 @@ TEST(SelfIntersections, AreThoseOfCgalInSoups) {
 }
 
 // On a grid nearly everything is degenerate: in one plane, on one line, touching in a point. Equal points of different
-// numbers are shared for us, not for CGAL, so points are made different from those of all other triangles first.
+// numbers are shared here, not for CGAL, so points are made different from those of all other triangles first.
 TEST(SelfIntersections, AreThoseOfCgalOnAGrid) {
     std::size_t pairs = 0;
     for (unsigned seed = 0; seed < 40; ++seed) {
@@ -217,18 +217,11 @@ TEST(SelfIntersections, AreThoseOfCgalInTheDragon) {
 TEST(SelfIntersections, AreThoseOfCgalInWhatOthersFoundNasty) {
     NEEDS_MESH("nasty");
     std::size_t compared = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(real_mesh("nasty"))) {
-        TriangleMesh mesh;
-        try {
-            mesh = read_mesh(entry.path()).mesh;
-        } catch (const InputError&) {
-            continue;
-        }
-        weld(mesh);
-        if (mesh.triangles.size() > 30'000 || !by_cgal(mesh)) continue;
-        expect_as_cgal(mesh, entry.path().filename());
+    for_each_nasty_mesh(30'000, [&](const TriangleMesh& mesh, const std::string& name) {
+        if (!by_cgal(mesh)) return;
+        expect_as_cgal(mesh, name);
         ++compared;
-    }
+    });
     EXPECT_GT(compared, 10U);
 }
 

@@ -31,7 +31,7 @@ TriangleMesh torn(const TriangleMesh& mesh, double gap) {
 TEST(SnapBorders, ClosesATornShape) {
     for (const shapes::Named& shape : shapes::all_closed()) {
         TriangleMesh mesh = torn(shape.mesh, 0.01);
-        if (edges(mesh).faults.is_closed()) continue;  // two solids that were parted whole
+        if (edges(mesh).faults.is_closed()) continue;  // two solids, one on each side
         const SnapBorders counts = weld_borders(mesh, 0.02);
         EXPECT_GT(counts.welded, 0U) << shape.name;
         EXPECT_NEAR(counts.farthest, 0.01, 1e-6) << shape.name;

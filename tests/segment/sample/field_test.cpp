@@ -46,16 +46,16 @@ TEST(BoneField, LocalFieldGivesTheSameBits) {
     for (const Bone& bone : {vertebra(), femur(), skull()}) {
         const double size = norm(bone.box.size());
         std::size_t parts_kept = 0;
-        std::size_t parts_asked = 0;
+        std::size_t parts_before = 0;
         for (int ball = 0; ball < 400; ++ball) {
             const Vec3 centre{between(bone.box.min.x, bone.box.max.x), between(bone.box.min.y, bone.box.max.y),
                               between(bone.box.min.z, bone.box.max.z)};
             const double radius = std::pow(10, between(-3, -1)) * size;
             BoneField local;
-            const FieldRange range = range_in_ball(bone.field, centre, radius, &local);
+            const FieldRange range = range_in_ball(bone.field, centre, radius, local);
             if (radius < 0.01 * size) {
                 parts_kept += local.parts.size();
-                parts_asked += bone.field.parts.size();
+                parts_before += bone.field.parts.size();
             }
             for (int i = 0; i < 30; ++i) {
                 const Vec3 direction = normalized({between(-1, 1), between(-1, 1), between(-1, 1)});
@@ -66,7 +66,7 @@ TEST(BoneField, LocalFieldGivesTheSameBits) {
                 ASSERT_LE(value, range.high + 1e-9);
             }
         }
-        EXPECT_LT(2 * parts_kept, parts_asked);  // or the picking would be for nothing
+        EXPECT_LT(2 * parts_kept, parts_before);  // else the selection would be useless
     }
 }
 

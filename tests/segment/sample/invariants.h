@@ -1,4 +1,4 @@
-// What every closed mesh of a specimen must hold.
+// The invariants of a closed mesh of a specimen.
 
 #pragma once
 
@@ -13,13 +13,13 @@
 
 namespace qchopper {
 
-// Of one shell.
+// Of a closed mesh of one shell.
 inline long genus(const TriangleMesh& mesh) {
     const long euler = static_cast<long>(mesh.points.size()) - static_cast<long>(mesh.triangles.size()) / 2;
     return 1 - euler / 2;
 }
 
-// Points at which the triangles do not make one fan all around.
+// The number of points around which the triangles do not form one ring.
 inline std::size_t non_manifold_vertices(const TriangleMesh& mesh, const Edges& found) {
     std::vector<std::size_t> uses(mesh.points.size());
     std::vector<std::uint32_t> any(mesh.points.size());

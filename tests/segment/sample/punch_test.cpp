@@ -11,7 +11,7 @@
 namespace qchopper {
 namespace {
 
-// The numbers of edges of the border loops, found by walking them; a border that touches itself gives no answer.
+// The numbers of edges of the border loops; none if a border touches itself.
 std::vector<std::size_t> loops(const TriangleMesh& mesh) {
     const Edges found = edges(mesh);
     std::map<std::uint32_t, std::uint32_t> next;
@@ -49,12 +49,12 @@ TEST(Punch, HolesDifferInSize) {
     EXPECT_GT(*std::max_element(sizes.begin(), sizes.end()), *std::min_element(sizes.begin(), sizes.end()));
 }
 
-TEST(Punch, SaysWhenThereIsNoRoom) {
+TEST(Punch, ReportsFewerHolesWhenThereIsNoRoom) {
     TriangleMesh box = shapes::box({0, 0, 0}, {1, 1, 1});
     EXPECT_LT(punch_holes(box, 20), 20);
 }
 
-TEST(Punch, LeavesNoPointWithoutUse) {
+TEST(Punch, LeavesNoPointWithoutATriangle) {
     TriangleMesh ball = shapes::ball({0, 0, 0}, 50, 60);
     punch_holes(ball, 3);
     std::vector<bool> is_used(ball.points.size());

@@ -27,7 +27,7 @@ TEST(Refine, SplitsTheLongestEdge) {
     EXPECT_NEAR(box.points.back().x, 15, 1e-12);
 }
 
-TEST(Refine, SaysHowManySplitsThereWereRoomFor) {
+TEST(Refine, ReturnsTheNumberOfEdgesSplit) {
     TriangleMesh box = shapes::box({0, 0, 0}, {1, 1, 1});
     const std::size_t split = split_longest_edges(box, 1000);
     EXPECT_LE(split, 6U);

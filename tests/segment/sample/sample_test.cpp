@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "segment/sample/bones.h"
-#include "segment/sample/surface.h"
+#include "segment/sample/isosurface.h"
 #include "tests/segment/sample/invariants.h"
 #include "tests/segment/sample/self_intersections.h"
 
@@ -19,7 +19,7 @@ constexpr Specimen all[] = {Specimen::vertebra, Specimen::femur, Specimen::skull
 // Below the base lattice, at it and above it, even and odd.
 constexpr std::size_t face_counts[] = {2000, 6667, 100000};
 
-TEST(Sample, IsOneValidSolidOfTheNumberOfFacesAskedFor) {
+TEST(Sample, IsOneValidSolidOfTheGivenNumberOfFaces) {
     for (const Specimen specimen : all) {
         for (const std::size_t faces : face_counts) {
             SCOPED_TRACE(testing::Message() << static_cast<int>(specimen) << " with " << faces);
@@ -30,7 +30,7 @@ TEST(Sample, IsOneValidSolidOfTheNumberOfFacesAskedFor) {
     }
 }
 
-TEST(Sample, NeverMeetsItself) {
+TEST(Sample, NeverIntersectsItself) {
     for (const Specimen specimen : all) {
         for (const std::size_t faces : {2000U, 6000U, 30000U, 60000U, 120000U}) {
             EXPECT_EQ(count_self_intersections(sample(specimen, {faces, 0})), 0U)
@@ -41,7 +41,7 @@ TEST(Sample, NeverMeetsItself) {
 
 TEST(Sample, CoarserThanTheBaseLatticeHasPointsOfItsSurface) {
     const Bone bone = vertebra();
-    const TriangleMesh base = surface(bone.field, bone.box, bone.base_spacing, {});
+    const TriangleMesh base = isosurface(bone.field, bone.box, bone.base_spacing, {});
     EXPECT_EQ(sample(Specimen::vertebra, {base.triangles.size(), 0}), base);
     for (const Vec3& p : sample(Specimen::vertebra, {3000, 0}).points) {
         EXPECT_NE(std::find(base.points.begin(), base.points.end(), p), base.points.end());
@@ -77,7 +77,7 @@ TEST(Sample, HasTheSizeOfItsBone) {
 }
 
 TEST(Sample, SkullIsHollowAndItsHollowIsOpen) {
-    // one shell only, and yet much less volume than its outside would hold: the middle of the brain is outside
+    // one shell only, and yet much less volume than its outer surface encloses: the middle of the brain is outside
     const TriangleMesh skull = sample(Specimen::skull, {20000, 0});
     EXPECT_EQ(shells(skull).count(), 1U);
     const Vec3 brain{0, -560, 130};
@@ -110,7 +110,7 @@ TEST(Sample, WithHolesHasThatManyHoles) {
             EXPECT_EQ(found.faults.inconsistent + found.faults.non_manifold, 0U);
             EXPECT_LT(mesh.triangles.size(), 20000U);
             EXPECT_GT(mesh.triangles.size(), 15000U);
-            // a closed surface of this genus loses one from its Euler characteristic for every disc taken out
+            // a closed surface of this genus loses one from its Euler characteristic for every disc removed
             const long edge_count =
                 (3 * static_cast<long>(mesh.triangles.size()) + static_cast<long>(found.faults.open)) / 2;
             const long euler =
@@ -132,7 +132,7 @@ TEST(Sample, RefusesImpossibleNumbers) {
     }
 }
 
-TEST(Sample, StopsWhenAsked) {
+TEST(Sample, StopsWhenCancelled) {
     const std::atomic<bool> stop = true;
     Context context;
     context.cancelled = &stop;

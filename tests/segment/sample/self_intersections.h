@@ -1,4 +1,4 @@
-// Counts the pairs of triangles that meet where they should not, exactly, by CGAL.
+// Counts the pairs of triangles that intersect, exactly, by CGAL. A triangle that CGAL refuses counts as well.
 
 #pragma once
 

@@ -17,7 +17,7 @@ TEST(Candidates, FortyOffsetsEvenlyInsideTheExtentOfThreeNormals) {
     ASSERT_EQ(all.size(), 120U);
     for (const Candidate& c : all) {
         const Extent range = extent(*piece.mesh, c.plane.normal);
-        EXPECT_DOUBLE_EQ(c.wanted_offset, range.low + range.size() * (c.offset + 1) / 41);
+        EXPECT_DOUBLE_EQ(c.wanted_offset, range.low + range.size() * (c.offset_index + 1) / 41);
         EXPECT_NEAR(c.plane.offset, c.wanted_offset, 1e-7 * range.size());
         EXPECT_EQ(canonical(c.plane), c.plane);
     }

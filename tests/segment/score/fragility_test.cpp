@@ -42,7 +42,7 @@ TEST(Fragility, ABallsSkinHasTheValueOfTheIntegral) {
 }
 
 TEST(Fragility, AWallAcrossAGapDoesNotCount) {
-    // Two plates with a gap between: the far plate's upper side sees the plane only through the gap.
+    // Two plates with a gap between: from the far plate's upper side the ray to the plane crosses the gap.
     const TriangleMesh plates =
         shapes::joined({shapes::box({0, 0, 0}, {50, 50, 30}, 4), shapes::box({0, 0, 32}, {50, 50, 35}, 4)});
     const Piece lower = piece_of(plates);

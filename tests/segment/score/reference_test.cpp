@@ -37,7 +37,7 @@ TEST(Reference, AFullBallOnASmallBaseIsHalfUndercut) {
     EXPECT_NEAR(undercut(evaluation->solids[1], true), 0, 1e-12);
 }
 
-// What an evaluation says of its solids is what the pieces that the cut makes say of themselves.
+// The evaluation of each solid of a cut equals the evaluation of the piece that the cut makes of it.
 TEST(Reference, EvaluationsAgreeWithThePiecesThatTheCutMakes) {
     std::mt19937 random(4);
     std::normal_distribution<double> normal;

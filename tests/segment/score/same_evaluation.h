@@ -1,4 +1,4 @@
-// Holds the sweep against cutting: the same pieces, faces and bases exactly, the same sums to 1e-9.
+// Compares the sweep with cutting: the same pieces, faces and bases exactly, the same sums to 1e-9.
 
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace qchopper {
 
-// Solids have no order that both ways of evaluation share.
+// The two evaluations list solids in different orders.
 inline std::vector<SolidEvaluation> sorted(std::vector<SolidEvaluation> solids) {
     std::sort(solids.begin(), solids.end(), [](const SolidEvaluation& a, const SolidEvaluation& b) {
         return std::tuple(a.above, a.faces, a.volume_mm3) < std::tuple(b.above, b.faces, b.volume_mm3);
@@ -50,7 +50,7 @@ inline void expect_equal(const CutEvaluation& fast, const CutEvaluation& plain, 
     }
 }
 
-// Every offset of a normal, evaluated by the sweep and by cutting.
+// Evaluates every offset of a normal by the sweep and by cutting. Returns the number of offsets compared.
 inline std::size_t expect_same(const Piece& piece, Vec3 normal, std::vector<double> wanted,
                                const Objectives& objectives, const std::string& what) {
     std::sort(wanted.begin(), wanted.end());

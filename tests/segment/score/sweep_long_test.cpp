@@ -1,4 +1,4 @@
-// The sweep against cutting on specimens, on real scans, and on the pieces that cuts make of them.
+// Compares the sweep with cutting on specimens, on real scans, and on the pieces that cuts make of them.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ std::vector<Piece> pieces_of(const TriangleMesh& scan, std::size_t most) {
     return pieces;
 }
 
-// The best of all candidates by both ways of evaluation; the same one, or one as good to 1e-9.
+// The best of all candidates of one evaluation.
 struct Winner {
     std::size_t candidate = 0;
     double total = std::numeric_limits<double>::infinity();
@@ -129,7 +129,7 @@ TEST(SweepLong, EqualsCuttingOnEveryValidScan) {
             options.mm_per_unit = 100;
             imported = import_scan(std::filesystem::path(QCHOPPER_MESHES) / scan.file, options);
         } catch (const InputError&) {
-            continue;  // what import refuses is not a valid mesh for us
+            continue;  // no valid mesh: import refuses it
         }
         ++taken;
         expect_same_along_cuts(imported.mesh, scan.faces > 100'000 ? 8 : 40, scan.file);

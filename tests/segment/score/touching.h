@@ -1,6 +1,6 @@
-// Solids that touch themselves and each other without crossing: built of the cells of a grid.
+// Makes solids that touch themselves and each other without crossing: built of the cells of a grid.
 //
-// Some neighbouring cells are parted by a wall without thickness (two coincident faces that look at each other), some
+// Some neighbouring cells are parted by a wall without thickness (two coincident faces that face each other), some
 // cells meet in an edge or a corner only. Where more than two faces meet at an edge they are paired at random, through
 // the material or through the void, and every vertex has one fan of faces: closed, oriented, two faces at every edge,
 // as a repaired scan is.

@@ -82,8 +82,7 @@ TEST(Touching, TheSweepPredictsTheCutAndNoCapIsFolded) {
     }
 }
 
-// Where solids cross there is no right answer, but there is one: pieces, faces and bases of the cut are those
-// predicted.
+// Where solids cross no answer is right, but the sweep and the cut give the same: pieces, faces and bases.
 TEST(Touching, WhereSolidsCrossTheSweepPredictsTheCutToo) {
     std::mt19937 random(2);
     std::uniform_real_distribution<double> place(-8, 8);

@@ -26,14 +26,14 @@ struct Found {
 
 Found searched(const TriangleMesh& mesh, const SearchSettings& settings) {
     Found found{uncut(mesh, settings.objectives.fragment_volume_mm3), {}};
-    EvaluationCache book(settings.objectives, settings.candidates);
-    found.end = search(found.segmentation, settings, book, {}, [](const Segmentation&) {}, {});
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    found.end = search(found.segmentation, settings, cache, {}, [](const Segmentation&) {}, {});
     return found;
 }
 
 double cost_of(const Segmentation& segmentation, const SearchSettings& settings) {
-    EvaluationCache book(settings.objectives, settings.candidates);
-    return cost(segmentation, settings.objectives, book);
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    return cost(segmentation, settings.objectives, cache);
 }
 
 TEST(Beam, OfOneIsTheGreedySearchOnEveryShape) {
@@ -75,15 +75,15 @@ TEST(Beam, OfAnyWidthFindsTheGreedyCutIfOneIsAskedFor) {
 // Every pair of cuts that the search could make, made. Least cost of all.
 double least_of_all_pairs(const TriangleMesh& mesh, const SearchSettings& settings) {
     const Segmentation start = uncut(mesh, 0);
-    EvaluationCache book(settings.objectives, settings.candidates);
+    EvaluationCache cache(settings.objectives, settings.candidates);
     double least = std::numeric_limits<double>::infinity();
     const std::size_t first = *next_piece(start, settings.stop, {}, {}).piece;
-    const std::vector<Ranked> firsts = rank(start, first, settings, book, {});
+    const std::vector<Ranked> firsts = rank(start, first, settings, cache, {});
     for (std::size_t i = 0; i < firsts.size(); ++i) {
         Segmentation one = start;
         EXPECT_TRUE(apply(one, cut_by(one, first, firsts, i, 0), 0));
         const std::size_t second = *next_piece(one, settings.stop, {}, {}).piece;
-        const std::vector<Ranked> seconds = rank(one, second, settings, book, {});
+        const std::vector<Ranked> seconds = rank(one, second, settings, cache, {});
         for (std::size_t j = 0; j < seconds.size(); ++j) {
             Segmentation two = one;
             EXPECT_TRUE(apply(two, cut_by(two, second, seconds, j, 0), 0));
@@ -93,8 +93,8 @@ double least_of_all_pairs(const TriangleMesh& mesh, const SearchSettings& settin
     return least;
 }
 
-// What holds by construction: a beam that keeps all children of the first round has seen every pair of cuts that it
-// could make, so of two cuts it finds the cheapest, and no narrower beam ends cheaper.
+// This holds by construction: a beam that keeps all children of the first round compares every pair of cuts that it
+// could make, so it finds the cheapest two cuts, and no narrower beam ends cheaper.
 TEST(Beam, AsWideAsAllCandidatesFindsTheCheapestTwoCuts) {
     for (const TriangleMesh& mesh : {shapes::linked_tori(), shapes::stairs(), shapes::nested(),
                                      shapes::rotated(shapes::torus({0, 0, 0}, 40, 12, 12), {1, 2, 3}, 0.5)}) {
@@ -132,10 +132,10 @@ TEST(Beam, IsTheSameTwice) {
 }
 
 TEST(Beam, CullsTheWorseOfTwoNearPlanesOfOneNormal) {
-    const auto at = [](int normal, int offset) {
+    const auto at = [](int normal_index, int offset_index) {
         Ranked r;
-        r.normal = normal;
-        r.offset = offset;
+        r.normal_index = normal_index;
+        r.offset_index = offset_index;
         return r;
     };
     const std::vector<Ranked> ranked{at(0, 20), at(0, 22), at(1, 21), at(0, 23), at(0, 17), at(1, 22)};
@@ -144,14 +144,14 @@ TEST(Beam, CullsTheWorseOfTwoNearPlanesOfOneNormal) {
     EXPECT_EQ(without_near_duplicates(ranked, 40, 0).size(), ranked.size());
 }
 
-TEST(Beam, TellsTheBestOfEveryRoundAndEndsInOneThatItTold) {
+TEST(Beam, ReportsTheBestOfEveryRoundAndEndsInAReportedOne) {
     const TriangleMesh mesh = shapes::linked_tori();
     const SearchSettings settings = settings_of(4, 5);
     Segmentation segmentation = uncut(mesh, 0);
-    EvaluationCache book(settings.objectives, settings.candidates);
-    std::vector<std::size_t> told;
-    search(segmentation, settings, book, {}, [&](const Segmentation& s) { told.push_back(s.cuts.size()); }, {});
-    EXPECT_EQ(told, (std::vector<std::size_t>{1, 2, 3, 4}));
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    std::vector<std::size_t> reported;
+    search(segmentation, settings, cache, {}, [&](const Segmentation& s) { reported.push_back(s.cuts.size()); }, {});
+    EXPECT_EQ(reported, (std::vector<std::size_t>{1, 2, 3, 4}));
     EXPECT_EQ(segmentation.cuts.size(), 4U);
 }
 
@@ -160,30 +160,30 @@ TEST(Beam, WhatIsStoppedForTimeEndsWithTheDecisionBeingMade) {
     for (const std::size_t width : {1U, 3U}) {
         const SearchSettings settings = settings_of(400, width);
         Segmentation segmentation = uncut(mesh, 0);
-        EvaluationCache book(settings.objectives, settings.candidates);
-        std::size_t told = 0;
+        EvaluationCache cache(settings.objectives, settings.candidates);
+        std::size_t reported = 0;
         const SearchEnd end = search(
-            segmentation, settings, book, {}, [&](const Segmentation&) { ++told; }, {}, 1e-9);
+            segmentation, settings, cache, {}, [&](const Segmentation&) { ++reported; }, {}, 1e-9);
         EXPECT_TRUE(end.is_out_of_time());
         EXPECT_FALSE(end.is_finished());
-        EXPECT_EQ(told, 1U);
+        EXPECT_EQ(reported, 1U);
         EXPECT_EQ(segmentation.cuts.size(), 1U);
         EXPECT_EQ(end.reason, EndReason::time_limit);
         EXPECT_NE(end.sentence.find("time limit"), std::string::npos);
     }
 }
 
-TEST(Beam, ThatHasNoTimeButIsFinishedSaysSo) {
+TEST(Beam, ThatIsFinishedWhenItsTimeEndsReportsThatItIsFinished) {
     const SearchSettings settings = settings_of(1, 1);
     Segmentation segmentation = uncut(shapes::ball({0, 0, 0}, 10), 0);
-    EvaluationCache book(settings.objectives, settings.candidates);
+    EvaluationCache cache(settings.objectives, settings.candidates);
     const SearchEnd end = search(
-        segmentation, settings, book, {}, [](const Segmentation&) {}, {}, 1e-9);
+        segmentation, settings, cache, {}, [](const Segmentation&) {}, {}, 1e-9);
     EXPECT_TRUE(end.is_finished());
     EXPECT_FALSE(end.is_out_of_time());
 }
 
-TEST(Beam, StopsInWordsWhereNothingCanBeCutOrTheSafetyStopIsReached) {
+TEST(Beam, GivesItsReasonWhereNothingCanBeCutOrTheSafetyStopIsReached) {
     for (const std::size_t width : {1U, 3U}) {
         SearchSettings settings = settings_of(2, width, 0);
         const Found stuck = searched(shapes::ball({0, 0, 0}, 10), settings);

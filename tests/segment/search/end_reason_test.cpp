@@ -15,7 +15,7 @@ TEST(EndReason, IsFoundAgainInItsSentence) {
     EXPECT_EQ(end_reason_of("the stop rules"), std::nullopt);
 }
 
-TEST(EndReason, SaysItsFigure) {
+TEST(EndReason, HasItsFigureInTheSentence) {
     EXPECT_EQ(describe(EndReason::max_cuts, "500"), "the safety stop of 500 cuts is reached");
     EXPECT_EQ(describe(EndReason::time_limit, "0.5"), "the time limit of 0.5 s is reached");
 }

@@ -18,19 +18,19 @@ TEST(EvaluationCache, RankingAfterAChangeOfWeightsIsThatOfEvaluatingAnewAndEvalu
     SearchSettings settings = quick();
     for (const auto& [name, mesh, count] : shapes::all_closed()) {
         const Segmentation segmentation = uncut(mesh, 0);
-        EvaluationCache book(settings.objectives, settings.candidates);
-        rank(segmentation, 0, settings, book, {});
-        const std::size_t evaluated = book.evaluated_count();
+        EvaluationCache cache(settings.objectives, settings.candidates);
+        rank(segmentation, 0, settings, cache, {});
+        const std::size_t evaluated = cache.evaluated_count();
         for (const Weights& weights : {Weights{1, 0, 0, 0}, Weights{0, 3, 1, 90}, Weights{5, 1, 200, 1}}) {
             for (const double threshold : {1.0, 1.5, 4.0}) {
                 settings.objectives.weights = weights;
                 settings.objectives.face_ratio_threshold = threshold;
                 EvaluationCache fresh(settings.objectives, settings.candidates);
-                EXPECT_EQ(rank(segmentation, 0, settings, book, {}), rank(segmentation, 0, settings, fresh, {}))
+                EXPECT_EQ(rank(segmentation, 0, settings, cache, {}), rank(segmentation, 0, settings, fresh, {}))
                     << name;
             }
         }
-        EXPECT_EQ(book.evaluated_count(), evaluated) << name;
+        EXPECT_EQ(cache.evaluated_count(), evaluated) << name;
     }
 }
 
@@ -39,12 +39,12 @@ TEST(EvaluationCache, EvaluatesEveryPieceOnceAndOnlyThoseThatAreCut) {
     settings.stop.min_cuts = 6;
     const TriangleMesh mesh = shapes::linked_tori();
     Segmentation segmentation = uncut(mesh, 0);
-    EvaluationCache book(settings.objectives, settings.candidates);
-    search(segmentation, settings, book, {}, [](const Segmentation&) {}, {});
-    EXPECT_GE(book.evaluated_count(), 6U);
-    EXPECT_LE(book.evaluated_count(), segmentation.names_given) << "more evaluations than pieces that ever were";
-    EXPECT_LE(book.evaluated_count(), 8U) << "pieces were evaluated that nobody was going to cut";
-    EXPECT_EQ(book.box_count(), book.evaluated_count());
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    search(segmentation, settings, cache, {}, [](const Segmentation&) {}, {});
+    EXPECT_GE(cache.evaluated_count(), 6U);
+    EXPECT_LE(cache.evaluated_count(), segmentation.names_given) << "more evaluations than pieces that ever were";
+    EXPECT_LE(cache.evaluated_count(), 8U) << "pieces were evaluated that were not to be cut";
+    EXPECT_EQ(cache.box_count(), cache.evaluated_count());
 }
 
 TEST(EvaluationCache, SearchesNoBoxTwiceAlsoWithARuleOnBoxes) {
@@ -53,16 +53,16 @@ TEST(EvaluationCache, SearchesNoBoxTwiceAlsoWithARuleOnBoxes) {
     for (const std::size_t beam : {1U, 3U}) {
         settings.beam = beam;
         Segmentation segmentation = uncut(shapes::torus({0, 0, 0}, 40, 12), 0);
-        EvaluationCache book(settings.objectives, settings.candidates);
-        EXPECT_TRUE(search(segmentation, settings, book, {}, [](const Segmentation&) {}, {}).is_finished());
+        EvaluationCache cache(settings.objectives, settings.candidates);
+        EXPECT_TRUE(search(segmentation, settings, cache, {}, [](const Segmentation&) {}, {}).is_finished());
         EXPECT_GT(segmentation.cuts.size(), 2U);
         if (beam == 1) {
-            EXPECT_EQ(book.box_count(), segmentation.names_given);
+            EXPECT_EQ(cache.box_count(), segmentation.names_given);
         }
         for (const Piece& piece : segmentation.pieces) {
-            const std::size_t before = book.box_count();
-            EXPECT_TRUE(fits_in(book.box(piece).size(), *settings.stop.max_obb));
-            EXPECT_EQ(book.box_count(), before);
+            const std::size_t before = cache.box_count();
+            EXPECT_TRUE(fits_in(cache.box(piece).size(), *settings.stop.max_obb));
+            EXPECT_EQ(cache.box_count(), before);
         }
     }
 }
@@ -90,18 +90,18 @@ TEST(EvaluationCache, SeveralPiecesAtOnceAreEachEvaluatedAsAlone) {
     }
 }
 
-TEST(EvaluationCache, ForgetsWhatNoSegmentationHolds) {
+TEST(EvaluationCache, DropsWhatNoSegmentationHolds) {
     const SearchSettings settings = quick();
     const Segmentation segmentation = uncut(shapes::linked_tori(), 0);
     Segmentation one = segmentation;
     one.pieces.pop_back();
-    EvaluationCache book(settings.objectives, settings.candidates);
+    EvaluationCache cache(settings.objectives, settings.candidates);
     const std::vector<const Piece*> both{&segmentation.pieces[0], &segmentation.pieces[1]};
-    book.evaluate(both, {});
+    cache.evaluate(both, {});
     const Segmentation* kept = &one;
-    book.keep_only(std::span(&kept, 1));
-    EXPECT_TRUE(book.is_evaluated(segmentation.pieces[0]));
-    EXPECT_FALSE(book.is_evaluated(segmentation.pieces[1]));
+    cache.keep_only(std::span(&kept, 1));
+    EXPECT_TRUE(cache.is_evaluated(segmentation.pieces[0]));
+    EXPECT_FALSE(cache.is_evaluated(segmentation.pieces[1]));
 }
 
 }  // namespace

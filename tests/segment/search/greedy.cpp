@@ -19,7 +19,7 @@ std::vector<Ranked> ranked(const Segmentation& segmentation, std::size_t piece, 
         const Candidate& c = candidates[i];
         const std::optional<Terms> t =
             evaluations[i] ? terms(*evaluations[i], others, settings.objectives) : std::nullopt;
-        if (t) all.push_back({c.plane, c.wanted_offset, c.normal, c.offset, *t});
+        if (t) all.push_back({c.plane, c.wanted_offset, c.normal_index, c.offset_index, *t});
     }
     // The order of the candidates is that of ties: a plane goes before another only if it is better by more than a tie
     // than the best of those that are left.

@@ -1,4 +1,4 @@
-// The greedy search as plainly as it can be, for the beam to be held against: evaluations everything anew each time.
+// The reference of the beam search: the greedy search, as plain as possible. Evaluates everything again for each cut.
 
 #pragma once
 

@@ -25,8 +25,8 @@ SearchSettings quick(int cuts) {
 
 Segmentation searched(const TriangleMesh& mesh, const SearchSettings& settings) {
     Segmentation segmentation = uncut(mesh, settings.objectives.fragment_volume_mm3);
-    EvaluationCache book(settings.objectives, settings.candidates);
-    const SearchEnd end = search(segmentation, settings, book, {}, [](const Segmentation&) {}, {});
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    const SearchEnd end = search(segmentation, settings, cache, {}, [](const Segmentation&) {}, {});
     EXPECT_TRUE(end.is_finished()) << end.sentence;
     return segmentation;
 }
@@ -61,10 +61,11 @@ TEST(Search, TiesGoToTheLowerNormalThenOffset) {
     SearchSettings settings = quick(1);
     settings.objectives.weights = {0, 0, 1, 0};  // every plane gives two pieces: all tie
     const Segmentation segmentation = uncut(cube, 0);
-    EvaluationCache book(settings.objectives, settings.candidates);
-    const std::vector<Ranked> ranked = rank(segmentation, 0, settings, book, {});
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    const std::vector<Ranked> ranked = rank(segmentation, 0, settings, cache, {});
     for (std::size_t i = 1; i < ranked.size(); ++i) {
-        EXPECT_LT(std::pair(ranked[i - 1].normal, ranked[i - 1].offset), std::pair(ranked[i].normal, ranked[i].offset));
+        EXPECT_LT(std::pair(ranked[i - 1].normal_index, ranked[i - 1].offset_index),
+                  std::pair(ranked[i].normal_index, ranked[i].offset_index));
     }
 }
 
@@ -86,36 +87,36 @@ TEST(Search, FragmentsAreListedAndNotCut) {
     EXPECT_NEAR(total_volume(segmentation) / volume_mm3(mesh), 1, 1e-9);
 }
 
-TEST(Search, StopsInWordsWhenNoPlanePartsAnything) {
+TEST(Search, GivesItsReasonWhenNoPlanePartsAnything) {
     SearchSettings settings = quick(1);
     settings.candidates.offsets_per_normal = 0;
     const TriangleMesh mesh = shapes::ball({0, 0, 0}, 10);
     Segmentation segmentation = uncut(mesh, 0);
-    EvaluationCache book(settings.objectives, settings.candidates);
-    const SearchEnd end = search(segmentation, settings, book, {}, [](const Segmentation&) {}, {});
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    const SearchEnd end = search(segmentation, settings, cache, {}, [](const Segmentation&) {}, {});
     EXPECT_FALSE(end.is_finished());
     EXPECT_EQ(end.reason, EndReason::no_plane);
     EXPECT_EQ(end.sentence, "no plane parts any of the unfinished pieces");
 }
 
-TEST(Search, WhenStoppedTheCutsMadeUntilThenStand) {
+TEST(Search, WhenCancelledTheCutsMadeUntilThenRemain) {
     const TriangleMesh mesh = shapes::torus({0, 0, 0}, 40, 12);
     std::atomic<bool> stop{false};
     Context context;
     context.cancelled = &stop;
     Segmentation segmentation = uncut(mesh, 0);
-    std::size_t told = 0;
+    std::size_t reported = 0;
     const SearchSettings settings = quick(9);
-    EvaluationCache book(settings.objectives, settings.candidates);
+    EvaluationCache cache(settings.objectives, settings.candidates);
     EXPECT_THROW(search(
-                     segmentation, settings, book, {},
+                     segmentation, settings, cache, {},
                      [&](const Segmentation& s) {
-                         told = s.cuts.size();
-                         if (told == 2) stop = true;
+                         reported = s.cuts.size();
+                         if (reported == 2) stop = true;
                      },
                      context),
                  Cancelled);
-    EXPECT_EQ(told, 2U);
+    EXPECT_EQ(reported, 2U);
     EXPECT_EQ(segmentation.cuts.size(), 2U);
 }
 

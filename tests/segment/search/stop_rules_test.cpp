@@ -66,7 +66,7 @@ TEST(StopRules, APieceWithoutCandidatesIsPassedOver) {
     EXPECT_FALSE(next_piece(s, rules, {}, {"A", "B"}).piece);
 }
 
-TEST(StopRules, AJudgeLooksAtEveryPieceOnce) {
+TEST(StopRules, AJudgeChecksEveryPieceOnce) {
     Segmentation s = two_boxes();
     StopRules rules;
     rules.max_obb = Vec3{11, 29, 21};
@@ -91,7 +91,7 @@ TEST(StopRules, AJudgeLooksAtEveryPieceOnce) {
     cut.chosen.plane = {{1, 0, 0}, 33.3};
     ASSERT_TRUE(apply(s, cut, 0));
     EXPECT_TRUE(judge.next(s, {}).is_finished);
-    EXPECT_EQ(boxes, 4) << "only the new pieces are looked at";
+    EXPECT_EQ(boxes, 4) << "only the new pieces are checked";
 }
 
 TEST(StopRules, ThosePiecesWaitThatWillBeCutTheNextOneFirst) {

@@ -32,7 +32,7 @@ SimplifyOptions at_most(std::size_t faces) {
 
 using Corners = std::array<Vec3, 3>;
 
-// Written here once more, and in another way than where it is used: the nearest of the inside and the three sides.
+// A second implementation, in another way than closest_on_triangle: the nearest of the interior and the three sides.
 double distance(Vec3 p, const Corners& c) {
     const Vec3 n = cross(c[1] - c[0], c[2] - c[0]);
     bool is_above = dot(n, n) > 0;
@@ -63,7 +63,7 @@ double farthest_by_force(const TriangleMesh& from, const TriangleMesh& to, std::
     return farthest;
 }
 
-// Caps as sets of corners, whichever way they are turned, by the cut that made them.
+// Caps as sets of corners of any orientation, by the cut that made them.
 std::map<std::int32_t, std::multiset<std::vector<std::array<double, 3>>>> caps(const TriangleMesh& mesh) {
     std::map<std::int32_t, std::multiset<std::vector<std::array<double, 3>>>> all;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -123,7 +123,7 @@ TEST(Simplify, ABoneLosesMostOfItsFacesAndKeepsItsShape) {
     expect_sound(fewer, bone, "bone");
 }
 
-TEST(Simplify, WhatIsStatedIsWhatABruteForceFinds) {
+TEST(Simplify, TheStatedDeviationIsThatOfABruteForce) {
     const TriangleMesh bone = some_bone();
     TriangleMesh fewer = bone;
     const SimplifyReport report = simplify(fewer, at_most(1500));
@@ -144,7 +144,7 @@ TEST(Simplify, PointsThatStayDoNotMove) {
     for (const Vec3& p : fewer.points) EXPECT_TRUE(points.contains({p.x, p.y, p.z}));
 }
 
-TEST(Simplify, MatingCapsStayTheSameWhateverIsAskedOfEither) {
+TEST(Simplify, MatingCapsStayTheSameWhateverTheOptions) {
     const TriangleMesh bone = some_bone();
     const double middle = bounds(bone).centre().z + 0.123;
     const std::optional<CutHalves> halves = cut(bone, {{0, 0, 1}, middle}, 7);
@@ -165,7 +165,7 @@ TEST(Simplify, MatingCapsStayTheSameWhateverIsAskedOfEither) {
     expect_sound(below, halves->below.mesh, "below");
 }
 
-TEST(Simplify, FewerFacesThanTheCapsHaveCannotBeHad) {
+TEST(Simplify, FewerFacesThanTheCapsHaveAreReported) {
     const std::optional<CutHalves> halves = cut(shapes::ball({0, 0, 0}, 50, 40), {{0, 0, 1}, 0.7}, 1);
     ASSERT_TRUE(halves);
     TriangleMesh half = halves->above.mesh;
@@ -209,7 +209,7 @@ TEST(Simplify, OptionsThatMakeNoSenseAndOpenMeshesAreRefused) {
     EXPECT_THROW(simplify(box, within(1)), InputError);
 }
 
-TEST(Simplify, WorkThatIsStoppedLeavesTheMeshAlone) {
+TEST(Simplify, CancelledItLeavesTheMeshUnchanged) {
     const TriangleMesh bone = some_bone();
     TriangleMesh mesh = bone;
     const std::atomic<bool> stop{true};

@@ -1,0 +1,47 @@
+// Glue between folder, import and lock. Everything that can be refused is checked before the scan is imported, which is
+// the long part.
+
+#include "app/project/make_project.h"
+
+#include "cam/cell/cell.h"
+
+namespace qchopper {
+
+ProjectDraft draft_project(ProjectChoices choices, const ProjectContext& context) {
+    check_output(choices.folder);
+    ProjectDraft draft;
+    draft.folder = choices.folder;
+    if (choices.cell_file) {
+        read_cell(*choices.cell_file);  // an impossible one is refused before anything is made
+        draft.cell_file = read_file(*choices.cell_file, settings_limit);
+    }
+    if (choices.plan) draft.plan = read_plan(*choices.plan);
+    if (draft.plan && choices.preset.empty()) choices.settings.objectives.weights = draft.plan->weights;
+    ImportedScan imported = import_project_scan(choices, context);
+    context.warn(imported.report.warnings);
+    draft.project = new_project(choices, imported);
+    draft.scan = std::move(imported.mesh);
+    return draft;
+}
+
+LockedProject::LockedProject(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& cell_file,
+                             const ProjectContext& context)
+    : lock(folder), project(folder, context) {
+    clear_leftovers(folder);
+    if (!cell_file) return;
+    take_cell(folder, *cell_file, context);
+    context.saved("The project knows its cell now; its decisions are unchanged.");
+}
+
+LockedProject::LockedProject(ProjectDraft made)
+    : lock(made.folder), project(made.folder, std::move(made.project), [scan = std::move(made.scan)]() mutable {
+          return std::move(scan);
+      }) {}
+
+LockedProject make_project(ProjectDraft draft, const ProjectContext& context) {
+    create_project(draft.folder, draft.project, draft.cell_file);
+    context.saved("The project " + draft.folder.string() + " is made, with no cut.");
+    return LockedProject(std::move(draft));
+}
+
+}  // namespace qchopper

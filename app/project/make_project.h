@@ -1,0 +1,47 @@
+// Makes a project of a scan, or opens one that exists; in both cases its folder is locked while it is open.
+
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "app/project/open_project.h"
+#include "app/project/plan.h"
+#include "app/project/project_context.h"
+#include "app/project/project_folder.h"
+#include "app/project/project_scan.h"
+
+namespace qchopper {
+
+// A new project that is not on disk yet.
+struct ProjectDraft {
+    std::filesystem::path folder;    // NAME.qch
+    std::optional<Bytes> cell_file;  // as it was read; nothing: the project has no cell yet
+    std::optional<Plan> plan;        // to be replayed
+    TriangleMesh scan;               // imported
+    Project project;                 // without a decision
+};
+
+// Checks the folder and the cell file, reads the plan, then imports the scan; writes nothing. The weights are those of
+// the plan where there is neither a preset nor given weights. Throws InputError: what check_output, read_cell,
+// read_plan and import_project_scan throw, in this order.
+ProjectDraft draft_project(ProjectChoices choices, const ProjectContext& context);
+
+// A project whose folder no other program writes while this object lives.
+struct LockedProject {
+    // Opens the project of a folder, removes what a killed program left behind, then copies the cell file into the
+    // folder, if one is given. Precondition: with a cell file the project has no cell yet. Throws what ProjectLock,
+    // load_project and take_cell throw.
+    LockedProject(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& cell_file,
+                  const ProjectContext& context);
+    // Opens what make_project has written.
+    explicit LockedProject(ProjectDraft made);
+
+    ProjectLock lock;
+    OpenProject project;
+};
+
+// Writes the folder of a draft. Throws what create_project and ProjectLock throw.
+LockedProject make_project(ProjectDraft draft, const ProjectContext& context);
+
+}  // namespace qchopper

@@ -1,0 +1,60 @@
+// Search, then outputs; both are those of OpenProject.
+
+#include "app/project/prepare_project.h"
+
+#include "app/project/project_lines.h"
+#include "app/project/shell_word.h"
+#include "base/error.h"
+
+namespace qchopper {
+namespace {
+
+PreparedProject finish(OpenProject& project, const PrepareOptions& options, const ProjectContext& context) {
+    const auto report_kept = [&](const Segmentation& s) {
+        context.saved(kept_cuts(s.cuts.size(), project.folder()) + "; go on with: qchopper prepare " +
+                      shell_word(project.folder()) + ".");
+    };
+    report_kept(project.segmentation());
+    if (project.segmentation().pieces.empty()) {
+        throw InputError(InputFault::mesh, project.project().scan.path.string() + " holds nothing but fragments",
+                         "check the scan");
+    }
+    if (project.project().stage == Stage::cutting) {
+        const auto on_round = [&](const Segmentation& s) {
+            report_kept(s);
+            context.message(cut_line(s.cuts.back()));
+        };
+        const SearchEnd end = project.search(project.fits_cell(), on_round, context, options.time_limit_s);
+        context.warn(project.segmentation().warnings);
+        if (!end.is_finished()) context.warn({early_end(end.sentence)});
+    }
+    return project.prepare(options.program_version, context);
+}
+
+}  // namespace
+
+PreparedProject prepare_scan(const ProjectChoices& choices, const PrepareOptions& options,
+                             const ProjectContext& context) {
+    ProjectDraft draft = draft_project(choices, context);
+    StopRules& stop = draft.project.settings.stop;
+    if (!stop.is_any_set()) stop.fits_cell = true;
+    LockedProject open = make_project(std::move(draft), context);
+    return finish(open.project, options, context);
+}
+
+PreparedProject prepare_project(const std::filesystem::path& folder,
+                                const std::optional<std::filesystem::path>& cell_file, const PrepareOptions& options,
+                                const ProjectContext& context) {
+    LockedProject open(folder, cell_file, context);
+    open.project.check_cell();
+    context.saved("The project is unchanged.");
+    open.project.scan();
+    const Project& project = open.project.project();
+    context.message(folder.string() + ": goes on after " + std::to_string(project.cuts.size()) + " cuts");
+    if (project.beam) {
+        context.message("The beam of " + std::to_string(project.beam->branches.size()) + " goes on.");
+    }
+    return finish(open.project, options, context);
+}
+
+}  // namespace qchopper

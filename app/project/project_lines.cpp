@@ -1,0 +1,27 @@
+// Text from the records of a project.
+
+#include "app/project/project_lines.h"
+
+#include "base/text.h"
+
+namespace qchopper {
+
+std::vector<std::string> discarded_lines(const Project& project) {
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < project.discarded.size(); ++i) {
+        const SolidRecord& solid = project.discarded[i];
+        const std::size_t after = project.discards.at(i).after;
+        lines.push_back("discarded " + (after > 0 ? "after cut " + std::to_string(after) : "before the first cut") +
+                        ": piece " + solid.name + ", " + with_commas(solid.faces) + " faces, " +
+                        fixed(solid.volume_mm3 / 1000, 3) + " ml (" +
+                        fixed(100 * solid.volume_mm3 / project.scan.volume_mm3, 2) + " % of the scan)");
+    }
+    return lines;
+}
+
+std::string kept_cuts(std::size_t cuts, const std::filesystem::path& folder, bool is_beam) {
+    return "The " + std::to_string(cuts) + " cuts " + (is_beam ? "of the best segmentation so far" : "made so far") +
+           " are kept in " + folder.string();
+}
+
+}  // namespace qchopper

@@ -1,0 +1,21 @@
+// Lines about the state of a project, the same in messages and reports.
+
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/project/project.h"
+
+namespace qchopper {
+
+// "discarded after cut 2: piece C, 1,234 faces, 12.345 ml (3.21 % of the scan)", one line per discarded piece, in the
+// order of the decisions. Precondition: project.discards and project.discarded have the same length.
+std::vector<std::string> discarded_lines(const Project& project);
+
+// "The 3 cuts made so far are kept in NAME.qch", without a full stop.
+std::string kept_cuts(std::size_t cuts, const std::filesystem::path& folder, bool is_beam = false);
+
+}  // namespace qchopper

@@ -1,0 +1,86 @@
+// Glue between a new or opened project, the requests of decide.h and the replay of plans.
+
+#include "app/project/segment_project.h"
+
+#include "app/project/project_lines.h"
+#include "app/project/replay.h"
+#include "app/project/replay_plan.h"
+#include "base/text.h"
+
+namespace qchopper {
+namespace {
+
+SegmentAnswer misfit_answer(const std::string& why, ProjectDraft draft) {
+    SegmentAnswer answer;
+    answer.is_demand_met = false;
+    answer.notes = {"The plan does not apply: " + why + ". Nothing was made."};
+    answer.is_project_made = false;
+    answer.folder = std::move(draft.folder);
+    answer.project = std::move(draft.project);
+    return answer;
+}
+
+// Adds the state of the project to an answer.
+SegmentAnswer with_state(SegmentAnswer answer, const OpenProject& open) {
+    answer.folder = open.folder();
+    answer.project = open.project();
+    answer.pieces_written = open.are_pieces_written();
+    return answer;
+}
+
+// Makes the cuts of a plan on a project that has none, until one does not apply.
+SegmentAnswer make_cuts_of(const Plan& plan, OpenProject& open, const ProjectContext& context) {
+    Segmentation segmentation = open.segmentation();
+    std::size_t discarded = 0;
+    const auto keep = [&](const Segmentation& s) {
+        open.adopt(s);
+        context.saved(kept_cuts(s.cuts.size(), open.folder()) + ".");
+        const bool is_cut = s.discarded.size() == discarded;
+        context.message(is_cut ? cut_line(s.cuts.back()) : discarded_lines(open.project()).back());
+        discarded = s.discarded.size();
+    };
+    const Project& p = open.project();
+    const PlanReplay replay = replay_plan(plan, p.scan, segmentation, p.settings, open.cache(), keep, context);
+    SegmentAnswer answer;
+    answer.notes = replay.notes;
+    const std::string until = std::to_string(segmentation.cuts.size()) + " of " + std::to_string(plan.cuts.size());
+    const std::string left_out =
+        std::to_string(segmentation.discarded.size()) + " of " + std::to_string(plan.discards.size());
+    answer.done = until + " cuts of the plan are made" +
+                  (plan.discards.empty() ? "" : ", " + left_out + " pieces of it discarded") +
+                  "; the volumes of the pieces differ by at most " + significant(100 * replay.largest_volume_off, 3) +
+                  " %.";
+    if (!replay.applies) {
+        answer.is_demand_met = false;
+        answer.notes.push_back("The plan does not apply: " + replay.why + ". " +
+                               kept_cuts(segmentation.cuts.size(), open.folder()) + ".");
+    }
+    return answer;
+}
+
+}  // namespace
+
+SegmentAnswer segment_scan(const ProjectChoices& choices, ProjectRequest request, const ProjectContext& context) {
+    ProjectDraft draft = draft_project(choices, context);
+    const std::optional<Plan> plan = std::move(draft.plan);
+    if (plan) {
+        const std::string why = misfit(*plan, draft.project.scan, draft.scan);
+        if (!why.empty()) return misfit_answer(why, std::move(draft));
+    }
+    record(draft.project, uncut(draft.scan, draft.project.settings.objectives.fragment_volume_mm3));
+    LockedProject open = make_project(std::move(draft), context);
+    request.weights.reset();  // the project is made with them
+    if (!plan) return with_state(decide(open.project, request, context), open.project);
+    if (request.write_pieces) open.project.keep_pieces_written();
+    return with_state(make_cuts_of(*plan, open.project, context), open.project);
+}
+
+SegmentAnswer segment_project(const std::filesystem::path& folder,
+                              const std::optional<std::filesystem::path>& cell_file, const ProjectRequest& request,
+                              const ProjectContext& context) {
+    context.saved("The project is unchanged.");
+    LockedProject open(folder, cell_file, context);
+    return with_state(decide(open.project, request, context), open.project);
+}
+
+}  // namespace qchopper
