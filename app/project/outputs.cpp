@@ -100,8 +100,10 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
 
 void write_pictures(const fs::path& folder, const std::vector<Piece>& pieces, const Context& context) {
     const std::vector<Vec3> shifts = exploded_shifts(pieces);
-    write_file(folder / "pictures" / "segmentation.png", render_png(coloured(pieces), {}, context));
-    write_file(folder / "pictures" / "exploded.png", render_png(coloured(pieces, shifts), {}, context));
+    Scene scene(coloured(pieces));
+    write_file(folder / "pictures" / "segmentation.png", render_png(scene, {}, context));
+    scene.place(shifts);
+    write_file(folder / "pictures" / "exploded.png", render_png(scene, {}, context));
 }
 
 void remove_outputs(const fs::path& folder, Project& project) {

@@ -1,5 +1,6 @@
-// Evaluates every cap (undercut.h), or every side of the oriented box, and keeps the best. O(caps * triangles), and a
-// ray per triangle for the base that is chosen, or for each of six sides.
+// Evaluates every cap (undercut.h), or every side of the oriented box by a sample of the triangles, and keeps the best.
+// O(caps * triangles), a ray per triangle for the base that is chosen, and for a piece without caps six rays per
+// triangle of the sample.
 
 #include "cam/setup/setup.h"
 
@@ -64,16 +65,20 @@ BaseCandidate best_cap(const std::vector<BaseCandidate>& candidates) {
     return first;
 }
 
-// Shortest side first: of equal sides the piece lies on the one that makes it lowest.
+// The side from which the least area of a sample is occluded. Shortest side first: of equal sides the piece lies on the
+// one that makes it lowest. Sides that differ by no more than the error of the sample are equal.
 BaseCandidate best_side(const Piece& piece, const RayTree& rays) {
+    constexpr std::size_t sample_size = 20'000;
+    constexpr double sampling_error = 0.005;
     const OrientedBox box = oriented_box(piece.mesh->points);
+    const std::vector<std::uint32_t> sample = area_sample(*piece.mesh, sample_size);
     Vec3 up = box.axis[2];
     double least = std::numeric_limits<double>::infinity();
-    for (int axis = 2; axis >= 0; --axis) {
+    for (int axis = 2; axis >= 0 && !sample.empty(); --axis) {
         for (const double sign : {1.0, -1.0}) {
             const Vec3 direction = sign * box.axis[axis];
-            const double occluded = occluded_area_ratio(*piece.mesh, rays, direction, std::nullopt);
-            if (occluded >= least - tie) continue;
+            const double occluded = occluded_area_ratio(*piece.mesh, rays, direction, sample);
+            if (occluded >= least - sampling_error) continue;
             least = occluded;
             up = direction;
         }

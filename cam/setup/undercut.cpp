@@ -3,6 +3,7 @@
 
 #include "cam/setup/undercut.h"
 
+#include <atomic>
 #include <cassert>
 #include <vector>
 
@@ -14,6 +15,27 @@ namespace {
 
 // A vertical wall must not count as facing down because of rounding.
 constexpr double wall = 1e-6;
+
+// Whether a triangle faces down or has a part of the mesh straight above its middle.
+class OcclusionTest {
+ public:
+    OcclusionTest(const TriangleMesh& mesh, const RayTree& rays, Vec3 up)
+        : mesh_(mesh), rays_(rays), up_(up), off_the_surface_(1e-5 * norm(bounds(mesh).size())) {}
+
+    bool operator()(std::size_t triangle) const {
+        const Vec3 n = normalized(area_vector(mesh_, triangle));
+        if (dot(n, up_) < -wall) return true;
+        const Triangle& v = mesh_.triangles[triangle];
+        const Vec3 middle = (1.0 / 3) * (mesh_.points[v[0]] + mesh_.points[v[1]] + mesh_.points[v[2]]);
+        return rays_.meets(middle + off_the_surface_ * n, up_);
+    }
+
+ private:
+    const TriangleMesh& mesh_;
+    const RayTree& rays_;
+    Vec3 up_;
+    double off_the_surface_;  // mm: rays are single precision
+};
 
 }  // namespace
 
@@ -35,31 +57,51 @@ Facing facing(const TriangleMesh& mesh, Vec3 up, std::optional<std::int32_t> bas
 }
 
 double occluded_area_ratio(const TriangleMesh& mesh, const RayTree& rays, Vec3 up, std::optional<std::int32_t> base) {
-    const double off_the_surface = 1e-5 * norm(bounds(mesh).size());  // rays are single precision
-    std::vector<char> is_occluded(mesh.triangles.size(), 0);
-    const auto cast_rays = [&](std::size_t first, std::size_t end) {
-        for (std::size_t t = first; t < end; ++t) {
-            const Vec3 n = normalized(area_vector(mesh, t));
-            if (dot(n, up) < -wall) {
-                is_occluded[t] = 1;
-                continue;
-            }
-            const Triangle& corner = mesh.triangles[t];
-            const Vec3 middle = (1.0 / 3) * (mesh.points[corner[0]] + mesh.points[corner[1]] + mesh.points[corner[2]]);
-            is_occluded[t] = rays.first_hit(middle + off_the_surface * n, up).has_value() ? 1 : 0;
-        }
-    };
-    parallel_ranges(0, mesh.triangles.size(), 1024, cast_rays);
+    const OcclusionTest is_occluded(mesh, rays, up);
+    std::vector<char> flags(mesh.triangles.size(), 0);
+    parallel_ranges(0, flags.size(), 1024, [&](std::size_t first, std::size_t end) {
+        for (std::size_t t = first; t < end; ++t) flags[t] = is_occluded(t) ? 1 : 0;
+    });
     double all = 0;
     double occluded = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         if (base && cap_of(mesh, t) == *base) continue;
         const double area = norm(area_vector(mesh, t));
         all += area;
-        if (is_occluded[t] != 0) occluded += area;
+        if (flags[t] != 0) occluded += area;
     }
     assert(occluded <= all);
     return all > 0 ? occluded / all : 0;
+}
+
+std::vector<std::uint32_t> area_sample(const TriangleMesh& mesh, std::size_t count) {
+    assert(count > 0);
+    double all = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) all += norm(area_vector(mesh, t));
+    const double step = all / static_cast<double>(count);
+    std::vector<std::uint32_t> sample;
+    sample.reserve(count);
+    double before = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size() && all > 0; ++t) {
+        before += norm(area_vector(mesh, t));
+        while (sample.size() < count && (static_cast<double>(sample.size()) + 0.5) * step <= before) {
+            sample.push_back(static_cast<std::uint32_t>(t));
+        }
+    }
+    return sample;
+}
+
+double occluded_area_ratio(const TriangleMesh& mesh, const RayTree& rays, Vec3 up,
+                           std::span<const std::uint32_t> sample) {
+    assert(!sample.empty());
+    const OcclusionTest is_occluded(mesh, rays, up);
+    std::atomic<std::size_t> occluded = 0;
+    parallel_ranges(0, sample.size(), 1024, [&](std::size_t first, std::size_t end) {
+        std::size_t found = 0;
+        for (std::size_t i = first; i < end; ++i) found += is_occluded(sample[i]) ? 1 : 0;
+        occluded += found;
+    });
+    return static_cast<double>(occluded) / static_cast<double>(sample.size());
 }
 
 }  // namespace qchopper

@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "segment/mesh/rays.h"
 #include "segment/mesh/triangle_mesh.h"
@@ -30,5 +32,14 @@ Facing facing(const TriangleMesh& mesh, Vec3 up, std::optional<std::int32_t> bas
 // Share of the area, base left out, of the triangles that face down or have a part of the piece straight above their
 // middle. A vertical wall does not face down: the side of the tool cuts it. `rays` is the tree of `mesh`.
 double occluded_area_ratio(const TriangleMesh& mesh, const RayTree& rays, Vec3 up, std::optional<std::int32_t> base);
+
+// Triangles that stand for equal shares of the area, in ascending order: those that lie at `count` equal steps through
+// the areas in the order of the triangles. Large ones are there several times. Precondition: count > 0.
+std::vector<std::uint32_t> area_sample(const TriangleMesh& mesh, std::size_t count);
+
+// Estimates occluded_area_ratio without a base as the share of the sample that is occluded. With n triangles its
+// standard error is at most 1/(2 sqrt(n)). The sample is not empty.
+double occluded_area_ratio(const TriangleMesh& mesh, const RayTree& rays, Vec3 up,
+                           std::span<const std::uint32_t> sample);
 
 }  // namespace qchopper

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "segment/mesh/triangle_mesh.h"
 
@@ -29,10 +30,35 @@ class RayTree {
     // The first triangle that the ray meets, from either side; nothing if there is none. Precondition: the direction is
     // not zero.
     std::optional<RayHit> first_hit(Vec3 origin, Vec3 direction) const;
+    // Whether there is one; faster.
+    bool meets(Vec3 origin, Vec3 direction) const;
 
  private:
     struct Tree;
     std::unique_ptr<Tree> tree_;
+};
+
+// Several meshes, each moved by a shift of its own. Their trees are built once; moving them costs next to nothing.
+// distances() may be called from many threads at once, place() from one.
+class RayScene {
+ public:
+    static constexpr std::size_t most_rays = 8;
+
+    // A tree per mesh, none moved. Meshes may be empty; they are not used afterwards.
+    explicit RayScene(std::span<const TriangleMesh* const> meshes);
+    ~RayScene();
+    RayScene(RayScene&&) noexcept;
+    RayScene& operator=(RayScene&&) noexcept;
+
+    // One shift (mm) per mesh.
+    void place(std::span<const Vec3> shifts);
+    // Per unit direction the distance from the origin to the first surface, or `far` where none is nearer. Both spans
+    // have the same size, at most most_rays.
+    void distances(Vec3 origin, std::span<const Vec3> directions, double far, std::span<float> result) const;
+
+ private:
+    struct Trees;
+    std::unique_ptr<Trees> trees_;
 };
 
 }  // namespace qchopper

@@ -1,6 +1,8 @@
-// A mesh to be drawn, with its colour and its shift.
+// A mesh to be drawn, with its colour, place and name.
 
 #pragma once
+
+#include <string>
 
 #include "segment/mesh/triangle_mesh.h"
 #include "segment/picture/colour.h"
@@ -8,9 +10,10 @@
 namespace qchopper {
 
 struct ColouredMesh {
-    const TriangleMesh* mesh = nullptr;  // owned by the caller
+    const TriangleMesh* mesh = nullptr;  // stays the caller's
     Rgb colour = bone_colour;
-    Vec3 shift;  // mm, added to every point
+    Vec3 shift;             // mm, added to every point
+    std::string name = {};  // written on it; empty: nothing
 };
 
 }  // namespace qchopper

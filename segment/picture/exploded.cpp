@@ -68,7 +68,7 @@ std::vector<Vec3> exploded_shifts(std::span<const Piece> pieces, const ExplodeOp
 std::vector<ColouredMesh> coloured(std::span<const Piece> pieces, std::span<const Vec3> shifts) {
     std::vector<ColouredMesh> all;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-        all.push_back({pieces[i].mesh.get(), piece_colour(i), i < shifts.size() ? shifts[i] : Vec3{}});
+        all.push_back({pieces[i].mesh.get(), piece_colour(i), i < shifts.size() ? shifts[i] : Vec3{}, pieces[i].name});
     }
     return all;
 }

@@ -1,5 +1,6 @@
-// One primary ray per sample and ambient rays where it hits; lines are drawn where neighbouring samples differ in piece
-// or cap. O(samples * (1 + ambient_rays)) rays, in parallel by rows; memory for all samples.
+// Rasterises what is seen (film.h), computes ambient light at half the resolution (ambient.h), shades every sample,
+// darkens the borders of pieces and caps, and averages the samples of a pixel. O(triangles + samples + ambient rays);
+// 17 bytes a sample and 100 bytes per four pixels.
 
 #include "segment/picture/picture.h"
 
@@ -11,30 +12,13 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "segment/picture/ambient.h"
+#include "segment/picture/lettering.h"
 #include "segment/picture/png.h"
 #include "segment/picture/shade.h"
 
 namespace qchopper {
 namespace {
-
-constexpr std::uint32_t no_piece = std::numeric_limits<std::uint32_t>::max();
-
-// One ray of a pixel: what it hit and its linear colour.
-struct PixelSample {
-    std::uint32_t piece = no_piece;
-    std::int32_t cap = no_cap;
-    float r = 0;
-    float g = 0;
-    float b = 0;
-};
-
-// All samples of the picture, row by row from the top: `supersampling` times as many in each direction as pixels.
-struct SampleImage {
-    std::size_t width = 0;
-    std::size_t height = 0;
-    std::vector<PixelSample> samples;
-    const PixelSample& at(std::size_t x, std::size_t y) const { return samples[y * width + x]; }
-};
 
 void check(std::span<const ColouredMesh> meshes, const PictureOptions& options) {
     const auto refuse = [](const std::string& why) { throw InputError(InputFault::use, "no picture: " + why); };
@@ -46,141 +30,178 @@ void check(std::span<const ColouredMesh> meshes, const PictureOptions& options) 
         refuse("width and height must be 1 to 16384 pixels");
     }
     if (options.supersampling < 1 || options.supersampling > 8) refuse("supersampling must be 1 to 8");
-    if (options.ambient_rays < 0 || options.ambient_rays > 4096) refuse("ambient rays must be 0 to 4096");
-    const double rays =
+    if (options.ambient_rays < 0 || options.ambient_rays > 32) refuse("ambient rays must be 0 to 32");
+    const double samples =
         static_cast<double>(options.width) * options.height * options.supersampling * options.supersampling;
-    if (rays > 1.5e8) refuse("width x height x supersampling squared must not exceed 150 million");
+    if (samples > 1.5e8) refuse("width x height x supersampling squared must not exceed 150 million");
     if (!(norm(options.view) > 0) || !std::isfinite(norm(options.view))) refuse("the view must have a direction");
     if (!std::isfinite(norm(options.up))) refuse("up must be finite");
     if (!(options.frame >= 0 && options.frame < 0.5)) refuse("the frame must be 0 to 0.5");
     if (!(options.outline >= 0 && options.outline <= 20)) refuse("the outline must be 0 to 20 pixels");
 }
 
-// The camera that shows the whole mesh, with an empty border of options.frame.
-Camera camera_for(const TriangleMesh& mesh, const PictureOptions& options) {
-    Camera camera;
-    camera.forward = normalized(options.view);
-    camera.right = cross(camera.forward, options.up);
-    if (norm(camera.right) < 1e-9) camera.right = cross(camera.forward, Vec3{0, 1, 0});  // straight from above
-    if (norm(camera.right) < 1e-9) camera.right = Vec3{1, 0, 0};
-    camera.right = normalized(camera.right);
-    camera.up = cross(camera.right, camera.forward);
-    const double most = std::numeric_limits<double>::max();
-    Vec3 low{most, most, most};
-    Vec3 high = -low;
-    for (const Vec3& p : mesh.points) {
-        const Vec3 in_camera{dot(camera.right, p), dot(camera.up, p), dot(camera.forward, p)};
-        for (int axis = 0; axis < 3; ++axis) {
-            low[axis] = std::min(low[axis], in_camera[axis]);
-            high[axis] = std::max(high[axis], in_camera[axis]);
+// What every sample sees.
+std::vector<Region> regions_of(const Scene& scene, const Film& film) {
+    std::vector<Region> regions(film.seen.size());
+    parallel_ranges(0, film.seen.size(), 1 << 14, [&](std::size_t first, std::size_t end) {
+        for (std::size_t i = first; i < end; ++i) {
+            if (film.seen[i] == Film::nothing) continue;
+            regions[i] = scene.region_of(Film::triangle(film.seen[i]));
         }
-    }
-    const Vec3 size = high - low;
-    const double inner = 1 - 2 * options.frame;
-    camera.mm_per_pixel = std::max(size.x / (options.width * inner), size.y / (options.height * inner));
-    if (!(camera.mm_per_pixel > 0)) camera.mm_per_pixel = 1;
-    const Vec3 middle = 0.5 * (low + high);
-    const double nearest = low.z - 0.05 * norm(size) - 1;
-    camera.origin = middle.x * camera.right + middle.y * camera.up + nearest * camera.forward;
-    return camera;
+    });
+    return regions;
 }
 
-PixelSample cast_sample(const Scene& scene, const Camera& camera, const PictureOptions& options, std::size_t x,
-                        std::size_t y) {
-    const double fine = options.supersampling;
-    const double right = (static_cast<double>(x) + 0.5) / fine - options.width / 2.0;
-    const double down = (static_cast<double>(y) + 0.5) / fine - options.height / 2.0;
-    const Vec3 from =
-        camera.origin + (camera.mm_per_pixel * right) * camera.right - (camera.mm_per_pixel * down) * camera.up;
-    const std::optional<SurfaceHit> hit = scene.cast_ray(from, camera.forward);
-    const auto number = static_cast<std::uint32_t>(y * 131071 + x);
-    const Vec3 colour = hit ? shade(scene, *hit, camera, options.ambient_rays, number) : to_linear(options.background);
-    PixelSample sample{no_piece, no_cap, static_cast<float>(colour.x), static_cast<float>(colour.y),
-                       static_cast<float>(colour.z)};
-    if (hit) {
-        sample.piece = scene.piece_of(hit->triangle);
-        sample.cap = scene.mesh().cap_of[hit->triangle];
-    }
-    return sample;
-}
+class Developer {
+ public:
+    Developer(const Scene& scene, const Film& film, const Camera& camera, const PictureOptions& options,
+              const AmbientLight& ambient)
+        : scene_(scene),
+          film_(film),
+          camera_(camera),
+          options_(options),
+          ambient_(ambient),
+          shader_(scene, camera),
+          background_(to_linear(options.background)),
+          regions_(regions_of(scene, film)),
+          radius_(static_cast<int>(std::lround(options.outline * options.supersampling / 2))) {}
 
-SampleImage cast_samples(const Scene& scene, const Camera& camera, const PictureOptions& options,
-                         const Context& context) {
-    SampleImage image;
-    image.width = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.supersampling);
-    image.height = static_cast<std::size_t>(options.height) * static_cast<std::size_t>(options.supersampling);
-    image.samples.resize(image.width * image.height);
-    constexpr std::size_t band = 64;  // rows between two checks for a cancel
-    for (std::size_t top = 0; top < image.height; top += band) {
-        context.check_cancelled();
-        const std::size_t bottom = std::min(image.height, top + band);
-        parallel_for(top, bottom, [&](std::size_t y) {
-            for (std::size_t x = 0; x < image.width; ++x) {
-                image.samples[y * image.width + x] = cast_sample(scene, camera, options, x, y);
+    Rgb pixel(std::size_t px, std::size_t py) const {
+        const auto fine = static_cast<std::size_t>(options_.supersampling);
+        Vec3 sum;
+        bool is_empty = true;
+        for (std::size_t y = py * fine; y < (py + 1) * fine; ++y) {
+            for (std::size_t x = px * fine; x < (px + 1) * fine; ++x) {
+                const bool is_drawn = film_.at(x, y) != Film::nothing;
+                sum = sum + (is_drawn ? colour(x, y) : background_);
+                is_empty = is_empty && !is_drawn;
             }
-        });
-        context.progress("rows drawn", bottom, image.height);
+        }
+        return is_empty ? options_.background : to_rgb(1.0 / static_cast<double>(fine * fine) * sum);
     }
-    return image;
-}
 
-// The factor of the outline: 1 without a line, less where a border of the piece, or of a cap, is within `radius`
-// samples.
-double outline_factor(const SampleImage& image, std::size_t x, std::size_t y, int radius) {
-    const PixelSample& here = image.at(x, y);
-    double factor = 1;
-    for (int dy = -radius; dy <= radius; ++dy) {
-        for (int dx = -radius; dx <= radius; ++dx) {
-            if (dx * dx + dy * dy > radius * radius) continue;
-            const auto nx = static_cast<std::ptrdiff_t>(x) + dx;
-            const auto ny = static_cast<std::ptrdiff_t>(y) + dy;
-            if (nx < 0 || ny < 0 || nx >= static_cast<std::ptrdiff_t>(image.width) ||
-                ny >= static_cast<std::ptrdiff_t>(image.height)) {
-                continue;
+    const std::vector<Region>& regions() const { return regions_; }
+
+ private:
+    Vec3 colour(std::size_t x, std::size_t y) const {
+        const std::uint64_t sample = film_.at(x, y);
+        const Vec3 at = film_.start(camera_, x, y) + static_cast<double>(Film::depth(sample)) * camera_.forward;
+        const SurfacePoint point = scene_.surface(Film::triangle(sample), at, camera_.forward);
+        return line_at(x, y) * shader_.colour(point, ambient_.at(x, y, point));
+    }
+
+    // 1 inside, less where a border of the piece, or more faintly of a cap, runs within the radius.
+    double line_at(std::size_t x, std::size_t y) const {
+        const Region& here = regions_[y * film_.width + x];
+        double keep = 1;
+        for (int dy = -radius_; dy <= radius_; ++dy) {
+            for (int dx = -radius_; dx <= radius_; ++dx) {
+                if (dx * dx + dy * dy > radius_ * radius_) continue;
+                const std::size_t nx = x + static_cast<std::size_t>(dx);  // wraps around below 0, and is too large then
+                const std::size_t ny = y + static_cast<std::size_t>(dy);
+                if (nx >= film_.width || ny >= film_.height) continue;
+                const Region& there = regions_[ny * film_.width + nx];
+                if (there.mesh != here.mesh) return 0.16;
+                if (there.cap != here.cap) keep = 0.42;
             }
-            const PixelSample& there = image.at(static_cast<std::size_t>(nx), static_cast<std::size_t>(ny));
-            if (there.piece != here.piece) return 0.16;
-            if (there.cap != here.cap) factor = 0.42;
+        }
+        return radius_ > 0 ? keep : 1;
+    }
+
+    const Scene& scene_;
+    const Film& film_;
+    const Camera& camera_;
+    const PictureOptions& options_;
+    const AmbientLight& ambient_;
+    Shader shader_;
+    Vec3 background_;
+    std::vector<Region> regions_;
+    int radius_;  // of outlines, in samples
+};
+
+// Per mesh the pixel that lies deepest inside what is seen of it, by the distance along rows, columns and diagonals
+// (Borgefors, "Distance transformations in digital images", 1986), on a grid of every `step`th sample.
+struct LabelPlace {
+    double x = 0;  // pixels
+    double y = 0;
+    int depth = 0;  // 0: the mesh is not seen
+};
+
+std::vector<LabelPlace> label_places(const std::vector<Region>& regions, const Film& film, std::size_t meshes,
+                                     int supersampling) {
+    const auto step = static_cast<std::size_t>(2 * supersampling);
+    const std::size_t columns = film.width / step;
+    const std::size_t rows = film.height / step;
+    std::vector<int> depth(columns * rows, 0);
+    const auto mesh_at = [&](std::size_t c, std::size_t r) {
+        return regions[(r * step + step / 2) * film.width + c * step + step / 2].mesh;
+    };
+    const auto relax = [&](std::size_t c, std::size_t r, int dc, int dr, int cost) {
+        const std::size_t nc = c + static_cast<std::size_t>(dc);
+        const std::size_t nr = r + static_cast<std::size_t>(dr);
+        const bool is_inside = nc < columns && nr < rows && mesh_at(nc, nr) == mesh_at(c, r);
+        depth[r * columns + c] = std::min(depth[r * columns + c], cost + (is_inside ? depth[nr * columns + nc] : 0));
+    };
+    for (std::size_t r = 0; r < rows; ++r) {
+        for (std::size_t c = 0; c < columns; ++c) {
+            depth[r * columns + c] = std::numeric_limits<int>::max() / 2;
+            relax(c, r, -1, 0, 3), relax(c, r, 0, -1, 3), relax(c, r, -1, -1, 4), relax(c, r, 1, -1, 4);
         }
     }
-    return factor;
+    std::vector<LabelPlace> places(meshes);
+    for (std::size_t r = rows; r-- > 0;) {
+        for (std::size_t c = columns; c-- > 0;) {
+            relax(c, r, 1, 0, 3), relax(c, r, 0, 1, 3), relax(c, r, 1, 1, 4), relax(c, r, -1, 1, 4);
+            const std::uint32_t mesh = mesh_at(c, r);
+            if (mesh >= meshes || depth[r * columns + c] <= places[mesh].depth) continue;
+            places[mesh] = {2.0 * static_cast<double>(c) + 1, 2.0 * static_cast<double>(r) + 1, depth[r * columns + c]};
+        }
+    }
+    return places;
 }
 
-// The mean of the samples of a pixel.
-Rgb pixel_colour(const SampleImage& image, const PictureOptions& options, std::size_t px, std::size_t py) {
-    const auto fine = static_cast<std::size_t>(options.supersampling);
-    const int radius = static_cast<int>(std::lround(options.outline * options.supersampling / 2));
-    Vec3 sum;
-    bool empty = true;
-    for (std::size_t y = py * fine; y < (py + 1) * fine; ++y) {
-        for (std::size_t x = px * fine; x < (px + 1) * fine; ++x) {
-            const PixelSample& sample = image.at(x, y);
-            const bool drawn = sample.piece != no_piece;
-            const double line = drawn && radius > 0 ? outline_factor(image, x, y, radius) : 1;
-            sum = sum + line * Vec3{sample.r, sample.g, sample.b};
-            empty = empty && !drawn;
-        }
+void draw_labels(Pixels& pixels, const Scene& scene, const Film& film, const std::vector<Region>& regions,
+                 const Camera& camera, const PictureOptions& options) {
+    const std::span<const ColouredMesh> meshes = scene.meshes();
+    const std::vector<LabelPlace> places = label_places(regions, film, meshes.size(), options.supersampling);
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        if (places[i].depth > 0) draw_text(pixels, places[i].x, places[i].y, meshes[i].name, pixels.height / 50.0);
     }
-    return empty ? options.background : to_rgb(1.0 / static_cast<double>(fine * fine) * sum);
+    draw_scale_bar(pixels, camera.mm_per_pixel);
 }
 
 }  // namespace
 
+Bytes render_png(const Scene& scene, const PictureOptions& options, const Context& context) {
+    check(scene.meshes(), options);
+    context.check_cancelled();
+    const Camera camera = framed(scene.meshes(), options);
+    const Film film = rasterised(scene.meshes(), camera, options);
+    const auto height = static_cast<std::size_t>(options.height);
+    std::size_t reported = 0;
+    const auto report = [&](std::size_t rows) {
+        context.check_cancelled();
+        if (rows > reported) context.progress("rows drawn", reported = rows, height);
+    };
+    // Ambient light takes most of the time, so its rows are those that are counted; the last one waits for the rest.
+    const AmbientLight ambient(scene, film, camera, options,
+                               [&](std::size_t done, std::size_t all) { report((height - 1) * done / all); });
+    const Developer developer(scene, film, camera, options, ambient);
+    Pixels pixels{options.width, options.height, {}};
+    pixels.rows.resize(static_cast<std::size_t>(options.width) * height);
+    parallel_for(0, height, [&](std::size_t y) {
+        const auto width = static_cast<std::size_t>(options.width);
+        for (std::size_t x = 0; x < width; ++x) pixels.rows[y * width + x] = developer.pixel(x, y);
+    });
+    if (options.labels) draw_labels(pixels, scene, film, developer.regions(), camera, options);
+    Bytes png = to_png(pixels.rows, options.width, options.height);
+    report(height);
+    return png;
+}
+
 Bytes render_png(std::span<const ColouredMesh> meshes, const PictureOptions& options, const Context& context) {
     check(meshes, options);
-    std::vector<ColouredMesh> drawn;
-    std::copy_if(meshes.begin(), meshes.end(), std::back_inserter(drawn),
-                 [](const ColouredMesh& one) { return one.mesh != nullptr; });
-    const Scene scene(drawn);
-    const Camera camera = camera_for(scene.mesh(), options);
-    const SampleImage image = cast_samples(scene, camera, options, context);
-    const auto width = static_cast<std::size_t>(options.width);
-    const auto height = static_cast<std::size_t>(options.height);
-    std::vector<Rgb> pixels(width * height);
-    parallel_for(0, height, [&](std::size_t y) {
-        for (std::size_t x = 0; x < width; ++x) pixels[y * width + x] = pixel_colour(image, options, x, y);
-    });
-    return to_png(pixels, options.width, options.height);
+    return render_png(Scene(meshes), options, context);
 }
 
 }  // namespace qchopper

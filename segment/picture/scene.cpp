@@ -1,16 +1,35 @@
-// Embree finds what a ray meets; normals of points are blended over a triangle by Bui Tuong Phong, "Illumination for
-// Computer Generated Pictures", 1975, but not across sharp edges. Building: as Embree's tree, O(n log n) in triangles.
+// Normals of points are means over their triangles, weighted by area (Gouraud, "Continuous shading of curved surfaces",
+// 1971); across edges sharper than 50 degrees the normal of the facet counts. O(points + triangles) once per mesh.
 
 #include "segment/picture/scene.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 
+#include "base/parallel.h"
 #include "segment/mesh/measure.h"
 
 namespace qchopper {
 namespace {
 
-constexpr double crease = 0.64;  // cosine of 50 degrees; sharper edges are not smoothed
+constexpr double crease = 0.64;  // cosine of 50 degrees
+
+const TriangleMesh no_mesh;
+
+std::vector<ColouredMesh> without_nulls(std::span<const ColouredMesh> meshes) {
+    std::vector<ColouredMesh> all(meshes.begin(), meshes.end());
+    for (ColouredMesh& one : all) {
+        if (one.mesh == nullptr) one.mesh = &no_mesh;
+    }
+    return all;
+}
+
+std::vector<const TriangleMesh*> meshes_of(const std::vector<ColouredMesh>& all) {
+    std::vector<const TriangleMesh*> meshes;
+    for (const ColouredMesh& one : all) meshes.push_back(one.mesh);
+    return meshes;
+}
 
 std::vector<Vec3> point_normals(const TriangleMesh& mesh) {
     std::vector<Vec3> normals(mesh.points.size());
@@ -25,63 +44,75 @@ std::vector<Vec3> point_normals(const TriangleMesh& mesh) {
 
 }  // namespace
 
-TriangleMesh Scene::join(std::span<const ColouredMesh> meshes) {
-    TriangleMesh all;
-    for (const ColouredMesh& one : meshes) {
-        const auto first = static_cast<std::uint32_t>(all.points.size());
-        for (const Vec3& p : one.mesh->points) all.points.push_back(p + one.shift);
-        for (std::size_t t = 0; t < one.mesh->triangles.size(); ++t) {
-            const Triangle& corner = one.mesh->triangles[t];
-            all.triangles.push_back({first + corner[0], first + corner[1], first + corner[2]});
-            all.cap_of.push_back(qchopper::cap_of(*one.mesh, t));
-        }
-    }
-    return all;
-}
-
 Scene::Scene(std::span<const ColouredMesh> meshes)
-    : mesh_(join(meshes)), normals_(point_normals(mesh_)), diagonal_(norm(bounds(mesh_).size())), rays_(mesh_) {
-    for (const ColouredMesh& one : meshes) {
-        piece_of_.insert(piece_of_.end(), one.mesh->triangles.size(), static_cast<std::uint32_t>(colours_.size()));
-        colours_.push_back(one.colour);
-    }
+    : meshes_(without_nulls(meshes)), normals_(meshes_.size()), rays_(meshes_of(meshes_)) {
+    first_triangle_.push_back(0);
+    for (const ColouredMesh& one : meshes_)
+        first_triangle_.push_back(first_triangle_.back() + one.mesh->triangles.size());
+    parallel_for(0, meshes_.size(), [&](std::size_t i) { normals_[i] = point_normals(*meshes_[i].mesh); });
+    update();
 }
 
-Vec3 Scene::smooth_normal(std::uint32_t triangle, Vec3 at, Vec3 face_normal) const {
-    if (mesh_.cap_of[triangle] != no_cap) return face_normal;
-    const Triangle& corner = mesh_.triangles[triangle];
-    const double twice_area = dot(2.0 * area_vector(mesh_, triangle), face_normal);
-    if (!(twice_area > 0)) return face_normal;
-    Vec3 blended;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3 b = mesh_.points[corner[(k + 1) % 3]];
-        const Vec3 c = mesh_.points[corner[(k + 2) % 3]];
-        const double weight = std::clamp(dot(cross(b - at, c - at), face_normal) / twice_area, 0.0, 1.0);
-        const Vec3 n = normals_[corner[k]];
-        blended = blended + weight * (dot(n, face_normal) >= crease ? n : face_normal);
-    }
-    return normalized(blended);
+void Scene::place(std::span<const Vec3> shifts) {
+    assert(shifts.size() == meshes_.size());
+    for (std::size_t i = 0; i < meshes_.size(); ++i) meshes_[i].shift = shifts[i];
+    update();
 }
 
-std::optional<SurfaceHit> Scene::cast_ray(Vec3 from, Vec3 direction) const {
-    const std::optional<RayHit> hit = rays_.first_hit(from, direction);
-    if (!hit) return std::nullopt;
-    SurfaceHit point;
-    point.triangle = hit->triangle;
-    point.at = from + hit->distance * direction;
-    point.face_normal = normalized(area_vector(mesh_, hit->triangle));
-    point.normal = smooth_normal(hit->triangle, point.at, point.face_normal);
-    if (dot(point.face_normal, direction) > 0) {  // the inside of an open mesh
+void Scene::update() {
+    TriangleMesh corners;
+    std::vector<Vec3> shifts;
+    for (const ColouredMesh& one : meshes_) {
+        shifts.push_back(one.shift);
+        if (one.mesh->points.empty()) continue;
+        const Box box = bounds(*one.mesh);
+        corners.points.push_back(box.min + one.shift);
+        corners.points.push_back(box.max + one.shift);
+    }
+    diagonal_ = norm(bounds(corners).size());
+    rays_.place(shifts);
+}
+
+Region Scene::region_of(std::uint32_t triangle) const {
+    const auto after = std::upper_bound(first_triangle_.begin(), first_triangle_.end(), triangle);
+    const auto mesh = static_cast<std::size_t>(after - first_triangle_.begin() - 1);
+    return {static_cast<std::uint32_t>(mesh), cap_of(*meshes_[mesh].mesh, triangle - first_triangle_[mesh])};
+}
+
+SurfacePoint Scene::surface(std::uint32_t triangle, Vec3 at, Vec3 forward) const {
+    SurfacePoint point;
+    point.at = at;
+    point.region = region_of(triangle);
+    const ColouredMesh& one = meshes_[point.region.mesh];
+    const Triangle& corner = one.mesh->triangles[triangle - first_triangle_[point.region.mesh]];
+    const Vec3 p = at - one.shift;
+    const std::array<Vec3, 3> to{one.mesh->points[corner[0]] - p, one.mesh->points[corner[1]] - p,
+                                 one.mesh->points[corner[2]] - p};
+    const Vec3 twice_area = cross(to[1] - to[0], to[2] - to[0]);
+    const double length = norm(twice_area);
+    if (length > 0) point.face_normal = (1 / length) * twice_area;
+    point.normal = point.face_normal;
+    if (point.region.cap == no_cap && length > 0) {
+        Vec3 blended;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double share = dot(cross(to[(k + 1) % 3], to[(k + 2) % 3]), point.face_normal) / length;
+            const Vec3 n = normals_[point.region.mesh][corner[k]];
+            const bool is_smooth = dot(n, point.face_normal) >= crease;
+            blended = blended + std::clamp(share, 0.0, 1.0) * (is_smooth ? n : point.face_normal);
+        }
+        point.normal = normalized(blended);
+    }
+    if (dot(point.face_normal, forward) > 0) {  // the inside of an open mesh
         point.face_normal = -point.face_normal;
         point.normal = -point.normal;
     }
     return point;
 }
 
-std::optional<double> Scene::occluder_distance(const SurfaceHit& point, Vec3 direction) const {
-    const Vec3 above = point.at + (5e-5 * diagonal_) * point.face_normal;  // rays have single precision
-    const std::optional<RayHit> hit = rays_.first_hit(above, direction);
-    return hit ? std::optional<double>(hit->distance) : std::nullopt;
+void Scene::distances(const SurfacePoint& point, std::span<const Vec3> directions, double far,
+                      std::span<float> result) const {
+    // Rays are single precision.
+    rays_.distances(point.at + (5e-5 * diagonal_) * point.face_normal, directions, far, result);
 }
 
 }  // namespace qchopper

@@ -1,11 +1,11 @@
-// Joins coloured meshes into one scene for rays: the point that is hit, its piece and its normals.
+// Several coloured meshes at their places: the normals of their surfaces, and distances along rays.
 //
-// Millimetres. Its const functions can be called from several threads at once.
+// Normals and ray trees are computed once per mesh and serve however the meshes are moved afterwards.
 
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -14,42 +14,47 @@
 
 namespace qchopper {
 
-// Where a ray meets the scene. The normals have length 1 and point towards the origin of the ray.
-struct SurfaceHit {
-    Vec3 at;
-    Vec3 face_normal;
-    Vec3 normal;  // blended over the triangle, so that a round surface appears smooth
-    std::uint32_t triangle = 0;
+// A mesh and one of its caps, or the rest of its surface.
+struct Region {
+    static constexpr std::uint32_t background = std::numeric_limits<std::uint32_t>::max();
+    std::uint32_t mesh = background;
+    std::int32_t cap = no_cap;
+    bool operator==(const Region&) const = default;
 };
 
-// Preconditions of the functions that are given a triangle: it is an index of mesh().triangles.
+struct SurfacePoint {
+    Vec3 at;
+    Vec3 face_normal;  // towards the camera
+    Vec3 normal;       // the same, smooth across the facets of a round surface
+    Region region;
+};
+
 class Scene {
  public:
-    // Copies the meshes. Precondition: none is null.
+    // Entries whose mesh is null count as empty. The meshes stay the caller's and must outlive the scene.
     explicit Scene(std::span<const ColouredMesh> meshes);
 
-    // The first point that the ray meets. Precondition: the direction has length 1.
-    std::optional<SurfaceHit> cast_ray(Vec3 from, Vec3 direction) const;
-    // The distance to the first surface in the unit direction from the point; nothing if there is none.
-    std::optional<double> occluder_distance(const SurfaceHit& point, Vec3 direction) const;
+    // Moves the meshes: one shift (mm) each, in place of those that they came with.
+    void place(std::span<const Vec3> shifts);
 
-    // All meshes; cap_of has one entry per triangle.
-    const TriangleMesh& mesh() const { return mesh_; }
-    // The index of the mesh that the triangle comes from.
-    std::uint32_t piece_of(std::uint32_t triangle) const { return piece_of_[triangle]; }
-    Rgb colour(std::uint32_t triangle) const { return colours_[piece_of_[triangle]]; }
-    double diagonal() const { return diagonal_; }
+    std::span<const ColouredMesh> meshes() const { return meshes_; }
+    // What a triangle belongs to, counted through all meshes in their order.
+    Region region_of(std::uint32_t triangle) const;
+    // The surface at a point of a triangle, seen along the unit vector `forward`.
+    SurfacePoint surface(std::uint32_t triangle, Vec3 at, Vec3 forward) const;
+    // Distances along unit directions from just above the surface to the next one; `far` where none is nearer. Sizes are equal, at most RayScene::most_rays.
+    void distances(const SurfacePoint& point, std::span<const Vec3> directions, double far,
+                   std::span<float> result) const;
+    double diagonal() const { return diagonal_; }  // of the box of all meshes at their places
 
  private:
-    static TriangleMesh join(std::span<const ColouredMesh> meshes);
-    Vec3 smooth_normal(std::uint32_t triangle, Vec3 at, Vec3 face_normal) const;
+    void update();
 
-    TriangleMesh mesh_;
-    std::vector<std::uint32_t> piece_of_;  // per triangle
-    std::vector<Rgb> colours_;             // per piece
-    std::vector<Vec3> normals_;            // per point, over its triangles that are no caps
-    double diagonal_ = 0;                  // of the box around all
-    RayTree rays_;
+    std::vector<ColouredMesh> meshes_;
+    std::vector<std::size_t> first_triangle_;  // per mesh, and one more: the number of all triangles
+    std::vector<std::vector<Vec3>> normals_;   // per mesh and point, over the triangles that no cut made
+    RayScene rays_;
+    double diagonal_ = 0;
 };
 
 }  // namespace qchopper

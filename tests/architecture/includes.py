@@ -44,6 +44,7 @@ HEAVY = {
     "libzip": (r"zip\.h$", 2),
     "expat": (r"expat\.h$", 1),
     "libpng": (r"png\.h$", 1),
+    "libhersheyfont": (r"hersheyfont\.h$", 1),
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/cam/setup/pieces.h"
 
 namespace qchopper {
@@ -48,6 +50,27 @@ TEST(Undercut, HalfOfABallIsOccluded) {
     for (const Vec3 up : {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{0.6, 0, 0.8}}) {
         EXPECT_NEAR(occluded_area_ratio(ball, rays, up, std::nullopt), 0.5, 0.03);
     }
+}
+
+TEST(Undercut, ASampleEstimatesTheRatioWithinItsError) {
+    const TriangleMesh torus = shapes::torus({30, -20, 700}, 50, 20, 160);
+    const RayTree rays(torus);
+    const std::vector<std::uint32_t> sample = area_sample(torus, 5'000);
+    EXPECT_EQ(sample.size(), 5'000U);
+    for (const Vec3 up : {Vec3{0, 0, 1}, Vec3{0, 1, 0}, Vec3{0.6, 0, 0.8}}) {
+        EXPECT_NEAR(occluded_area_ratio(torus, rays, up, sample), occluded_area_ratio(torus, rays, up, std::nullopt),
+                    3 * 0.5 / std::sqrt(5'000.0));
+    }
+}
+
+TEST(Undercut, TrianglesStandInTheSampleAsOftenAsTheirAreaDemands) {
+    const TriangleMesh box = shapes::box({0, 0, 0}, {1, 2, 30});
+    std::vector<double> times(box.triangles.size(), 0);
+    for (const std::uint32_t t : area_sample(box, 10'000)) ++times[t];
+    for (std::size_t t = 0; t < times.size(); ++t) {
+        EXPECT_NEAR(times[t] / 10'000, norm(area_vector(box, t)) / area_mm2(box), 2e-4) << t;
+    }
+    EXPECT_TRUE(area_sample({}, 10).empty());
 }
 
 }  // namespace

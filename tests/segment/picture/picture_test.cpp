@@ -40,6 +40,7 @@ PictureOptions small() {
     options.height = 120;
     options.supersampling = 1;
     options.ambient_rays = 4;
+    options.labels = false;
     return options;
 }
 

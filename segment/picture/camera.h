@@ -1,0 +1,37 @@
+// The orthographic camera of a picture, and its options.
+//
+// Lengths in mm, sizes in pixels. `right`, `up` and `forward` are orthonormal.
+
+#pragma once
+
+#include <span>
+
+#include "segment/picture/coloured.h"
+
+namespace qchopper {
+
+struct PictureOptions {
+    int width = 1200;  // pixels
+    int height = 900;
+    Vec3 view{-0.55, 0.75, -0.38};  // from the eye to the meshes; any length
+    Vec3 up{0, 0, 1};
+    Rgb background{250, 250, 248};
+    int supersampling = 2;  // samples per pixel: this squared
+    int ambient_rays = 8;   // per point at which ambient light is computed; 0: constant light
+    double outline = 1.2;   // width of the dark line at the border of a piece, in pixels; 0: none
+    double frame = 0.06;    // empty border, as a share of the picture
+    bool labels = true;     // names of the meshes, and a scale bar
+};
+
+struct Camera {
+    Vec3 right;
+    Vec3 up;
+    Vec3 forward;
+    Vec3 origin;  // seen in the middle of the picture, in front of everything
+    double mm_per_pixel = 1;
+};
+
+// Frames all points of the meshes, moved by their shifts. Without any point the camera is at the origin.
+Camera framed(std::span<const ColouredMesh> meshes, const PictureOptions& options);
+
+}  // namespace qchopper

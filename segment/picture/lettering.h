@@ -1,0 +1,30 @@
+// Text and a scale bar drawn into the pixels of a picture, in strokes with a light border.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "segment/picture/colour.h"
+
+namespace qchopper {
+
+struct Pixels {
+    int width = 0;
+    int height = 0;
+    std::vector<Rgb> rows;  // from the top, each from the left: width * height
+};
+
+// A text of one line with its middle at (x, y) in pixels, moved into the picture where it would reach beyond; capital
+// letters are `height` pixels high. Characters that the font lacks, and all where the font is not installed (package
+// hershey-fonts-data), are left out.
+void draw_text(Pixels& pixels, double x, double y, const std::string& text, double height);
+
+// A bar of 1, 2 or 5 times a power of ten mm, about a sixth of the picture long, in the lower left corner, with its
+// length above.
+void draw_scale_bar(Pixels& pixels, double mm_per_pixel);
+
+// "20 cm": mm below 1 cm, m from 1 m.
+std::string describe_length(double mm);
+
+}  // namespace qchopper
