@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/project/decisions.h"
+#include "segment/io/raw_mesh.h"
 #include "segment/mesh/plane.h"
 
 namespace qchopper {
@@ -41,7 +42,7 @@ OptionCheck read_by(Reader reader, const std::string& what) {
     return [=](const std::string& text) { return reader(text) ? std::string() : "\"" + text + "\" is " + what; };
 }
 
-// The formats of scans, as help texts name them.
-constexpr const char* scan_formats = "PLY, STL, OBJ, OFF, GLB, glTF or 3MF, packed by gzip or not";
+// The formats of scans, for help texts.
+const std::string scan_formats = std::string(mesh_formats) + ", packed by gzip or not";
 
 }  // namespace qchopper

@@ -81,7 +81,7 @@ struct Parser {
 
     void add_inspect() {
         CLI::App* c = app.add_subcommand("inspect", "report what a scan is and what is wrong with it");
-        c->add_option("SCAN", inspect.scan, std::string(scan_formats) + "; - is standard input")->required();
+        c->add_option("SCAN", inspect.scan, scan_formats + "; - is standard input")->required();
         c->add_option("--units", inspect.units, "what one unit of the file is: mm, cm, m, in")
             ->check(one_of({"mm", "cm", "m", "in"}));
         c->add_flag("--deep", inspect.deep, "find faces that run through each other too");

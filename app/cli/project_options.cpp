@@ -82,7 +82,7 @@ void add_common(CLI::App* command, Arguments& arguments, const std::function<voi
 
 void add_repair(CLI::App& app, RepairArguments& repair, Arguments& common) {
     CLI::App* c = app.add_subcommand("repair", "make a closed solid of a scan and report what was done");
-    c->add_option("SCAN", repair.scan, std::string(scan_formats) + "; - is standard input")->required();
+    c->add_option("SCAN", repair.scan, scan_formats + "; - is standard input")->required();
     c->add_option("-o,--out", repair.out, "the file to write: .ply, which keeps every bit, or .stl")->required();
     c->add_option("--units", repair.units, "what one unit of the file is: mm, cm, m, in")
         ->check(one_of({"mm", "cm", "m", "in"}));
@@ -106,8 +106,7 @@ void add_repair(CLI::App& app, RepairArguments& repair, Arguments& common) {
 
 void add_prepare(CLI::App& app, PrepareArguments& prepare, Arguments& common) {
     CLI::App* c = app.add_subcommand("prepare", "make pieces and job files of a scan");
-    c->add_option("SCAN", prepare.input,
-                  std::string(scan_formats) + "; or the folder NAME.qch of a project to go on with")
+    c->add_option("SCAN", prepare.input, scan_formats + "; or the folder NAME.qch of a project to go on with")
         ->required();
     add_project_options(c, prepare);
     c->add_option("-o,--out", prepare.out, "the project folder to make: NAME.qch");
@@ -116,8 +115,7 @@ void add_prepare(CLI::App& app, PrepareArguments& prepare, Arguments& common) {
 
 void add_segment(CLI::App& app, SegmentArguments& segment, Arguments& common) {
     CLI::App* c = app.add_subcommand("segment", "cut a scan one decision at a time; --help lists the decisions");
-    c->add_option("SCAN", segment.input,
-                  std::string(scan_formats) + ", to make a project of; or the folder NAME.qch of one")
+    c->add_option("SCAN", segment.input, scan_formats + ", to make a project of; or the folder NAME.qch of one")
         ->required();
     add_project_options(c, segment);
     c->add_flag("--step", segment.step, "propose the best planes for the next piece; cut nothing");

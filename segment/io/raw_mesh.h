@@ -28,6 +28,9 @@ enum class MeshFormat {
 // "PLY, binary little-endian"
 std::string name_of(MeshFormat format);
 
+// The formats that are read, for help texts and messages.
+constexpr const char* mesh_formats = "PLY, STL, OBJ, OFF, glTF, GLB or 3MF";
+
 // As the readers return it: coordinates are finite, corners are indices of points, cap_of is empty or one per triangle
 // (tests/segment/io/damaged_test.cpp).
 struct RawMesh {

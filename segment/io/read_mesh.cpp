@@ -17,10 +17,9 @@ namespace qchopper {
 namespace {
 
 [[noreturn]] void refuse_unknown(const Bytes& bytes, const std::string& name) {
-    throw InputError(
-        InputFault::mesh,
-        name + " does not begin like a PLY, STL, OBJ, OFF, glTF, GLB or 3MF file, and " + why_no_binary_stl(bytes),
-        "give a file of one of these formats; if it was one, export or copy it again");
+    throw InputError(InputFault::mesh,
+                     name + " does not begin like a " + mesh_formats + " file, and " + why_no_binary_stl(bytes),
+                     "give a file of one of these formats; if it was one, export or copy it again");
 }
 
 // OBJ comes last: its only mark is the first word of its first line.
