@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <numeric>
 
 #include "app/project/project_folder.h"
 #include "app/project/shell_word.h"
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/staged_folder.h"
 #include "segment/io/read_mesh.h"
 #include "segment/picture/picture.h"
@@ -108,15 +111,28 @@ std::vector<ExportedPiece> rows_of(OpenProject& open, const ExportRequest& reque
     return rows;
 }
 
+// Pieces on several threads; progress is the sum over all of them, reported from one thread at a time.
 void simplify_all(std::vector<ExportedPiece>& rows, const ExportRequest& request, const Context& context) {
     SimplifyOptions options;
     options.tolerance = request.simplify_mm;
     options.most_faces = request.max_faces;
-    for (ExportedPiece& row : rows) {
-        TriangleMesh mesh = *row.piece.mesh;
-        row.simplified = simplify(mesh, options, context);
-        row.piece.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
-    }
+    std::mutex reporting;
+    std::vector<std::size_t> done(rows.size(), 0);
+    std::size_t points = 0;
+    for (const ExportedPiece& row : rows) points += row.piece.mesh->points.size();
+    parallel_for(0, rows.size(), [&](std::size_t i) {
+        Context of_piece;
+        of_piece.cancelled = context.cancelled;
+        of_piece.on_progress = [&](const Progress& progress) {
+            const std::lock_guard lock(reporting);
+            done[i] = progress.done;
+            context.progress(progress.what, std::accumulate(done.begin(), done.end(), std::size_t{0}), points);
+        };
+        of_piece.check_cancelled();
+        TriangleMesh mesh = *rows[i].piece.mesh;
+        rows[i].simplified = simplify(mesh, options, of_piece);
+        rows[i].piece.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
+    });
 }
 
 // The folder appears whole or not at all.

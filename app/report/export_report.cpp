@@ -17,6 +17,10 @@ using Json = nlohmann::ordered_json;
 std::vector<std::string> warnings(const ExportedProject& exported, const ExportRequest& request) {
     std::vector<std::string> text;
     for (const ExportedPiece& row : exported.pieces) {
+        if (row.simplified.is_by_queue) {
+            text.push_back("piece " + row.piece.name +
+                           " took longer: passes of collapses kept too many faces, so it was simplified by a queue");
+        }
         if (!row.simplified.has_too_many_faces) continue;
         text.push_back("piece " + row.piece.name + " keeps " + with_commas(row.simplified.faces_after) +
                        " faces, more than " + with_commas(*request.max_faces) + ": " +
@@ -55,7 +59,8 @@ std::string document(const ExportedProject& exported, const ExportRequest& reque
             piece["simplified"] = {{"faces_before", row.simplified.faces_before},
                                    {"cap_faces", row.simplified.cap_faces},
                                    {"from_piece_mm", row.simplified.from_piece},
-                                   {"from_result_mm", row.simplified.from_result}};
+                                   {"from_result_mm", row.simplified.from_result},
+                                   {"by_queue", row.simplified.is_by_queue}};
         }
         pieces.push_back(std::move(piece));
     }

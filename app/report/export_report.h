@@ -10,7 +10,7 @@
 
 namespace qchopper {
 
-// One per piece that keeps more faces than request.max_faces.
+// One per piece that keeps more faces than request.max_faces, and per piece that took the slower way (simplify.h).
 std::vector<std::string> warnings(const ExportedProject& exported, const ExportRequest& request);
 std::vector<std::string> lines(const ExportedProject& exported, const Project& project);
 // The document qchopper-export-1 (docs/export.md); `folder` is the project folder as it was typed.

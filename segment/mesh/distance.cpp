@@ -1,17 +1,20 @@
 // Branch and bound over the triangles, after M. Guthe, P. Borodin and R. Klein, "Fast and accurate Hausdorff distance
 // calculation between meshes" (2005): a triangle whose bound stays below the distance found is dropped, the others are
 // split in four. farthest_sample samples faces, as P. Cignoni, C. Rocchini and R. Scopigno do in "Metro: measuring
-// error on simplified surfaces" (1998). O(log triangles) per point on average; a triangle tree of `to` in memory.
+// error on simplified surfaces" (1998), but for faces of which no sample can be the farthest. O(log triangles) per
+// point on average; a triangle tree of `to` in memory.
 
 #include "segment/mesh/distance.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "base/parallel.h"
+#include "segment/mesh/measure.h"
 #include "segment/mesh/triangle_tree.h"
 
 namespace qchopper {
@@ -141,32 +144,60 @@ double mean_longest_side(const TriangleMesh& mesh) {
     return sum / static_cast<double>(mesh.triangles.size());
 }
 
-// The largest distance of the samples added. A sample that is closer than that to a triangle which was nearest to one
-// of the last samples cannot change it: nearly all of them, and they are not searched for in the tree.
+// The largest distance of the samples added, or `mm` if none is larger. Triangles that were nearest to the last samples
+// are kept: a sample closer than the largest distance to one of them cannot change it. If all corners of a face are,
+// none of its samples can, because the distance to one triangle is convex. So it is with nearly all faces, and what is
+// found does not depend on which triangles are kept.
 class LargestDistance {
  public:
-    explicit LargestDistance(const TriangleMesh& to) : to_(to), tree_(to) {}
+    // `rounding` in mm is more than the error of any distance.
+    LargestDistance(const TriangleMesh& to, const TriangleTree& tree, double mm, double rounding)
+        : to_(to), tree_(tree), mm_(mm), rounding_(rounding) {
+        kept_.fill(corners_of(to, 0));
+    }
 
     void add(Vec3 p) {
-        for (std::size_t i = 0; i < nearest_.size(); ++i) {
-            const Vec3 away = closest_on_triangle(p, corners_of(to_, nearest_[i])) - p;
-            if (dot(away, away) > mm_ * mm_) continue;
-            if (i > 0) std::swap(nearest_[i], nearest_[i - 1]);
-            return;
+        double least = infinite;
+        for (std::size_t i = 0; i < kept_.size(); ++i) {
+            const Vec3 away = closest_on_triangle(p, kept_[i]) - p;
+            const double squared = dot(away, away);
+            if (squared <= mm_ * mm_) return move_up(i);
+            least = std::min(least, squared);
         }
-        const TriangleTree::Nearest found = tree_.nearest(to_, p);
+        const TriangleTree::Nearest found = tree_.nearest(to_, p, std::sqrt(least) + rounding_);
         mm_ = std::max(mm_, found.distance);
-        std::rotate(nearest_.begin(), nearest_.end() - 1, nearest_.end());
-        nearest_.front() = found.triangle;
+        std::rotate(kept_.begin(), kept_.end() - 1, kept_.end());
+        kept_.front() = corners_of(to_, found.triangle);
+    }
+
+    // Whether no sample of the face can be farther than the largest distance; false if that is not known.
+    bool covers(const TriangleCorners& face) {
+        const double limit = mm_ - rounding_;
+        if (limit <= 0) return false;
+        const auto is_near = [&](Vec3 p, const TriangleCorners& triangle) {
+            const Vec3 away = closest_on_triangle(p, triangle) - p;
+            return dot(away, away) <= limit * limit;
+        };
+        for (std::size_t i = 0; i < kept_.size(); ++i) {
+            if (!std::all_of(face.begin(), face.end(), [&](Vec3 p) { return is_near(p, kept_[i]); })) continue;
+            move_up(i);
+            return true;
+        }
+        return false;
     }
 
     double mm() const { return mm_; }
 
  private:
+    void move_up(std::size_t i) {
+        if (i > 0) std::swap(kept_[i], kept_[i - 1]);
+    }
+
     const TriangleMesh& to_;
-    TriangleTree tree_;
-    std::array<std::uint32_t, 8> nearest_{};
+    const TriangleTree& tree_;
+    std::array<TriangleCorners, 8> kept_{};
     double mm_ = 0;
+    double rounding_ = 0;
 };
 
 // Adds a grid of n steps along each side, and the middles of its upright cells.
@@ -242,15 +273,27 @@ Deviation deviation(const TriangleMesh& scan, const TriangleMesh& result, const 
 
 double farthest_sample(const TriangleMesh& from, const TriangleMesh& to, const Context& context) {
     constexpr int most_steps = 200;
+    constexpr std::size_t faces_at_once = 1024;
     const double spacing = mean_longest_side(to);
-    LargestDistance largest(to);
-    for (std::size_t t = 0; t < from.triangles.size(); ++t) {
-        if (t % 4096 == 0) context.check_cancelled();
-        const TriangleCorners corners = corners_of(from, t);
-        const double steps = std::ceil(longest_side(corners) / std::max(spacing, 1e-12));
-        add_samples(largest, corners, std::clamp(static_cast<int>(std::min(steps, 1e6)), 2, most_steps));
-    }
-    return largest.mm();
+    const TriangleTree tree(to);
+    const Box box = bounds(to);
+    const double rounding = 1e-10 * (norm(box.min) + norm(box.max));
+    std::atomic<double> farthest_mm{0};
+    const auto sample_faces = [&](std::size_t first, std::size_t end) {
+        context.check_cancelled();
+        LargestDistance largest(to, tree, farthest_mm.load(), rounding);
+        for (std::size_t t = first; t < end; ++t) {
+            const TriangleCorners corners = corners_of(from, t);
+            if (largest.covers(corners)) continue;
+            const double steps = std::ceil(longest_side(corners) / std::max(spacing, 1e-12));
+            add_samples(largest, corners, std::clamp(static_cast<int>(std::min(steps, 1e6)), 2, most_steps));
+        }
+        double before = farthest_mm.load();
+        while (before < largest.mm() && !farthest_mm.compare_exchange_weak(before, largest.mm())) {
+        }
+    };
+    parallel_ranges(0, from.triangles.size(), faces_at_once, sample_faces);
+    return farthest_mm.load();
 }
 
 }  // namespace qchopper

@@ -11,6 +11,10 @@
 #include <OpenMesh/Tools/Decimater/Observer.hh>
 
 #include <algorithm>
+#include <array>
+#include <mutex>
+
+#include "segment/simplify/sound_face.h"
 
 namespace qchopper {
 namespace {
@@ -24,28 +28,9 @@ struct CollapseTraits : OpenMesh::DefaultTraits {
     HalfedgeAttributes(OpenMesh::Attributes::Status | OpenMesh::Attributes::PrevHalfedge);
 };
 using Surface = OpenMesh::TriMesh_ArrayKernelT<CollapseTraits>;
-using Corners = std::array<OpenMesh::Vec3d, 3>;
 
-OpenMesh::Vec3d normal_of(const Corners& c) {
-    return (c[1] - c[0]) % (c[2] - c[0]);
-}
-
-// 1 for an equilateral triangle, 0 for one without area.
-double roundness(const Corners& c) {
-    constexpr double two_root_3 = 3.4641016151377544;
-    const double sides = (c[1] - c[0]).sqrnorm() + (c[2] - c[1]).sqrnorm() + (c[0] - c[2]).sqrnorm();
-    return sides > 0 ? two_root_3 * normal_of(c).norm() / sides : 0;
-}
-
-// A needle has no reliable normal, so none may be made; one that exists may become rounder.
-bool is_sound(const Corners& before, const Corners& after) {
-    constexpr double least_roundness = 0.03;
-    constexpr double least_cosine = 0.5;
-    const double round_now = roundness(after);
-    if (!(round_now > 1e-6) || round_now < std::min(least_roundness, roundness(before))) return false;
-    const OpenMesh::Vec3d a = normal_of(before);
-    const OpenMesh::Vec3d b = normal_of(after);
-    return (a | b) >= least_cosine * a.norm() * b.norm();
+Vec3 vec3(const OpenMesh::Vec3d& p) {
+    return {p[0], p[1], p[2]};
 }
 
 template <class MeshT>
@@ -59,14 +44,14 @@ class KeepSound : public OpenMesh::Decimater::ModBaseT<MeshT> {
         const MeshT& mesh = Base::mesh();
         for (auto face = mesh.cvf_iter(info.v0); face.is_valid(); ++face) {
             if (*face == info.fl || *face == info.fr) continue;
-            Corners before;
-            Corners after;
+            std::array<Vec3, 3> before;
+            std::array<Vec3, 3> after;
             std::size_t i = 0;
             for (auto corner = mesh.cfv_iter(*face); corner.is_valid(); ++corner, ++i) {
-                before[i] = mesh.point(*corner);
-                after[i] = *corner == info.v0 ? info.p1 : before[i];
+                before[i] = vec3(mesh.point(*corner));
+                after[i] = *corner == info.v0 ? vec3(info.p1) : before[i];
             }
-            if (!is_sound(before, after)) return Base::ILLEGAL_COLLAPSE;
+            if (!is_sound_change(before, after)) return Base::ILLEGAL_COLLAPSE;
         }
         return Base::LEGAL_COLLAPSE;
     }
@@ -84,7 +69,8 @@ class Reporter : public OpenMesh::Decimater::Observer {
 };
 
 bool build(const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_locked, Surface& surface) {
-    omerr().disable();  // it would print what the result states
+    static std::once_flag is_quiet;
+    std::call_once(is_quiet, [] { omerr().disable(); });  // it would print what the result states
     surface.reserve(mesh.points.size(), 3 * mesh.triangles.size() / 2 + 1, mesh.triangles.size());
     for (const Vec3& p : mesh.points) surface.add_vertex({p.x, p.y, p.z});
     for (const Triangle& t : mesh.triangles) {

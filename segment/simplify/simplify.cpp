@@ -1,5 +1,6 @@
 // Collapses, then measures both ways by samples; with a tolerance this is repeated with a smaller limit until the
-// deviation is within it.
+// deviation is within it. To a number of faces by passes (collapse_passes.h), within a tolerance by a queue
+// (collapse.h).
 
 #include "segment/simplify/simplify.h"
 
@@ -10,16 +11,16 @@
 
 #include "base/error.h"
 #include "segment/mesh/distance.h"
-#include "segment/mesh/edges.h"
-#include "segment/mesh/manifold.h"
+#include "segment/mesh/links.h"
 #include "segment/simplify/collapse.h"
+#include "segment/simplify/collapse_passes.h"
 
 namespace qchopper {
 namespace {
 
 constexpr std::size_t fewest_faces = 4;  // of any closed mesh
 
-void check(const TriangleMesh& mesh, const Edges& edges, const SimplifyOptions& options) {
+void check(const SimplifyOptions& options) {
     if (!options.tolerance && !options.most_faces) {
         throw InputError(InputFault::use, "neither a tolerance nor a number of faces is given", "give one of the two");
     }
@@ -30,9 +31,17 @@ void check(const TriangleMesh& mesh, const Edges& edges, const SimplifyOptions& 
         throw InputError(InputFault::use, "a piece has at least " + std::to_string(fewest_faces) + " faces, not " +
                                               std::to_string(*options.most_faces));
     }
-    if (mesh.triangles.empty() || !edges.faults.is_closed()) {
+}
+
+Links links_of_closed(const TriangleMesh& mesh) {
+    const bool has_edges = std::none_of(mesh.triangles.begin(), mesh.triangles.end(),
+                                        [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+    Links found;
+    if (has_edges) found = links(mesh);
+    if (mesh.triangles.empty() || !has_edges || !found.faults.is_closed()) {
         throw InputError(InputFault::mesh, "only a closed mesh can be simplified", "repair it first");
     }
+    return found;
 }
 
 std::vector<std::uint8_t> points_of_caps(const TriangleMesh& mesh) {
@@ -44,6 +53,11 @@ std::vector<std::uint8_t> points_of_caps(const TriangleMesh& mesh) {
     return is_of_cap;
 }
 
+void measure(const TriangleMesh& mesh, const TriangleMesh& fewer, SimplifyReport& report, const Context& context) {
+    report.from_piece = farthest_sample(mesh, fewer, context);
+    report.from_result = farthest_sample(fewer, mesh, context);
+}
+
 // The limits of the collapses hold for points and planes. Edges and interiors of faces are measured afterwards; where
 // they deviate too much, all is repeated with a smaller limit.
 bool collapse_within(TriangleMesh& mesh, const SimplifyOptions& options, SimplifyReport& report,
@@ -52,14 +66,13 @@ bool collapse_within(TriangleMesh& mesh, const SimplifyOptions& options, Simplif
     constexpr double first_share = 0.8;
     const std::vector<std::uint8_t> is_locked = points_of_caps(mesh);
     CollapseLimits limits;
-    if (options.tolerance) limits.distance = first_share * *options.tolerance;
+    limits.distance = first_share * *options.tolerance;
     limits.most_faces = options.most_faces.value_or(0);
     for (int i = 0; i < most_tries; ++i) {
         TriangleMesh fewer = mesh;
         if (!collapse_edges(fewer, is_locked, limits, context)) return false;
-        report.from_piece = farthest_sample(mesh, fewer, context);
-        report.from_result = farthest_sample(fewer, mesh, context);
-        if (!options.tolerance || report.deviation() <= *options.tolerance) {
+        measure(mesh, fewer, report, context);
+        if (report.deviation() <= *options.tolerance) {
             mesh = std::move(fewer);
             return true;
         }
@@ -69,18 +82,37 @@ bool collapse_within(TriangleMesh& mesh, const SimplifyOptions& options, Simplif
     return false;
 }
 
+// In passes; where these stop early although the caps would allow that number, by the queue.
+bool collapse_to(std::size_t most_faces, TriangleMesh& mesh, SimplifyReport& report, const Context& context) {
+    const std::vector<std::uint8_t> is_locked = points_of_caps(mesh);
+    TriangleMesh fewer = collapse_in_passes(mesh, is_locked, most_faces, context);
+    const bool is_enough = fewer.triangles.size() <= std::max(most_faces, report.cap_faces);
+    if (!is_enough || !links(fewer).faults.is_closed()) {
+        report.is_by_queue = true;
+        CollapseLimits limits;
+        limits.most_faces = most_faces;
+        fewer = mesh;
+        if (!collapse_edges(fewer, is_locked, limits, context)) return false;
+    }
+    measure(mesh, fewer, report, context);
+    mesh = std::move(fewer);
+    return true;
+}
+
 }  // namespace
 
 SimplifyReport simplify(TriangleMesh& mesh, const SimplifyOptions& options, const Context& context) {
-    const Edges found = edges(mesh);
-    check(mesh, found, options);
+    check(options);
+    const Links found = links_of_closed(mesh);
     SimplifyReport report;
     report.faces_before = mesh.triangles.size();
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) report.cap_faces += cap_of(mesh, t) != no_cap ? 1 : 0;
     if (!options.most_faces || mesh.triangles.size() > *options.most_faces) {
         TriangleMesh split = mesh;
-        split_non_manifold_vertices(split, found);  // half-edges cannot represent surfaces that only touch in a point
-        if (collapse_within(split, options, report, context)) mesh = std::move(split);
+        split_fans(split, found.extra_fans);  // the collapses need one fan of faces around every point
+        const bool is_done = options.tolerance ? collapse_within(split, options, report, context)
+                                               : collapse_to(*options.most_faces, split, report, context);
+        if (is_done) mesh = std::move(split);
     }
     report.faces_after = mesh.triangles.size();
     report.has_too_many_faces = options.most_faces && report.faces_after > *options.most_faces;

@@ -3,7 +3,8 @@
 // Lengths are mm. Points that stay do not move. Caps keep every triangle and point, so that two pieces that meet at a
 // cut match to the last bit, whatever the options for either. The result is closed, lies on the same sides of the
 // piece's cuts, and no face is inverted; with a tolerance no sample of either surface, interiors of faces included, is
-// farther than that from the other (tests/segment/simplify/simplify_test.cpp). Same input, same bytes.
+// farther than that from the other (tests/segment/simplify/simplify_test.cpp). Same input, same bytes, whatever the
+// number of threads.
 
 #pragma once
 
@@ -27,13 +28,14 @@ struct SimplifyReport {
     double from_piece = 0;            // mm: largest distance of the samples of the piece to the result
     double from_result = 0;           // mm: of the samples of the result to the piece (mesh/distance.h)
     bool has_too_many_faces = false;  // more faces than most_faces are left: no other edge could collapse
+    bool is_by_queue = false;         // the passes did not reach most_faces, so the slower way was taken (collapse.h)
     double deviation() const { return from_piece > from_result ? from_piece : from_result; }
 };
 
 // The mesh is unchanged if it has few enough faces already, or if no result keeps the tolerance. Throws InputError:
 // (use) without an option, or with a tolerance that is not above 0 or fewer than 4 faces; (mesh) if the mesh is not
-// closed. Throws Cancelled (base/context.h); the mesh is unchanged then. O(n log n) for n faces, up to 8 times with a
-// tolerance.
+// closed. Throws Cancelled (base/context.h); the mesh is unchanged then. O(n) for n faces; with a tolerance O(n log n),
+// up to 8 times.
 SimplifyReport simplify(TriangleMesh& mesh, const SimplifyOptions& options, const Context& context = {});
 
 }  // namespace qchopper

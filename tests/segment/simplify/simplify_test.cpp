@@ -8,11 +8,17 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "segment/cut/cut.h"
 #include "segment/mesh/distance.h"
 #include "segment/mesh/edges.h"
+#include "segment/mesh/manifold.h"
 #include "segment/mesh/measure.h"
+#include "segment/mesh/triangle_tree.h"
 #include "segment/sample/sample.h"
+#include "segment/simplify/collapse.h"
+#include "segment/simplify/collapse_passes.h"
+#include "segment/simplify/sound_face.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
@@ -199,12 +205,207 @@ TEST(Simplify, ACountThatIsMetAlreadyChangesNothing) {
     EXPECT_EQ(same, bone);
 }
 
+std::vector<shapes::Named> shapes_and_samples() {
+    std::vector<shapes::Named> all = shapes::all_closed();
+    SampleOptions options;
+    options.faces = 8000;
+    all.push_back({"vertebra", sample(Specimen::vertebra, options)});
+    all.push_back({"femur", sample(Specimen::femur, options)});
+    options.faces = 60000;
+    all.push_back({"skull", sample(Specimen::skull, options)});
+    return all;
+}
+
+double least_squared_roundness(const TriangleMesh& mesh) {
+    double least = 1;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        least = std::min(least, squared_roundness(shape_of(corners_of(mesh, t))));
+    }
+    return least;
+}
+
+void expect_manifold(const TriangleMesh& mesh, const std::string& name) {
+    const Edges found = edges(mesh);
+    EXPECT_EQ(found.faults, EdgeFaults{}) << name;
+    EXPECT_EQ(count_non_manifold_vertices(mesh, found), 0U) << name;
+    std::set<std::set<std::uint32_t>> triangles;
+    for (const Triangle& t : mesh.triangles) triangles.insert({t[0], t[1], t[2]});
+    EXPECT_EQ(triangles.size(), mesh.triangles.size()) << name;
+}
+
+TEST(Simplify, InPassesEveryShapeStaysManifoldAndKeepsItsPoints) {
+    for (const shapes::Named& shape : shapes_and_samples()) {
+        std::set<std::array<double, 3>> points;
+        for (const Vec3& p : shape.mesh.points) points.insert({p.x, p.y, p.z});
+        for (const std::size_t part : {2, 5, 20, 100000}) {
+            const std::size_t most = std::max<std::size_t>(4, shape.mesh.triangles.size() / part);
+            const TriangleMesh fewer = collapse_in_passes(shape.mesh, {}, most);
+            const std::string name = shape.name + " to " + std::to_string(most);
+            EXPECT_TRUE(is_consistent(fewer)) << name;
+            EXPECT_LE(fewer.triangles.size(), shape.mesh.triangles.size()) << name;
+            EXPECT_GE(fewer.triangles.size() + 1, most) << name;  // not fewer than asked for
+            expect_manifold(fewer, name);
+            for (const Vec3& p : fewer.points) EXPECT_TRUE(points.contains({p.x, p.y, p.z})) << name;
+            EXPECT_GE(least_squared_roundness(fewer), std::min(9e-4, least_squared_roundness(shape.mesh))) << name;
+        }
+    }
+}
+
+TEST(Simplify, TheNumberOfFacesIsReachedInPasses) {
+    for (const shapes::Named& shape : shapes_and_samples()) {
+        if (shape.mesh.triangles.size() < 4000) continue;
+        TriangleMesh mesh = shape.mesh;
+        const SimplifyReport report = simplify(mesh, at_most(shape.mesh.triangles.size() / 10));
+        EXPECT_LE(mesh.triangles.size(), shape.mesh.triangles.size() / 10) << shape.name;
+        EXPECT_FALSE(report.is_by_queue || report.has_too_many_faces) << shape.name;
+        expect_sound(mesh, shape.mesh, shape.name);
+    }
+}
+
+TEST(Simplify, LockedPointsAndTheirFacesStay) {
+    const TriangleMesh bone = some_bone();
+    std::vector<std::uint8_t> is_locked(bone.points.size(), 0);
+    std::set<std::array<double, 3>> locked;
+    for (std::size_t i = 0; i < bone.points.size(); ++i) {
+        if (bone.points[i].x > 20 || i % 50 == 0) is_locked[i] = 1;
+        if (is_locked[i] != 0) locked.insert({bone.points[i].x, bone.points[i].y, bone.points[i].z});
+    }
+    const TriangleMesh fewer = collapse_in_passes(bone, is_locked, 10);
+    ASSERT_LT(fewer.triangles.size(), bone.triangles.size());
+    for (const Vec3& p : fewer.points) locked.erase({p.x, p.y, p.z});
+    EXPECT_TRUE(locked.empty());
+}
+
+TEST(Simplify, APieceThatThePassesDoNotBringToTheNumberIsNamed) {
+    std::size_t named = 0;
+    for (const shapes::Named& shape : shapes::all_closed()) {
+        TriangleMesh mesh = shape.mesh;
+        const SimplifyReport report = simplify(mesh, at_most(4));
+        const std::size_t in_passes = collapse_in_passes(shape.mesh, {}, 4).triangles.size();
+        EXPECT_EQ(report.is_by_queue, in_passes > 4) << shape.name;
+        EXPECT_EQ(report.has_too_many_faces, mesh.triangles.size() > 4) << shape.name;
+        expect_manifold(mesh, shape.name);
+        named += report.is_by_queue ? 1 : 0;
+    }
+    EXPECT_GT(named, 0U);
+}
+
+TEST(Simplify, NoFaceTurnsOver60DegreesOrBecomesANeedle) {
+    const auto turned = [](double degrees) -> std::array<Vec3, 3> {
+        const double angle = degrees * 3.14159265358979323846 / 180;
+        return {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0.5, std::cos(angle), std::sin(angle)}};
+    };
+    const auto flat = [](double height) -> std::array<Vec3, 3> {
+        return {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0.5, height, 0}};
+    };
+    for (const double degrees : {0.0, 30.0, 59.9, -59.9}) EXPECT_TRUE(is_sound_change(turned(0), turned(degrees)));
+    for (const double degrees : {60.1, 90.0, 120.0, 180.0, -60.1}) {
+        EXPECT_FALSE(is_sound_change(turned(0), turned(degrees))) << degrees;
+    }
+    EXPECT_TRUE(is_sound_change(flat(1), flat(0.02)));    // roundness 0.046
+    EXPECT_FALSE(is_sound_change(flat(1), flat(0.005)));  // 0.012
+    EXPECT_FALSE(is_sound_change(flat(1), flat(0)));
+    EXPECT_TRUE(is_sound_change(flat(0.004), flat(0.005)));  // a needle that becomes rounder
+    EXPECT_TRUE(is_sound_change(flat(0), flat(0.005)));
+    EXPECT_FALSE(is_sound_change(flat(0.005), flat(0.004)));
+}
+
+TEST(Simplify, InPassesItDeviatesHardlyMoreThanByTheQueue) {
+    SampleOptions options;
+    options.faces = 60000;
+    for (const Specimen specimen : {Specimen::skull, Specimen::femur, Specimen::vertebra}) {
+        const TriangleMesh bone = sample(specimen, options);
+        TriangleMesh in_passes = bone;
+        const SimplifyReport report = simplify(in_passes, at_most(6000));
+        EXPECT_FALSE(report.is_by_queue);
+        TriangleMesh by_queue = bone;
+        CollapseLimits limits;
+        limits.most_faces = 6000;
+        ASSERT_TRUE(collapse_edges(by_queue, {}, limits));
+        EXPECT_EQ(in_passes.triangles.size(), by_queue.triangles.size());
+        const double of_queue = std::max(farthest_sample(bone, by_queue), farthest_sample(by_queue, bone));
+        EXPECT_LE(report.deviation(), 1.3 * of_queue) << static_cast<int>(specimen);
+    }
+}
+
+TEST(Simplify, AnyNumberOfThreadsGivesTheSameBytes) {
+    const TriangleMesh bone = some_bone();
+    TriangleMesh by_all = bone;
+    const SimplifyReport all = simplify(by_all, at_most(1000));
+    for (const std::size_t threads : {1, 2}) {
+        const ThreadLimit limit(threads);
+        TriangleMesh mesh = bone;
+        const SimplifyReport report = simplify(mesh, at_most(1000));
+        EXPECT_EQ(mesh, by_all);
+        EXPECT_EQ(report.from_piece, all.from_piece);
+        EXPECT_EQ(report.from_result, all.from_result);
+    }
+}
+
+// The samples that distance.h states, each compared with every triangle.
+TEST(Simplify, TheDeviationIsThatOfAllSamples) {
+    const auto longest = [](const Corners& c) {
+        return std::max({norm(c[1] - c[0]), norm(c[2] - c[1]), norm(c[0] - c[2])});
+    };
+    const auto by_force = [&](const TriangleMesh& from, const TriangleMesh& to) {
+        double spacing = 0;
+        for (std::size_t t = 0; t < to.triangles.size(); ++t) spacing += longest(corners_of(to, t));
+        spacing /= static_cast<double>(to.triangles.size());
+        double farthest = 0;
+        const auto add = [&](Vec3 p) {
+            double nearest = INFINITY;
+            for (std::size_t t = 0; t < to.triangles.size(); ++t) {
+                nearest = std::min(nearest, norm(closest_on_triangle(p, corners_of(to, t)) - p));
+            }
+            farthest = std::max(farthest, nearest);
+        };
+        for (std::size_t t = 0; t < from.triangles.size(); ++t) {
+            const Corners c = corners_of(from, t);
+            const int n = std::clamp(static_cast<int>(std::ceil(longest(c) / spacing)), 2, 200);
+            const Vec3 u = (1.0 / n) * (c[1] - c[0]);
+            const Vec3 v = (1.0 / n) * (c[2] - c[0]);
+            for (int i = 0; i <= n; ++i) {
+                for (int k = 0; i + k <= n; ++k) {
+                    const Vec3 corner = c[0] + static_cast<double>(i) * u + static_cast<double>(k) * v;
+                    add(corner);
+                    if (i + k < n) add(corner + (1.0 / 3) * (u + v));
+                }
+            }
+        }
+        return farthest;
+    };
+    for (const shapes::Named& shape : shapes::all_closed()) {
+        const TriangleMesh fewer = collapse_in_passes(shape.mesh, {}, shape.mesh.triangles.size() / 3);
+        EXPECT_EQ(farthest_sample(shape.mesh, fewer), by_force(shape.mesh, fewer)) << shape.name;
+        EXPECT_EQ(farthest_sample(fewer, shape.mesh), by_force(fewer, shape.mesh)) << shape.name;
+    }
+}
+
+TEST(Simplify, CancelledInAPassItLeavesTheMeshUnchanged) {
+    const TriangleMesh bone = some_bone();
+    TriangleMesh mesh = bone;
+    std::atomic<bool> stop{false};
+    std::size_t reports = 0;
+    Context context;
+    context.cancelled = &stop;
+    context.on_progress = [&](const Progress& progress) {
+        EXPECT_LE(progress.done, progress.total);
+        stop = ++reports == 3;
+    };
+    EXPECT_THROW(simplify(mesh, at_most(500), context), Cancelled);
+    EXPECT_EQ(reports, 3U);
+    EXPECT_EQ(mesh, bone);
+}
+
 TEST(Simplify, OptionsThatMakeNoSenseAndOpenMeshesAreRefused) {
     TriangleMesh box = shapes::box({0, 0, 0}, {1, 1, 1}, 3);
     EXPECT_THROW(simplify(box, {}), InputError);
     EXPECT_THROW(simplify(box, within(0)), InputError);
     EXPECT_THROW(simplify(box, within(NAN)), InputError);
     EXPECT_THROW(simplify(box, at_most(3)), InputError);
+    TriangleMesh folded = box;
+    folded.triangles.push_back({0, 1, 1});
+    EXPECT_THROW(simplify(folded, at_most(10)), InputError);
     box.triangles.pop_back();
     EXPECT_THROW(simplify(box, within(1)), InputError);
 }
