@@ -1,6 +1,6 @@
-// What a long computation needs from its caller: where to report progress, and whether to stop.
+// What a long computation needs from its caller: where to report progress, whether to stop, and whether to be timed.
 //
-// Passed by reference and copied freely; the flag that `cancelled` points to must outlive all copies.
+// Passed by reference and copied freely; what `cancelled` and `timings` point to must outlive all copies.
 
 #pragma once
 
@@ -24,10 +24,13 @@ struct Cancelled : std::runtime_error {
     Cancelled() : std::runtime_error("stopped") {}
 };
 
+class Timings;
+
 struct Context {
     std::function<void(const Progress&)> on_progress;    // may be empty; called from one thread at a time
     std::function<void(const std::string&)> on_message;  // one line for the operator; may be empty
     const std::atomic<bool>* cancelled = nullptr;        // nullptr: cannot be cancelled
+    Timings* timings = nullptr;                          // base/timings.h; nullptr: nothing is measured
 
     void progress(const std::string& what, std::size_t done, std::size_t total) const {
         if (on_progress) on_progress({what, done, total});

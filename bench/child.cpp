@@ -14,7 +14,7 @@ extern char** environ;
 
 namespace qchopper::bench {
 
-ChildResult run(const std::vector<std::string>& command) {
+ChildResult run(const std::vector<std::string>& command, const ChildStreams& streams) {
     std::vector<char*> arguments;
     arguments.reserve(command.size() + 1);
     for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -22,11 +22,15 @@ ChildResult run(const std::vector<std::string>& command) {
     ChildResult ended;
     const double started = wall_s();
     pid_t child = 0;
-    posix_spawn_file_actions_t streams;
-    ::posix_spawn_file_actions_init(&streams);
-    ::posix_spawn_file_actions_addopen(&streams, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    const int fault = ::posix_spawnp(&child, arguments[0], &streams, nullptr, arguments.data(), environ);
-    ::posix_spawn_file_actions_destroy(&streams);
+    posix_spawn_file_actions_t actions;
+    ::posix_spawn_file_actions_init(&actions);
+    constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC;
+    ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, streams.out.c_str(), flags, 0600);
+    if (!streams.err.empty()) {
+        ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, streams.err.c_str(), flags, 0600);
+    }
+    const int fault = ::posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+    ::posix_spawn_file_actions_destroy(&actions);
     if (fault != 0) return ended;
     rusage usage{};
     if (::wait4(child, &ended.status, 0, &usage) != child) return ended;

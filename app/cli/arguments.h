@@ -128,6 +128,7 @@ struct DispatchArguments {
 struct Arguments {
     bool json = false;  // for the option parser only; run.cpp reads it before
     bool quiet = false;
+    bool timings = false;
     std::variant<SampleArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
                  ExplainArguments, ExportArguments, DryRunArguments, CellSimArguments, DispatchArguments>
         command;

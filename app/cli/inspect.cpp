@@ -5,6 +5,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
 #include "app/report/inspect_report.h"
+#include "base/timings.h"
 #include "segment/import/import_scan.h"
 
 namespace qchopper {
@@ -13,7 +14,11 @@ int run(const InspectArguments& arguments, Terminal& terminal) {
     terminal.unchanged = "Nothing was changed.";
     InspectOptions options;
     options.deep = arguments.deep;
-    const Inspection inspection = inspect(read_mesh(arguments.scan, {.weld = true}), options, terminal.context());
+    const Context context = terminal.context();
+    StageTimer stage(context, "scan read");
+    RawMesh scan = read_mesh(arguments.scan, {.weld = true});
+    stage.next("scan inspected");
+    const Inspection inspection = inspect(std::move(scan), options, context);
     std::optional<double> given;
     if (arguments.units) given = mm_per(unit_named(*arguments.units));
     const std::optional<double> mm = agreed_mm_per_unit(inspection.mm_per_unit, given, name_of_scan(arguments.scan));

@@ -77,6 +77,8 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
 void add_common(CLI::App* command, Arguments& arguments, const std::function<void()>& on_parsed) {
     command->add_flag("--json", arguments.json, "exactly one JSON document on stdout");
     command->add_flag("-q,--quiet", arguments.quiet, "no progress, only warnings and errors on stderr");
+    command->add_flag("--timings", arguments.timings,
+                      "print where the time went and the peak memory, on stderr; with --json in the document too");
     command->callback(on_parsed);
 }
 

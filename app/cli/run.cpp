@@ -62,6 +62,7 @@ int run_program(int argc, const char* const* argv) {
         const std::optional<Arguments> arguments = parse_arguments(argc, argv);
         if (!arguments) return exit_done;  // help or version was asked for
         if (arguments->quiet) terminal.set_quiet();
+        if (arguments->timings) terminal.set_timings();
         return std::visit([&](const auto& command) { return run(command, terminal); }, arguments->command);
     } catch (const InputError& e) {
         const FaultRow& row = fault_rows[static_cast<std::size_t>(e.fault)];

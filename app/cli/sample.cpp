@@ -5,6 +5,7 @@
 #include "app/project/mesh_output.h"
 #include "app/project/project_folder.h"
 #include "app/report/notices.h"
+#include "base/timings.h"
 
 namespace qchopper {
 
@@ -16,7 +17,10 @@ int run(const SampleArguments& arguments, Terminal& terminal) {
     options.holes = arguments.holes;
     options.pen_grooves = arguments.pen_grooves;
     WrittenSample made{arguments.specimen, arguments.out.string(), arguments.holes, {}, {}};
-    made.mesh = sample(*specimen_named(arguments.specimen), options, terminal.context(), &made.pen_grooves);
+    const Context context = terminal.context();
+    StageTimer stage(context, "specimen made");
+    made.mesh = sample(*specimen_named(arguments.specimen), options, context, &made.pen_grooves);
+    stage.next("mesh written");
     write_mesh(arguments.out, made.mesh);
     terminal.show(lines(made), document(made));
     return exit_done;

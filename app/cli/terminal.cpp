@@ -8,11 +8,13 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
 
 #include "app/cli/exit_code.h"
+#include "app/report/timings_report.h"
 #include "base/text.h"
 
 namespace qchopper {
@@ -41,6 +43,14 @@ bool is_plain_terminal() {
 
 }  // namespace
 
+std::string time_left(std::size_t done, std::size_t total, double elapsed_s) {
+    constexpr double most_s = 99 * 3600;
+    if (elapsed_s < 1 || done == 0 || done >= total) return {};
+    const double left_s = elapsed_s * static_cast<double>(total - done) / static_cast<double>(done);
+    if (left_s > most_s) return {};
+    return ", about " + duration(static_cast<std::uint32_t>(std::ceil(left_s))) + " left";
+}
+
 void catch_signals() {
     struct sigaction action {};
     action.sa_handler = on_signal;
@@ -54,6 +64,10 @@ Terminal::Terminal(bool json) : json_(json), shows_progress_(is_plain_terminal()
 void Terminal::set_quiet() {
     quiet_ = true;
     shows_progress_ = false;
+}
+
+void Terminal::set_timings() {
+    timings_.emplace();
 }
 
 bool Terminal::is_cancelled() {
@@ -87,9 +101,16 @@ void Terminal::error(const std::string& line) {
 }
 
 void Terminal::show(const std::vector<std::string>& lines, const std::string& document) {
-    if (json_) return json(document);
+    std::optional<RunTimes> times;
+    if (timings_) times = timings_->so_far();
     clear_line();
-    for (const std::string& line : lines) std::cout << line << std::endl;
+    if (json_) {
+        json(times ? with_timings(document, *times) : document);
+    } else {
+        for (const std::string& line : lines) std::cout << line << std::endl;
+    }
+    if (!times) return;
+    for (const std::string& line : table(*times)) error(line);
 }
 
 void Terminal::json(const std::string& document) {
@@ -99,18 +120,22 @@ void Terminal::json(const std::string& document) {
 void Terminal::progress(const Progress& progress) {
     if (!shows_progress_) return;
     const auto now = Clock::now();
-    if (what_ != progress.what) {
+    if (what_ != progress.what || progress.done < done_) {  // other work, or the same once more
         what_ = progress.what;
         started_ = now;
+        done_at_start_ = progress.done;
         drawn_ = {};
     }
+    done_ = progress.done;
     const bool is_last = progress.total > 0 && progress.done >= progress.total;
     if (!is_last && now - drawn_ < std::chrono::milliseconds(100)) return;
     drawn_ = now;
     std::string line = with_commas(progress.done);
     if (progress.total > 0) line += " of " + with_commas(progress.total);
-    line += " " + progress.what + "  " +
-            std::to_string(std::chrono::duration_cast<std::chrono::seconds>(now - started_).count()) + " s";
+    const std::size_t total_left = progress.total > done_at_start_ ? progress.total - done_at_start_ : 0;
+    const double elapsed_s = std::chrono::duration<double>(now - started_).count();
+    line += " " + progress.what + "  " + fixed(std::floor(elapsed_s), 0) + " s" +
+            time_left(progress.done - done_at_start_, total_left, elapsed_s);
     winsize size{};
     const std::size_t width = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 10 ? size.ws_col - 1U : 79;
     clear_line();
@@ -122,6 +147,7 @@ void Terminal::progress(const Progress& progress) {
 ProjectContext Terminal::context() {
     ProjectContext context;
     context.cancelled = &cancelled;
+    context.timings = timings_ ? &*timings_ : nullptr;
     context.on_progress = [this](const Progress& p) { progress(p); };
     context.on_message = [this](const std::string& line) { message(line); };
     context.on_warning = [this](const std::string& line) { warn(line); };

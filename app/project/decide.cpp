@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "base/timings.h"
 #include "segment/cut/cut.h"
 #include "segment/cut/nudge.h"
 
@@ -95,6 +96,7 @@ class RequestHandler {
     Proposal propose() {
         const std::size_t p = piece();
         const Piece& target = project_.segmentation().pieces[p];
+        const StageTimer stage(context_, "planes ranked");
         Proposal proposal{
             target.name, target.mesh->triangles.size(), rules_hold_, project_.ranking(p, context_), request_.top, {}};
         if (proposal.ranked.empty()) refuse("No plane parts piece " + target.name + ".");

@@ -7,6 +7,7 @@
 
 #include "app/project/replay.h"
 #include "base/error.h"
+#include "base/timings.h"
 #include "segment/score/evaluate.h"
 
 namespace qchopper {
@@ -69,7 +70,10 @@ const Cut& cut_to_explain(const Project& project, std::optional<int> number) {
 
 Explanation explain(OpenProject& project, const Cut& cut, const Context& context) {
     const SearchSettings settings = settings_at(project.project(), cut);
-    const Before b = before(project.project(), cut, project.scan());
+    const TriangleMesh& scan = project.scan();
+    StageTimer stage(context, "cuts replayed");
+    const Before b = before(project.project(), cut, scan);
+    stage.next("planes ranked");
     EvaluationCache& cache = project.cache();
     Explanation e;
     e.cut = cut;

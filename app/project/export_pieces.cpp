@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/staged_folder.h"
+#include "base/timings.h"
 #include "segment/io/read_mesh.h"
 #include "segment/picture/picture.h"
 
@@ -91,8 +92,11 @@ ExportPiece exported(const Piece& piece, std::size_t place, const Project& proje
 }
 
 // In setup pose unless `setups` is nullptr.
-std::vector<ExportedPiece> rows_of(OpenProject& open, const ExportRequest& request, Setups* setups) {
+std::vector<ExportedPiece> rows_of(OpenProject& open, const ExportRequest& request, Setups* setups,
+                                   const Context& context) {
+    StageTimer stage(context, "pieces read");
     const std::vector<Piece> pieces = pieces_of(open, setups != nullptr);
+    if (setups != nullptr) stage.next("setups chosen");
     std::vector<ExportedPiece> rows;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         if (request.piece && pieces[i].name != *request.piece) continue;
@@ -113,6 +117,7 @@ std::vector<ExportedPiece> rows_of(OpenProject& open, const ExportRequest& reque
 
 // Pieces on several threads; progress is the sum over all of them, reported from one thread at a time.
 void simplify_all(std::vector<ExportedPiece>& rows, const ExportRequest& request, const Context& context) {
+    const StageTimer stage(context, "pieces simplified");
     SimplifyOptions options;
     options.tolerance = request.simplify_mm;
     options.most_faces = request.max_faces;
@@ -156,6 +161,7 @@ void write_folder(std::vector<ExportedPiece>& rows, ExportFormat format, const s
 
 void write_all(ExportedProject& exported, const ExportRequest& request, const ExportNotes& notes,
                const Context& context) {
+    const StageTimer stage(context, "pieces written");
     const ExportFormat format = export_format_named(request.format);
     if (!is_one_file(request)) return write_folder(exported.pieces, format, request.format, exported.out, context);
     for (ExportedPiece& row : exported.pieces) row.file = exported.out;
@@ -185,7 +191,7 @@ ExportedProject export_pieces(OpenProject& project, const ExportRequest& request
             InputFault::use, project.folder().string() + " has no cell, so its pieces have no setup pose",
             "name one by: qchopper segment " + shell_word(project.folder()) + " --cell FILE; or leave --pose out");
     }
-    exported.pieces = rows_of(project, request, in_setup ? project.setups() : nullptr);
+    exported.pieces = rows_of(project, request, in_setup ? project.setups() : nullptr, context);
     if (exported.is_simplified) simplify_all(exported.pieces, request, context);
     const ScanSource& scan = project.project().scan;
     const ExportNotes notes{project.folder().stem().string(), program_version, scan.sha256, scan.centre};

@@ -7,6 +7,7 @@
 #include "app/project/shell_word.h"
 #include "base/error.h"
 #include "base/text.h"
+#include "base/timings.h"
 #include "cam/job/job_file.h"
 
 namespace qchopper {
@@ -33,7 +34,9 @@ std::optional<PieceJob> job_of(const JobOrder& order) {
 
 }  // namespace
 
-ProjectJobs jobs_of(const std::filesystem::path& folder, const std::optional<std::string>& piece) {
+ProjectJobs jobs_of(const std::filesystem::path& folder, const std::optional<std::string>& piece,
+                    const Context& context) {
+    const StageTimer stage(context, "jobs read");
     const Project project = load_project(folder);
     if (project.stage != Stage::done) {
         throw InputError(InputFault::use, folder.string() + " is not finished",
@@ -61,6 +64,7 @@ ProjectJobs jobs_of(const std::filesystem::path& folder, const std::optional<std
 
 std::vector<HandedOver> hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options,
                                   const ProjectContext& context) {
+    const StageTimer stage(context, "jobs handed over");
     std::vector<HandedOver> handed;
     for (const PieceJob& job : jobs) {
         context.message("piece " + job.piece + ": " + job.ticket.file_name + ", " + with_commas(job.ticket.file_size) +

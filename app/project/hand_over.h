@@ -30,7 +30,8 @@ struct ProjectJobs {
 // The jobs that the project ordered for its cell, in the order of its pieces; only that of one piece if it is named.
 // Throws what load_project and read_cell throw, and InputError: (use) an unfinished project, no such piece; (missing)
 // no job; (mesh) a job file that is broken or not the one that was ordered (ordered_job.h).
-ProjectJobs jobs_of(const std::filesystem::path& project, const std::optional<std::string>& piece);
+ProjectJobs jobs_of(const std::filesystem::path& project, const std::optional<std::string>& piece,
+                    const Context& context);
 
 struct HandedOver {
     std::string piece;

@@ -3,6 +3,7 @@
 
 #include "app/project/make_project.h"
 
+#include "base/timings.h"
 #include "cam/cell/cell.h"
 
 namespace qchopper {
@@ -33,15 +34,17 @@ LockedProject::LockedProject(const std::filesystem::path& folder, const std::opt
     context.saved("The project knows its cell now; its decisions are unchanged.");
 }
 
-LockedProject::LockedProject(ProjectDraft made)
-    : lock(made.folder), project(made.folder, std::move(made.project), [scan = std::move(made.scan)]() mutable {
-          return std::move(scan);
-      }) {}
+LockedProject::LockedProject(ProjectDraft made, const Context& context)
+    : lock(made.folder),
+      project(
+          made.folder, std::move(made.project), [scan = std::move(made.scan)]() mutable { return std::move(scan); },
+          context.timings) {}
 
 LockedProject make_project(ProjectDraft draft, const ProjectContext& context) {
+    const StageTimer stage(context, "project saved");
     create_project(draft.folder, draft.project, draft.cell_file);
     context.saved("The project " + draft.folder.string() + " is made, with no cut.");
-    return LockedProject(std::move(draft));
+    return LockedProject(std::move(draft), context);
 }
 
 }  // namespace qchopper

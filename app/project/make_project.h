@@ -35,7 +35,7 @@ struct LockedProject {
     LockedProject(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& cell_file,
                   const ProjectContext& context);
     // Opens what make_project has written.
-    explicit LockedProject(ProjectDraft made);
+    LockedProject(ProjectDraft made, const Context& context);
 
     ProjectLock lock;
     OpenProject project;

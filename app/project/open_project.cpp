@@ -11,6 +11,7 @@
 #include "app/project/replay.h"
 #include "app/project/shell_word.h"
 #include "base/error.h"
+#include "base/timings.h"
 #include "segment/cut/nudge.h"
 
 namespace qchopper {
@@ -34,11 +35,14 @@ std::string early_end(const std::string& sentence) {
 }
 
 OpenProject::OpenProject(std::filesystem::path folder, Project project,
-                         std::function<TriangleMesh()> import_project_scan)
-    : folder_(std::move(folder)), project_(std::move(project)), import_scan_(std::move(import_project_scan)) {}
+                         std::function<TriangleMesh()> import_project_scan, Timings* timings)
+    : folder_(std::move(folder)),
+      project_(std::move(project)),
+      timings_(timings),
+      import_scan_(std::move(import_project_scan)) {}
 
 OpenProject::OpenProject(const std::filesystem::path& folder, const Context& context)
-    : OpenProject(folder, load_project(folder), {}) {
+    : OpenProject(folder, load_project(folder), {}, context.timings) {
     import_scan_ = [this, context] { return std::move(qchopper::import_project_scan(project_, context).mesh); };
 }
 
@@ -48,7 +52,10 @@ const TriangleMesh& OpenProject::scan() {
 }
 
 const Segmentation& OpenProject::segmentation() {
-    if (!segmentation_) segmentation_ = replay(project_, scan());
+    if (segmentation_) return *segmentation_;
+    const TriangleMesh& imported = scan();
+    const StageTimer stage(timings_, "cuts replayed");
+    segmentation_ = replay(project_, imported);
     return *segmentation_;
 }
 
@@ -77,7 +84,10 @@ void OpenProject::check_cell() {
 FitsCell OpenProject::fits_cell() {
     Setups* setups = this->setups();
     if (setups == nullptr) return {};
-    return [setups](const Piece& piece) { return setups->of(piece).envelope.fits(); };
+    return [setups, timings = timings_](const Piece& piece) {
+        const StageTimer stage(timings, "setups chosen");
+        return setups->of(piece).envelope.fits();
+    };
 }
 
 OpenProject::Next OpenProject::next(const FitsCell& fits_cell) {
@@ -95,12 +105,14 @@ OpenProject::Next OpenProject::next(const FitsCell& fits_cell) {
 }
 
 std::vector<Ranked> OpenProject::ranking(std::size_t piece, const Context& context) {
+    const StageTimer stage(context, "planes ranked");
     return rank(segmentation(), piece, project_.settings, cache(), context);
 }
 
 std::optional<Ranked> OpenProject::own_plane(std::size_t piece, const Plane& plane, const Context& context) {
     const std::optional<Candidate> candidate = nudged_off(segmentation().pieces[piece], plane);
     if (!candidate) return std::nullopt;
+    const StageTimer stage(context, "planes ranked");
     return rank_plane(segmentation(), piece, *candidate, project_.settings, cache(), context);
 }
 
@@ -112,6 +124,7 @@ bool OpenProject::misses(std::size_t piece, const Plane& plane) {
 
 bool OpenProject::decide_cut(Cut cut) {
     Segmentation after = segmentation();
+    const StageTimer stage(timings_, "cuts made");
     if (!apply(after, std::move(cut), project_.settings.objectives.fragment_volume_mm3)) return false;
     adopt(after);
     return true;
@@ -199,6 +212,7 @@ SearchEnd OpenProject::search(const FitsCell& fits_cell, const std::function<voi
                               const Context& context, std::optional<double> time_limit_s) {
     remove_outputs(folder_, project_);
     Segmentation working = segmentation();
+    const StageTimer stage(context, "search");
     BeamProgress progress = beam_progress(project_, working, [this]() -> const TriangleMesh& { return scan(); });
     const auto keep = [&](const Segmentation& best) {
         adopt(best, progress.saved());
@@ -210,7 +224,7 @@ SearchEnd OpenProject::search(const FitsCell& fits_cell, const std::function<voi
     end_ = end;
     if (end.is_out_of_time()) return end;
     record_end(end);
-    write_pieces(folder_, working, project_.fragments);
+    write_current_pieces();
     project_.stage = Stage::cut;
     save();
     return end;
@@ -226,11 +240,12 @@ PreparedProject OpenProject::prepare(const std::string& program_version, const C
     check_cell();
     const bool is_out_of_time = end_ && end_->is_out_of_time();
     if (is_out_of_time) record_end(*end_);
-    if (!end_ || is_out_of_time) write_pieces(folder_, segmentation(), project_.fragments);
+    if (!end_ || is_out_of_time) write_current_pieces();
     PreparedProject prepared{folder_, {}, setups()->cell(), {}};
     prepared.pieces = write_jobs(folder_, project_, segmentation(), *setups(), program_version, context);
     write_pictures(folder_, segmentation().pieces, context);
     project_.stage = is_out_of_time ? Stage::cutting : Stage::done;
+    const StageTimer stage(context, "project saved");
     save_project(folder_, project_);
     prepared.project = project_;
     return prepared;
@@ -238,12 +253,19 @@ PreparedProject OpenProject::prepare(const std::string& program_version, const C
 
 void OpenProject::keep_pieces_written() {
     pieces_are_written_ = true;
-    write_pieces(folder_, segmentation(), project_.fragments);
+    write_current_pieces();
 }
 
 void OpenProject::save() {
+    const StageTimer stage(timings_, "project saved");
     save_project(folder_, project_);
-    if (pieces_are_written_) write_pieces(folder_, segmentation(), project_.fragments);
+    if (pieces_are_written_) write_current_pieces();
+}
+
+void OpenProject::write_current_pieces() {
+    const Segmentation& current = segmentation();
+    const StageTimer stage(timings_, "pieces written");
+    write_pieces(folder_, current, project_.fragments);
 }
 
 }  // namespace qchopper

@@ -35,8 +35,10 @@ std::string early_end(const std::string& sentence);
 class OpenProject {
  public:
     // `import_project_scan` returns the scan of project.scan; it is called once at most. Precondition of all functions
-    // that change something: the caller holds the lock of the folder (project_folder.h).
-    OpenProject(std::filesystem::path folder, Project project, std::function<TriangleMesh()> import_project_scan);
+    // that change something: the caller holds the lock of the folder (project_folder.h). `timings` outlives this
+    // object.
+    OpenProject(std::filesystem::path folder, Project project, std::function<TriangleMesh()> import_project_scan,
+                Timings* timings = nullptr);
 
     // The project of a folder, whose scan is imported with the context when it is needed; every function that needs it
     // then throws what import_project_scan throws. Throws what load_project throws.
@@ -110,9 +112,11 @@ class OpenProject {
     std::optional<Decision> change_committed(const Decision* changed, std::size_t committed);
     void commit_first(std::size_t committed);
     void save();
+    void write_current_pieces();
 
     std::filesystem::path folder_;
     Project project_;
+    Timings* timings_;
     std::function<TriangleMesh()> import_scan_;
     std::optional<TriangleMesh> scan_;
     std::optional<Segmentation> segmentation_;

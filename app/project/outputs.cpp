@@ -8,6 +8,7 @@
 #include "app/project/ordered_job.h"
 #include "app/project/project_folder.h"
 #include "base/file.h"
+#include "base/timings.h"
 #include "cam/job/job_file.h"
 #include "segment/io/write_ply.h"
 #include "segment/mesh/measure.h"
@@ -64,6 +65,7 @@ void write_pieces(const fs::path& folder, const Segmentation& segmentation, Frag
 
 std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, const Segmentation& segmentation,
                                     Setups& setups, const std::string& program_version, const Context& context) {
+    StageTimer stage(context, "jobs written");
     project.jobs.clear();
     JobInput input;
     input.piece_no = 0;
@@ -78,7 +80,9 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
         context.check_cancelled();
         context.progress("jobs written", input.piece_no, segmentation.pieces.size());
         ++input.piece_no;
+        stage.next("setups chosen");
         const Carving& carving = setups.of(piece);
+        stage.next("jobs written");
         PieceReport report{piece.name, piece.mesh->triangles.size(), volume_mm3(*piece.mesh), carving, {}};
         report.carving.mesh.reset();
         const fs::path file = folder / "jobs" / job_file_name(piece.name);
@@ -99,6 +103,7 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
 }
 
 void write_pictures(const fs::path& folder, const std::vector<Piece>& pieces, const Context& context) {
+    const StageTimer stage(context, "pictures drawn");
     const std::vector<Vec3> shifts = exploded_shifts(pieces);
     Scene scene(coloured(pieces));
     write_file(folder / "pictures" / "segmentation.png", render_png(scene, {}, context));

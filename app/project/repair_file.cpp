@@ -6,6 +6,7 @@
 
 #include "app/project/mesh_output.h"
 #include "app/project/project_folder.h"
+#include "base/timings.h"
 
 namespace qchopper {
 namespace {
@@ -22,6 +23,7 @@ RepairedScan repair_file(const RepairRequest& request, const Context& context) {
     check_mesh_name(request.out);
     check_output(request.out);
     RepairedScan scan = repair_scan(request.scan, request.options, context);
+    const StageTimer stage(context, "mesh written");
     enlarge(scan, request.options.scale);
     if (request.out.extension() == ".stl" && !is_single_precision(scan.mesh)) {
         scan.warnings.emplace_back("STL holds single precision: points are rounded; a .ply file keeps every bit.");

@@ -6,6 +6,7 @@
 #include "app/project/replay.h"
 #include "app/project/replay_plan.h"
 #include "base/text.h"
+#include "base/timings.h"
 
 namespace qchopper {
 namespace {
@@ -20,6 +21,11 @@ SegmentAnswer misfit_answer(const std::string& why, ProjectDraft draft) {
     return answer;
 }
 
+void record_uncut(ProjectDraft& draft, const Context& context) {
+    const StageTimer stage(context, "solids found");
+    record(draft.project, uncut(draft.scan, draft.project.settings.objectives.fragment_volume_mm3));
+}
+
 // Adds the state of the project to an answer.
 SegmentAnswer with_state(SegmentAnswer answer, const OpenProject& open) {
     answer.folder = open.folder();
@@ -31,6 +37,7 @@ SegmentAnswer with_state(SegmentAnswer answer, const OpenProject& open) {
 // Makes the cuts of a plan on a project that has none, until one does not apply.
 SegmentAnswer make_cuts_of(const Plan& plan, OpenProject& open, const ProjectContext& context) {
     Segmentation segmentation = open.segmentation();
+    const StageTimer stage(context, "plan replayed");
     std::size_t discarded = 0;
     const auto keep = [&](const Segmentation& s) {
         open.adopt(s);
@@ -67,7 +74,7 @@ SegmentAnswer segment_scan(const ProjectChoices& choices, ProjectRequest request
         const std::string why = misfit(*plan, draft.project.scan, draft.scan);
         if (!why.empty()) return misfit_answer(why, std::move(draft));
     }
-    record(draft.project, uncut(draft.scan, draft.project.settings.objectives.fragment_volume_mm3));
+    record_uncut(draft, context);
     LockedProject open = make_project(std::move(draft), context);
     request.weights.reset();  // the project is made with them
     if (!plan) return with_state(decide(open.project, request, context), open.project);

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "base/timings.h"
 #include "segment/import/inspect.h"
 #include "segment/mesh/measure.h"
 
@@ -112,6 +113,7 @@ RepairedScan repair_scan(const std::filesystem::path& path, const ImportOptions&
     const std::string name = name_of_scan(path);
     RepairedScan result;
     context.check_cancelled();
+    StageTimer stage(context, "scan read");
     const Bytes bytes = read_scan(path);
     RawMesh scan = parse_mesh(bytes, name, folder_of(path));
     result.format = scan.format;
@@ -125,6 +127,7 @@ RepairedScan repair_scan(const std::filesystem::path& path, const ImportOptions&
     const double unit = result.mm_per_unit.value_or(1);
     result.scanned = box_of(scan.mesh);
     check_range(result.scanned, unit * options.scale, name);
+    stage.next("scan repaired");
     RepairOptions repairs = options.repair;
     repairs.mm_per_unit = unit;
     Repaired repaired = repair(std::move(scan.mesh), repairs, context);
@@ -144,6 +147,7 @@ void enlarge(RepairedScan& scan, double scale) {
 
 ImportedScan import_scan(const std::filesystem::path& path, const ImportOptions& options, const Context& context) {
     RepairedScan scan = repair_scan(path, options, context);
+    const StageTimer stage(context, "scan centred");
     check_solid(scan, path.string(), false);
     ImportedScan imported;
     imported.mm_per_unit = scan.mm_per_unit.value_or(1);

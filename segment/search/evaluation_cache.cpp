@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/parallel.h"
+#include "base/timings.h"
 #include "segment/score/evaluate.h"
 
 namespace qchopper {
@@ -73,6 +74,7 @@ bool EvaluationCache::is_known(const Piece& piece, Entry& e) {
 }
 
 void EvaluationCache::evaluate(std::span<const Piece* const> pieces, const Context& context) {
+    const StageTimer stage(context, "planes evaluated");
     struct Task {
         const Piece* piece;
         Entry* entry;

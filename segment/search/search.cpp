@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "base/timings.h"
 #include "segment/search/beam.h"
 
 namespace qchopper {
@@ -52,7 +53,7 @@ class Search {
             if (is_late && has_decided && is_any_live()) return end(segmentation, time_limit_s);
             rank_children();
             if (!is_any_live()) return end(segmentation, std::nullopt);
-            beam_ = next_round(std::move(beam_), settings_, cache_);
+            make_cuts();
             ++rounds_;
             drop_unused_entries();
             store_progress();
@@ -80,6 +81,11 @@ class Search {
         for (const Bsp& b : beam_) state.branches.push_back(branch_for(state, b.segmentation.cuts, b.passed_over));
         if (stuck_) state.stuck = branch_for(state, stuck_->segmentation.cuts, stuck_->passed_over);
         progress_->state = std::move(state);
+    }
+
+    void make_cuts() {
+        const StageTimer stage(context_, "cuts made");
+        beam_ = next_round(std::move(beam_), settings_, cache_);
     }
 
     void find_next_pieces() {

@@ -76,6 +76,13 @@ TEST_F(SameBytes, ElsewhereAndOnOneCore) {
     EXPECT_FALSE(fs::is_empty(folder.path / "scan.qch" / "cache")) << "nothing is kept of what was evaluated";
 }
 
+TEST_F(SameBytes, WhenItsStagesAreTimed) {
+    Arguments timed = start();
+    timed.push_back("--timings");
+    EXPECT_EQ(program::run(timed, {folder.path}).code, 0);
+    expect_as_prepared();
+}
+
 TEST_F(SameBytes, FromAFinishedProjectOnceMore) {
     EXPECT_EQ(program::run(start(), {folder.path}).code, 0);
     go_on();
