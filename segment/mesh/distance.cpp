@@ -144,74 +144,140 @@ double mean_longest_side(const TriangleMesh& mesh) {
     return sum / static_cast<double>(mesh.triangles.size());
 }
 
-// The largest distance of the samples added, or `mm` if none is larger. Triangles that were nearest to the last samples
-// are kept: a sample closer than the largest distance to one of them cannot change it. If all corners of a face are,
-// none of its samples can, because the distance to one triangle is convex. So it is with nearly all faces, and what is
-// found does not depend on which triangles are kept.
+// A triangle, and its box grown by about the largest distance, in the coordinates of the tree.
+struct NearTriangle {
+    FloatBox box;
+    std::uint32_t triangle = 0;
+};
+
+// The largest distance of the samples of the faces added, or `mm` if none is larger. A sample closer than that to any
+// triangle cannot change it. If all corners of a face are that close to one triangle, none of its samples can, because
+// the distance to a triangle is convex. So it is with nearly all, and few are searched for in the tree. The triangles
+// that are tried are those around the face; what is found does not depend on them.
 class LargestDistance {
  public:
     // `rounding` in mm is more than the error of any distance.
     LargestDistance(const TriangleMesh& to, const TriangleTree& tree, double mm, double rounding)
-        : to_(to), tree_(tree), mm_(mm), rounding_(rounding) {
-        kept_.fill(corners_of(to, 0));
-    }
+        : to_(to), tree_(tree), mm_(mm), rounding_(rounding) {}
 
-    void add(Vec3 p) {
-        double least = infinite;
-        for (std::size_t i = 0; i < kept_.size(); ++i) {
-            const Vec3 away = closest_on_triangle(p, kept_[i]) - p;
-            const double squared = dot(away, away);
-            if (squared <= mm_ * mm_) return move_up(i);
-            least = std::min(least, squared);
+    // A grid of n steps along each side, and the middles of its upright cells.
+    void add_face(const TriangleCorners& p, int n) {
+        constexpr int steps_at_once = 7;
+        if (is_covered(p, last_)) return;
+        const Vec3 u = (1.0 / n) * (p[1] - p[0]);
+        const Vec3 v = (1.0 / n) * (p[2] - p[0]);
+        const int tiles = (n + steps_at_once - 1) / steps_at_once;
+        if (tiles == 1) {
+            list_near(p, p[0]);
+            if (!is_covered(p, near_)) add_tile(p[0], u, v, n, {0, 0, n + 1});
+            return;
         }
-        const TriangleTree::Nearest found = tree_.nearest(to_, p, std::sqrt(least) + rounding_);
-        mm_ = std::max(mm_, found.distance);
-        std::rotate(kept_.begin(), kept_.end() - 1, kept_.end());
-        kept_.front() = corners_of(to_, found.triangle);
-    }
-
-    // Whether no sample of the face can be farther than the largest distance; false if that is not known.
-    bool covers(const TriangleCorners& face) {
-        const double limit = mm_ - rounding_;
-        if (limit <= 0) return false;
-        const auto is_near = [&](Vec3 p, const TriangleCorners& triangle) {
-            const Vec3 away = closest_on_triangle(p, triangle) - p;
-            return dot(away, away) <= limit * limit;
-        };
-        for (std::size_t i = 0; i < kept_.size(); ++i) {
-            if (!std::all_of(face.begin(), face.end(), [&](Vec3 p) { return is_near(p, kept_[i]); })) continue;
-            move_up(i);
-            return true;
+        const int size = n / tiles + 1;
+        const double steps = size;
+        for (int i = 0; i <= n; i += size) {
+            for (int k = 0; i + k <= n; k += size) {
+                const Vec3 a = p[0] + static_cast<double>(i) * u + static_cast<double>(k) * v;
+                list_near({a, a + steps * u, a + steps * v}, a + steps * (u + v));
+                add_tile(p[0], u, v, n, {i, k, size});
+            }
         }
-        return false;
     }
 
     double mm() const { return mm_; }
 
  private:
-    void move_up(std::size_t i) {
-        if (i > 0) std::swap(kept_[i], kept_[i - 1]);
+    double squared_distance(Vec3 p, const NearTriangle& near) const {
+        const Vec3 away = closest_on_triangle(p, corners_of(to_, near.triangle)) - p;
+        return dot(away, away);
+    }
+
+    bool is_covered(const TriangleCorners& face, const std::vector<NearTriangle>& by) {
+        const double limit = mm_ - rounding_;
+        if (limit <= 0) return false;
+        std::array<FloatBox, 3> at;
+        for (std::size_t k = 0; k < 3; ++k) at[k] = tree_.box_of({face[k], face[k], face[k]});
+        for (std::size_t i = 0; i < by.size(); ++i) {
+            if (!do_meet(at[0], by[i].box) || !do_meet(at[1], by[i].box) || !do_meet(at[2], by[i].box)) continue;
+            const auto is_near = [&](Vec3 p) { return squared_distance(p, by[i]) <= limit * limit; };
+            if (!std::all_of(face.begin(), face.end(), is_near)) continue;
+            keep(by[i]);
+            return true;
+        }
+        return false;
+    }
+
+    // Among the last ones that covered a face.
+    void keep(NearTriangle triangle) {
+        constexpr std::size_t most = 4;
+        const auto same = std::find_if(last_.begin(), last_.end(),
+                                       [&](const NearTriangle& other) { return other.triangle == triangle.triangle; });
+        if (same != last_.end()) return std::iter_swap(same, last_.begin());
+        if (last_.size() == most) last_.pop_back();
+        last_.insert(last_.begin(), triangle);
+    }
+
+    // A part of the grid of a face: the fewer triangles are around, the faster.
+    struct Tile {
+        int i;
+        int k;
+        int size;
+    };
+
+    void add_tile(Vec3 origin, Vec3 u, Vec3 v, int n, const Tile& tile) {
+        for (int i = tile.i; i < std::min(tile.i + tile.size, n + 1); ++i) {
+            for (int k = tile.k; k < std::min(tile.k + tile.size, n + 1 - i); ++k) {
+                const Vec3 corner = origin + static_cast<double>(i) * u + static_cast<double>(k) * v;
+                add(corner);
+                if (i + k < n) add(corner + (1.0 / 3) * (u + v));
+            }
+        }
+    }
+
+    // Around four points.
+    void list_near(const TriangleCorners& face, Vec3 fourth) {
+        constexpr std::size_t most = 256;
+        near_.clear();
+        const auto by = static_cast<float>(0.5 * std::min(mm_, longest_side(face)));
+        FloatBox around = grown(tree_.box_of(face), by);
+        const FloatBox more = grown(tree_.box_of({fourth, fourth, fourth}), by);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            around.min[axis] = std::min(around.min[axis], more.min[axis]);
+            around.max[axis] = std::max(around.max[axis], more.max[axis]);
+        }
+        tree_.for_each_place_near(around, [&](std::size_t place) {
+            if (near_.size() == most) return;
+            near_.push_back({grown(tree_.of_triangle[place], by), tree_.order[place]});
+        });
+    }
+
+    static FloatBox grown(FloatBox box, float by) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            box.min[axis] -= by;
+            box.max[axis] += by;
+        }
+        return box;
+    }
+
+    void add(Vec3 p) {
+        const FloatBox at = tree_.box_of({p, p, p});
+        double least = infinite;
+        for (std::size_t i = 0; i < near_.size(); ++i) {
+            if (!do_meet(at, near_[i].box)) continue;
+            const double squared = squared_distance(p, near_[i]);
+            if (squared <= mm_ * mm_) return std::swap(near_[i], near_[i / 2]);
+            least = std::min(least, squared);
+        }
+        const TriangleTree::Nearest found = tree_.nearest(to_, p, std::sqrt(least) + rounding_);
+        mm_ = std::max(mm_, found.distance);
     }
 
     const TriangleMesh& to_;
     const TriangleTree& tree_;
-    std::array<TriangleCorners, 8> kept_{};
+    std::vector<NearTriangle> near_;  // around the face
+    std::vector<NearTriangle> last_;  // that covered the last faces
     double mm_ = 0;
     double rounding_ = 0;
 };
-
-// Adds a grid of n steps along each side, and the middles of its upright cells.
-void add_samples(LargestDistance& largest, const TriangleCorners& p, int n) {
-    const Vec3 u = (1.0 / n) * (p[1] - p[0]);
-    const Vec3 v = (1.0 / n) * (p[2] - p[0]);
-    for (int i = 0; i <= n; ++i) {
-        for (int k = 0; i + k <= n; ++k) {
-            const Vec3 corner = p[0] + static_cast<double>(i) * u + static_cast<double>(k) * v;
-            largest.add(corner);
-            if (i + k < n) largest.add(corner + (1.0 / 3) * (u + v));
-        }
-    }
-}
 
 }  // namespace
 
@@ -274,25 +340,28 @@ Deviation deviation(const TriangleMesh& scan, const TriangleMesh& result, const 
 double farthest_sample(const TriangleMesh& from, const TriangleMesh& to, const Context& context) {
     constexpr int most_steps = 200;
     constexpr std::size_t faces_at_once = 1024;
+    constexpr std::size_t first_faces = 64;
     const double spacing = mean_longest_side(to);
     const TriangleTree tree(to);
     const Box box = bounds(to);
     const double rounding = 1e-10 * (norm(box.min) + norm(box.max));
     std::atomic<double> farthest_mm{0};
-    const auto sample_faces = [&](std::size_t first, std::size_t end) {
+    const auto sample_faces = [&](std::size_t first, std::size_t end, std::size_t stride) {
         context.check_cancelled();
         LargestDistance largest(to, tree, farthest_mm.load(), rounding);
-        for (std::size_t t = first; t < end; ++t) {
+        for (std::size_t t = first; t < end; t += stride) {
             const TriangleCorners corners = corners_of(from, t);
-            if (largest.covers(corners)) continue;
             const double steps = std::ceil(longest_side(corners) / std::max(spacing, 1e-12));
-            add_samples(largest, corners, std::clamp(static_cast<int>(std::min(steps, 1e6)), 2, most_steps));
+            largest.add_face(corners, std::clamp(static_cast<int>(std::min(steps, 1e6)), 2, most_steps));
         }
         double before = farthest_mm.load();
         while (before < largest.mm() && !farthest_mm.compare_exchange_weak(before, largest.mm())) {
         }
     };
-    parallel_ranges(0, from.triangles.size(), faces_at_once, sample_faces);
+    // Some faces first: the larger the distance that is known, the less is searched for.
+    sample_faces(0, from.triangles.size(), from.triangles.size() / first_faces + 1);
+    parallel_ranges(0, from.triangles.size(), faces_at_once,
+                    [&](std::size_t first, std::size_t end) { sample_faces(first, end, 1); });
     return farthest_mm.load();
 }
 

@@ -50,9 +50,15 @@ struct TriangleTree {
     // Calls found(triangle) for every triangle whose box meets this one, which is in the coordinates of the tree.
     template <class Found>
     void for_each_near(const FloatBox& box, const Found& found) const {
+        for_each_place_near(box, [&](std::size_t place) { found(order[place]); });
+    }
+
+    // The same with the places of the triangles in `order`.
+    template <class Found>
+    void for_each_place_near(const FloatBox& box, const Found& found) const {
         descend([&](const FloatBox& node) { return do_meet(node, box); },
                 [&](std::size_t place) {
-                    if (do_meet(of_triangle[place], box)) found(order[place]);
+                    if (do_meet(of_triangle[place], box)) found(place);
                 });
     }
 

@@ -82,10 +82,18 @@ std::map<std::int32_t, std::multiset<std::vector<std::array<double, 3>>>> caps(c
     return all;
 }
 
-TriangleMesh some_bone() {
+// Made once for all tests: it takes seconds.
+const TriangleMesh& specimen(Specimen which, std::size_t faces) {
+    static std::map<std::pair<Specimen, std::size_t>, TriangleMesh> made;
+    const auto [it, is_new] = made.try_emplace({which, faces});
     SampleOptions options;
-    options.faces = 8000;
-    return sample(Specimen::vertebra, options);
+    options.faces = faces;
+    if (is_new) it->second = sample(which, options);
+    return it->second;
+}
+
+const TriangleMesh& some_bone() {
+    return specimen(Specimen::vertebra, 8000);
 }
 
 void expect_sound(const TriangleMesh& mesh, const TriangleMesh& before, const std::string& name) {
@@ -119,7 +127,7 @@ TEST(Simplify, FlatSidesOfABoxNeedFewFaces) {
 }
 
 TEST(Simplify, ABoneLosesMostOfItsFacesAndKeepsItsShape) {
-    const TriangleMesh bone = some_bone();
+    const TriangleMesh& bone = some_bone();
     TriangleMesh fewer = bone;
     const SimplifyReport report = simplify(fewer, within(5));
     EXPECT_LT(report.faces_after, bone.triangles.size() * 3 / 4);
@@ -130,7 +138,7 @@ TEST(Simplify, ABoneLosesMostOfItsFacesAndKeepsItsShape) {
 }
 
 TEST(Simplify, TheStatedDeviationIsThatOfABruteForce) {
-    const TriangleMesh bone = some_bone();
+    const TriangleMesh& bone = some_bone();
     TriangleMesh fewer = bone;
     const SimplifyReport report = simplify(fewer, at_most(1500));
     EXPECT_LE(fewer.triangles.size(), 1500U);
@@ -142,7 +150,7 @@ TEST(Simplify, TheStatedDeviationIsThatOfABruteForce) {
 }
 
 TEST(Simplify, PointsThatStayDoNotMove) {
-    const TriangleMesh bone = some_bone();
+    const TriangleMesh& bone = some_bone();
     TriangleMesh fewer = bone;
     simplify(fewer, at_most(2000));
     std::set<std::array<double, 3>> points;
@@ -151,7 +159,7 @@ TEST(Simplify, PointsThatStayDoNotMove) {
 }
 
 TEST(Simplify, MatingCapsStayTheSameWhateverTheOptions) {
-    const TriangleMesh bone = some_bone();
+    const TriangleMesh& bone = some_bone();
     const double middle = bounds(bone).centre().z + 0.123;
     const std::optional<CutHalves> halves = cut(bone, {{0, 0, 1}, middle}, 7);
     ASSERT_TRUE(halves);
@@ -199,7 +207,7 @@ TEST(Simplify, SameInputSameBytes) {
 }
 
 TEST(Simplify, ACountThatIsMetAlreadyChangesNothing) {
-    const TriangleMesh bone = some_bone();
+    const TriangleMesh& bone = some_bone();
     TriangleMesh same = bone;
     EXPECT_EQ(simplify(same, at_most(8000)).deviation(), 0);
     EXPECT_EQ(same, bone);
@@ -207,12 +215,9 @@ TEST(Simplify, ACountThatIsMetAlreadyChangesNothing) {
 
 std::vector<shapes::Named> shapes_and_samples() {
     std::vector<shapes::Named> all = shapes::all_closed();
-    SampleOptions options;
-    options.faces = 8000;
-    all.push_back({"vertebra", sample(Specimen::vertebra, options)});
-    all.push_back({"femur", sample(Specimen::femur, options)});
-    options.faces = 60000;
-    all.push_back({"skull", sample(Specimen::skull, options)});
+    all.push_back({"vertebra", some_bone()});
+    all.push_back({"femur", specimen(Specimen::femur, 60000)});
+    all.push_back({"skull", specimen(Specimen::skull, 60000)});
     return all;
 }
 
@@ -263,7 +268,7 @@ TEST(Simplify, TheNumberOfFacesIsReachedInPasses) {
 }
 
 TEST(Simplify, LockedPointsAndTheirFacesStay) {
-    const TriangleMesh bone = some_bone();
+    const TriangleMesh& bone = some_bone();
     std::vector<std::uint8_t> is_locked(bone.points.size(), 0);
     std::set<std::array<double, 3>> locked;
     for (std::size_t i = 0; i < bone.points.size(); ++i) {
@@ -311,10 +316,8 @@ TEST(Simplify, NoFaceTurnsOver60DegreesOrBecomesANeedle) {
 }
 
 TEST(Simplify, InPassesItDeviatesHardlyMoreThanByTheQueue) {
-    SampleOptions options;
-    options.faces = 60000;
-    for (const Specimen specimen : {Specimen::skull, Specimen::femur, Specimen::vertebra}) {
-        const TriangleMesh bone = sample(specimen, options);
+    for (const Specimen which : {Specimen::skull, Specimen::femur, Specimen::vertebra}) {
+        const TriangleMesh& bone = specimen(which, 60000);
         TriangleMesh in_passes = bone;
         const SimplifyReport report = simplify(in_passes, at_most(6000));
         EXPECT_FALSE(report.is_by_queue);
@@ -324,12 +327,12 @@ TEST(Simplify, InPassesItDeviatesHardlyMoreThanByTheQueue) {
         ASSERT_TRUE(collapse_edges(by_queue, {}, limits));
         EXPECT_EQ(in_passes.triangles.size(), by_queue.triangles.size());
         const double of_queue = std::max(farthest_sample(bone, by_queue), farthest_sample(by_queue, bone));
-        EXPECT_LE(report.deviation(), 1.3 * of_queue) << static_cast<int>(specimen);
+        EXPECT_LE(report.deviation(), 1.3 * of_queue) << static_cast<int>(which);
     }
 }
 
 TEST(Simplify, AnyNumberOfThreadsGivesTheSameBytes) {
-    const TriangleMesh bone = some_bone();
+    const TriangleMesh& bone = some_bone();
     TriangleMesh by_all = bone;
     const SimplifyReport all = simplify(by_all, at_most(1000));
     for (const std::size_t threads : {1, 2}) {
@@ -382,7 +385,7 @@ TEST(Simplify, TheDeviationIsThatOfAllSamples) {
 }
 
 TEST(Simplify, CancelledInAPassItLeavesTheMeshUnchanged) {
-    const TriangleMesh bone = some_bone();
+    const TriangleMesh& bone = some_bone();
     TriangleMesh mesh = bone;
     std::atomic<bool> stop{false};
     std::size_t reports = 0;
@@ -411,7 +414,7 @@ TEST(Simplify, OptionsThatMakeNoSenseAndOpenMeshesAreRefused) {
 }
 
 TEST(Simplify, CancelledItLeavesTheMeshUnchanged) {
-    const TriangleMesh bone = some_bone();
+    const TriangleMesh& bone = some_bone();
     TriangleMesh mesh = bone;
     const std::atomic<bool> stop{true};
     Context context;
