@@ -42,7 +42,8 @@ class Scene {
     Region region_of(std::uint32_t triangle) const;
     // The surface at a point of a triangle, seen along the unit vector `forward`.
     SurfacePoint surface(std::uint32_t triangle, Vec3 at, Vec3 forward) const;
-    // Distances along unit directions from just above the surface to the next one; `far` where none is nearer. Sizes are equal, at most RayScene::most_rays.
+    // Distances along unit directions from just above the surface to the next one; `far` where none is nearer. Sizes
+    // are equal, at most RayScene::most_rays.
     void distances(const SurfacePoint& point, std::span<const Vec3> directions, double far,
                    std::span<float> result) const;
     double diagonal() const { return diagonal_; }  // of the box of all meshes at their places
