@@ -162,7 +162,7 @@ class LargestDistance {
 
     // A grid of n steps along each side, and the middles of its upright cells.
     void add_face(const TriangleCorners& p, int n) {
-        constexpr int steps_at_once = 7;
+        constexpr int steps_at_once = 5;
         if (is_covered(p, last_)) return;
         const Vec3 u = (1.0 / n) * (p[1] - p[0]);
         const Vec3 v = (1.0 / n) * (p[2] - p[0]);
@@ -208,7 +208,7 @@ class LargestDistance {
 
     // Among the last ones that covered a face.
     void keep(NearTriangle triangle) {
-        constexpr std::size_t most = 4;
+        constexpr std::size_t most = 8;
         const auto same = std::find_if(last_.begin(), last_.end(),
                                        [&](const NearTriangle& other) { return other.triangle == triangle.triangle; });
         if (same != last_.end()) return std::iter_swap(same, last_.begin());
@@ -264,7 +264,7 @@ class LargestDistance {
         for (std::size_t i = 0; i < near_.size(); ++i) {
             if (!do_meet(at, near_[i].box)) continue;
             const double squared = squared_distance(p, near_[i]);
-            if (squared <= mm_ * mm_) return std::swap(near_[i], near_[i / 2]);
+            if (squared <= mm_ * mm_) return std::swap(near_[i], near_[0]);
             least = std::min(least, squared);
         }
         const TriangleTree::Nearest found = tree_.nearest(to_, p, std::sqrt(least) + rounding_);
