@@ -129,7 +129,7 @@ struct LabelPlace {
 
 std::vector<LabelPlace> label_places(const std::vector<Region>& regions, const Film& film, std::size_t meshes,
                                      int supersampling) {
-    const auto step = static_cast<std::size_t>(2 * supersampling);
+    const std::size_t step = 2 * static_cast<std::size_t>(supersampling);
     const std::size_t columns = film.width / step;
     const std::size_t rows = film.height / step;
     std::vector<int> depth(columns * rows, 0);

@@ -27,6 +27,7 @@ std::vector<ColouredMesh> without_nulls(std::span<const ColouredMesh> meshes) {
 
 std::vector<const TriangleMesh*> meshes_of(const std::vector<ColouredMesh>& all) {
     std::vector<const TriangleMesh*> meshes;
+    meshes.reserve(all.size());
     for (const ColouredMesh& one : all) meshes.push_back(one.mesh);
     return meshes;
 }

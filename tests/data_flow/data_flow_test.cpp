@@ -13,9 +13,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // Real meshes do not come with the project.
-#define NEEDS_SCAN(name)                                    \
-    const fs::path scan = fs::path(QCHOPPER_MESHES) / name; \
-    if (!fs::exists(scan)) GTEST_SKIP() << "skipped: " << name << " is not here"
+#define NEEDS_SCAN(name)                                      \
+    const fs::path scan = fs::path(QCHOPPER_MESHES) / (name); \
+    if (!fs::exists(scan)) GTEST_SKIP() << "skipped: " << (name) << " is not here"
 
 ImportedScan import_as(const fs::path& path, Unit unit) {
     ImportOptions options;

@@ -165,7 +165,7 @@ bool writes(const HandOffAction& action, CellCommand command) {
 
 // Loses the link once, at the first START, after `meanwhile`.
 void lose_first_start(ScriptedCell& cell, const std::function<void(const Command&)>& meanwhile) {
-    cell.lose = [&cell, meanwhile, is_done = false](const HandOffAction& action) mutable {
+    cell.lose = [meanwhile, is_done = false](const HandOffAction& action) mutable {
         if (is_done || !writes(action, CellCommand::start)) return false;
         is_done = true;
         meanwhile(action.command);

@@ -189,14 +189,12 @@ TEST(Cut, InputThatIntersectsItselfStillGivesClosedPieces) {
     const Piece piece =
         piece_of(shapes::joined({shapes::ball({0, 0, 0}, 10, 12), shapes::ball({7, 1, 0}, 9, 11),
                                  shapes::torus({2, 2, 2}, 8, 3, 14), shapes::box({-3, -3, -3}, {9, 4, 4}, 2)}));
-    std::size_t forced = 0;
     for (int round = 0; round < 300; ++round) {
         const Vec3 normal = random_normal(random);
         const auto nudged = nudge(piece, normal, std::array{place(random)});
         if (!nudged[0]) continue;
         const auto halves = cut(*piece.mesh, {normal, nudged[0]->offset}, 1);
         ASSERT_TRUE(halves);
-        forced += halves->forced_regions;
         ASSERT_TRUE(edges(halves->above.mesh).faults.is_closed()) << round;
         ASSERT_TRUE(edges(halves->below.mesh).faults.is_closed()) << round;
         ASSERT_NEAR((volume_mm3(halves->above.mesh) + volume_mm3(halves->below.mesh)) / volume_mm3(*piece.mesh), 1,

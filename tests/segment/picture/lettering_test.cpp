@@ -10,6 +10,11 @@ Pixels grey(int width, int height) {
             std::vector<Rgb>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), {128, 128, 128})};
 }
 
+Rgb pixel(const Pixels& pixels, int x, int y) {
+    return pixels
+        .rows[static_cast<std::size_t>(y) * static_cast<std::size_t>(pixels.width) + static_cast<std::size_t>(x)];
+}
+
 struct Extent2 {
     int left = 1 << 20;
     int right = -1;
@@ -21,7 +26,7 @@ Extent2 dark(const Pixels& pixels) {
     Extent2 found;
     for (int y = 0; y < pixels.height; ++y) {
         for (int x = 0; x < pixels.width; ++x) {
-            if (pixels.rows[static_cast<std::size_t>(y * pixels.width + x)].r > 80) continue;
+            if (pixel(pixels, x, y).r > 80) continue;
             found = {std::min(found.left, x), std::max(found.right, x), std::min(found.top, y),
                      std::max(found.bottom, y)};
         }
@@ -34,10 +39,10 @@ TEST(Lettering, ACapitalIsAsHighAsAskedAndStandsUpright) {
     draw_text(pixels, 100, 50, "L", 40);
     const Extent2 found = dark(pixels);
     EXPECT_NEAR(found.bottom - found.top, 40, 7);
-    EXPECT_NEAR((found.left + found.right) / 2, 100, 6);
-    EXPECT_NEAR((found.top + found.bottom) / 2, 50, 4);
+    EXPECT_NEAR(0.5 * (found.left + found.right), 100, 6);
+    EXPECT_NEAR(0.5 * (found.top + found.bottom), 50, 4);
     // The foot of an L is at its bottom: its right end is dark there, and not at the top.
-    const auto is_dark = [&](int x, int y) { return pixels.rows[static_cast<std::size_t>(y * 200 + x)].r < 80; };
+    const auto is_dark = [&](int x, int y) { return pixel(pixels, x, y).r < 80; };
     EXPECT_TRUE(is_dark(found.right - 3, found.bottom - 2));
     EXPECT_FALSE(is_dark(found.right - 3, found.top + 2));
 }

@@ -191,7 +191,9 @@ TEST(Repair, MeasuresTheDistanceInMillimetres) {
 // An open component coincides with what fills it flat: its distance is certain only after millions of points.
 TEST(Repair, OfWhatIsRefusedNoDistanceIsMeasured) {
     TriangleMesh open_component;
-    for (std::uint32_t i = 0; i < 15; ++i) open_component.points.push_back({double(i / 5), double(i % 5), 0});
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 5; ++column) open_component.points.push_back({double(row), double(column), 0});
+    }
     for (const std::uint32_t a : {0U, 1U, 2U, 3U, 5U, 6U, 7U, 8U}) {
         open_component.triangles.push_back({a, a + 5, a + 6});
         open_component.triangles.push_back({a, a + 6, a + 1});

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <random>
 
 #include "segment/cut/cut_piece.h"
@@ -112,7 +113,8 @@ TEST(Sweep, FortyShellsAndCavitiesInsideOneAnother) {
     std::mt19937 random(5);
     std::vector<TriangleMesh> parts{shapes::box({0, 0, 0}, {200, 200, 200}, 3)};
     for (int i = 0; i < 27; ++i) {
-        const Vec3 at{40.0 + 60 * (i % 3), 40.0 + 60 * (i / 3 % 3), 40.0 + 60 * (i / 9)};
+        const std::array<int, 3> place{i % 3, i / 3 % 3, i / 9};
+        const Vec3 at{40.0 + 60 * place[0], 40.0 + 60 * place[1], 40.0 + 60 * place[2]};
         parts.push_back(shapes::turned_inside_out(shapes::ball(at, 18 + i % 5, 7)));
         if (i % 2 == 0) parts.push_back(shapes::torus(at, 9, 3, 9));
     }

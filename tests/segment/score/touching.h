@@ -28,11 +28,16 @@ struct Grid {
     int n = 0;
     std::vector<char> full;
     std::map<std::pair<Cell, int>, bool> wall;  // between a cell and the next along an axis
+    std::size_t place(const Cell& c) const {
+        const auto side = static_cast<std::size_t>(n);
+        return (static_cast<std::size_t>(c[0]) * side + static_cast<std::size_t>(c[1])) * side +
+               static_cast<std::size_t>(c[2]);
+    }
     bool is_full(const Cell& c) const {
         for (const int x : c) {
             if (x < 0 || x >= n) return false;
         }
-        return full[static_cast<std::size_t>((c[0] * n + c[1]) * n + c[2])] != 0;
+        return full[place(c)] != 0;
     }
     bool is_walled(const Cell& c, int axis) const {
         const auto at = wall.find({c, axis});
@@ -50,7 +55,8 @@ inline Grid random_grid(std::mt19937& random, int n, double share_full, double s
     std::uniform_real_distribution<double> share(0, 1);
     Grid grid;
     grid.n = n;
-    grid.full.resize(static_cast<std::size_t>(n * n * n));
+    const auto side = static_cast<std::size_t>(n);
+    grid.full.resize(side * side * side);
     for (char& cell : grid.full) cell = share(random) < share_full ? 1 : 0;
     grid.full[0] = 1;
     for (int x = 0; x < n; ++x) {
