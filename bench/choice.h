@@ -1,11 +1,14 @@
-// The command line that bench_search and bench_import share.
+// What the programs that measure have in common: their command line, and their way from it to a table of figures.
 
 #pragma once
 
 #include <filesystem>
+#include <iostream>
 #include <set>
 #include <string>
 
+#include "base/error.h"
+#include "bench/figures.h"
 #include "bench/specimens.h"
 
 namespace qchopper::bench {
@@ -35,6 +38,26 @@ inline bool parse(int argc, char** argv, Choice& choice) {
             return false;
     }
     return true;
+}
+
+// Prints the figures that measure(choice, figures) records. Returns the exit code: 64 with the usage for an unknown
+// argument, 65 for an InputError.
+template <class Measure>
+int print_figures(int argc, char** argv, const char* usage, const Measure& measure) {
+    Choice choice;
+    if (!parse(argc, argv, choice)) {
+        std::cerr << usage;
+        return 64;
+    }
+    Figures figures;
+    try {
+        measure(choice, figures);
+    } catch (const InputError& error) {
+        std::cerr << error.what() << ". To do: " << error.to_do << std::endl;
+        return 65;
+    }
+    figures.print(std::cout);
+    return 0;
 }
 
 }  // namespace qchopper::bench

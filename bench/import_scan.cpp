@@ -2,10 +2,8 @@
 // run.
 
 #include <algorithm>
-#include <iostream>
 #include <string>
 
-#include "base/error.h"
 #include "base/file.h"
 #include "base/parallel.h"
 #include "base/temporary_folder.h"
@@ -182,18 +180,5 @@ void measure(const Choice& choice, Figures& figures) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    Choice choice;
-    if (!parse(argc, argv, choice)) {
-        std::cerr << usage;
-        return 64;
-    }
-    Figures figures;
-    try {
-        measure(choice, figures);
-    } catch (const InputError& error) {
-        std::cerr << "bench_import: " << error.what() << ". To do: " << error.to_do << std::endl;
-        return 1;
-    }
-    figures.print(std::cout);
-    return 0;
+    return print_figures(argc, argv, usage, measure);
 }

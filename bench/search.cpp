@@ -1,11 +1,9 @@
 // Measures the search: every figure is taken in this one run, and the ratios are between figures of this run.
 
 #include <algorithm>
-#include <iostream>
 #include <set>
 #include <string>
 
-#include "base/error.h"
 #include "bench/choice.h"
 #include "bench/measures.h"
 
@@ -61,18 +59,5 @@ void measure(const Choice& choice, Figures& figures) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    Choice choice;
-    if (!parse(argc, argv, choice)) {
-        std::cerr << usage;
-        return 64;
-    }
-    Figures figures;
-    try {
-        measure(choice, figures);
-    } catch (const InputError& e) {
-        std::cerr << e.what() << std::endl;
-        return 65;
-    }
-    figures.print(std::cout);
-    return 0;
+    return print_figures(argc, argv, usage, measure);
 }

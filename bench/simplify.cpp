@@ -3,10 +3,8 @@
 
 #include "segment/simplify/simplify.h"
 
-#include <iostream>
 #include <string>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "bench/choice.h"
 #include "bench/clock.h"
@@ -22,7 +20,7 @@ using namespace qchopper;
 using namespace qchopper::bench;
 
 constexpr const char* usage = R"(bench_simplify [--small] [--only GROUP]...
-  --small  20,000 and 100,000 faces instead, to check that it runs; the targets do not apply
+  --small  20,000 and 190,000 faces instead, to check that it runs; the targets do not apply
   --only   passes or queue; both if none is named. queue is the slower way, for its deviation
 )";
 
@@ -93,18 +91,5 @@ void measure(const Choice& choice, Figures& figures) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    Choice choice;
-    if (!parse(argc, argv, choice)) {
-        std::cerr << usage;
-        return 64;
-    }
-    Figures figures;
-    try {
-        measure(choice, figures);
-    } catch (const InputError& error) {
-        std::cerr << "bench_simplify: " << error.what() << ". To do: " << error.to_do << std::endl;
-        return 1;
-    }
-    figures.print(std::cout);
-    return 0;
+    return print_figures(argc, argv, usage, measure);
 }

@@ -22,7 +22,7 @@ double sky_light(const Scene& scene, const SurfacePoint& point, Vec3 up, int ray
 
 class AmbientLight {
  public:
-    // on_row(rows done, rows in all) is called from this thread now and then.
+    // on_rows(rows done, rows in all) is called from this thread now and then.
     AmbientLight(const Scene& scene, const Film& film, const Camera& camera, const PictureOptions& options,
                  const std::function<void(std::size_t, std::size_t)>& on_rows);
 

@@ -2,7 +2,7 @@
 //
 // Samples lie supersampling times finer than pixels, at the middles of their squares. Of several surfaces the nearest
 // to the camera is seen; of equally near ones the triangle with the least number, whatever the number of threads
-// (tests/segment/picture/film_test.cpp: the same triangles as by casting a ray through every sample).
+// (tests/segment/picture/film_test.cpp: the same depths as by casting a ray through every sample).
 
 #pragma once
 

@@ -31,7 +31,7 @@ struct FreeFont {
 
 using Font = std::unique_ptr<hershey_font, FreeFont>;
 
-// The library prints an error where the file is missing, so it is not asked then.
+// The library prints an error where the file is missing, so it is not called then.
 Font load_font() {
     std::error_code error;
     const bool is_there = std::filesystem::exists(QCHOPPER_HERSHEY_FONT, error);
