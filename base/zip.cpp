@@ -1,5 +1,5 @@
 // Wraps libzip. zip() reads each entry twice, for its size and for its content, and takes memory for one stretch and
-// twice the archive. unzip() packs the entries again, to compare them with the input, and takes three times the
+// the archive. unzip() packs the entries again, to compare them with the input, and takes three times the
 // archive. O(bytes).
 
 #include "base/zip.h"
@@ -65,6 +65,7 @@ struct Reading {
     NextStretch next = {};
     std::string stretch = {};
     std::size_t used = 0;  // of the stretch
+    bool is_at_end = false;
 
     void measure() {
         const NextStretch count = entry.open();
@@ -78,7 +79,8 @@ struct Reading {
                 stretch.clear();
                 used = 0;
                 next(stretch);
-                if (stretch.empty()) break;
+                is_at_end = stretch.empty();
+                if (is_at_end) break;
             }
             const std::size_t some = std::min<std::size_t>(capacity - filled, stretch.size() - used);
             std::memcpy(to + filled, stretch.data() + used, some);
@@ -90,6 +92,7 @@ struct Reading {
 
     void restart() {
         next = entry.open();
+        is_at_end = false;
         stretch.clear();
         used = 0;
     }
@@ -118,6 +121,8 @@ zip_int64_t serve(void* state, void* data, zip_uint64_t size, zip_source_cmd_t c
             case ZIP_SOURCE_READ:
                 return reading.read(static_cast<char*>(data), size);
             case ZIP_SOURCE_CLOSE:
+                if (reading.is_at_end && reading.entry.close) reading.entry.close();
+                return 0;
             case ZIP_SOURCE_FREE:
                 return 0;
             case ZIP_SOURCE_STAT:
@@ -153,15 +158,61 @@ void add(zip_t* archive, Reading& reading) {
     must(zip_file_set_external_attributes(archive, entry, 0, ZIP_OPSYS_UNIX, plain_file) == 0);
 }
 
-Bytes content(zip_source_t* source) {
-    must(zip_source_open(source) == 0);
-    must(zip_source_seek(source, 0, SEEK_END) == 0);
-    Bytes bytes(static_cast<std::size_t>(zip_source_tell(source)));
-    must(zip_source_seek(source, 0, SEEK_SET) == 0);
-    const zip_int64_t got = zip_source_read(source, bytes.data(), bytes.size());
-    zip_source_close(source);
-    must(got == static_cast<zip_int64_t>(bytes.size()));
-    return bytes;
+// What libzip writes an archive to. Exceptions must not cross the library.
+struct Writing {
+    Bytes bytes = {};
+    std::uint64_t at = 0;
+
+    zip_int64_t write(const char* from, zip_uint64_t size) {
+        if (bytes.size() < at + size) bytes.resize(at + size);
+        std::memcpy(bytes.data() + at, from, size);
+        at += size;
+        return static_cast<zip_int64_t>(size);
+    }
+
+    zip_int64_t seek(void* arguments, zip_uint64_t size) {
+        const zip_int64_t to = zip_source_seek_compute_offset(at, bytes.size(), arguments, size, nullptr);
+        if (to < 0) return -1;
+        at = static_cast<std::uint64_t>(to);
+        return 0;
+    }
+};
+
+// The callback of that source, as zip_source_function(3) defines it. It is never read: the archive is new.
+zip_int64_t take(void* state, void* data, zip_uint64_t size, zip_source_cmd_t command) {
+    auto& writing = *static_cast<Writing*>(state);
+    try {
+        switch (command) {
+            case ZIP_SOURCE_OPEN:
+            case ZIP_SOURCE_CLOSE:
+            case ZIP_SOURCE_BEGIN_WRITE:
+            case ZIP_SOURCE_COMMIT_WRITE:
+            case ZIP_SOURCE_ROLLBACK_WRITE:
+            case ZIP_SOURCE_FREE:
+                return 0;
+            case ZIP_SOURCE_WRITE:
+                return writing.write(static_cast<const char*>(data), size);
+            case ZIP_SOURCE_SEEK_WRITE:
+                return writing.seek(data, size);
+            case ZIP_SOURCE_TELL_WRITE:
+                return static_cast<zip_int64_t>(writing.at);
+            case ZIP_SOURCE_STAT:
+                set_size(static_cast<zip_stat_t*>(data), writing.bytes.size());
+                return sizeof(zip_stat_t);
+            case ZIP_SOURCE_ERROR:
+                return set_no_memory(static_cast<int*>(data));
+            case ZIP_SOURCE_SUPPORTS:
+                return zip_source_make_command_bitmap(
+                    ZIP_SOURCE_OPEN, ZIP_SOURCE_READ, ZIP_SOURCE_CLOSE, ZIP_SOURCE_STAT, ZIP_SOURCE_ERROR,
+                    ZIP_SOURCE_FREE, ZIP_SOURCE_SEEK, ZIP_SOURCE_TELL, ZIP_SOURCE_BEGIN_WRITE, ZIP_SOURCE_COMMIT_WRITE,
+                    ZIP_SOURCE_ROLLBACK_WRITE, ZIP_SOURCE_WRITE, ZIP_SOURCE_SEEK_WRITE, ZIP_SOURCE_TELL_WRITE,
+                    ZIP_SOURCE_REMOVE, -1);
+            default:
+                return -1;
+        }
+    } catch (...) {
+        return -1;
+    }
 }
 
 [[noreturn]] void refuse(const std::string& source, const std::string& why) {
@@ -203,28 +254,47 @@ ZipEntry zip_entry(std::string name, const Bytes& bytes) {
 }
 
 Bytes zip(const std::vector<ZipEntry>& entries) {
-    const Source target = source_of(nullptr, 0);
-    zip_source_keep(target.get());  // closing the archive drops one reference; the bytes are read after that
+    Writing writing;  // outlives the archive, as the readings do
     std::exception_ptr failure;
-    std::vector<std::unique_ptr<Reading>> readings;  // outlive the archive
+    std::vector<std::unique_ptr<Reading>> readings;
+    zip_error_t error;
+    zip_error_init(&error);
+    Source target(zip_source_function_create(take, &writing, &error));
+    zip_error_fini(&error);
+    must(target != nullptr);
     Archive archive = open_archive(target.get(), ZIP_CREATE | ZIP_TRUNCATE);
     must(archive != nullptr);
+    static_cast<void>(target.release());  // the archive owns it now
+    std::uint64_t total = 0;
     for (const ZipEntry& entry : entries) {
         readings.push_back(std::make_unique<Reading>(Reading{entry, failure}));
         readings.back()->measure();
+        if (!entry.is_packed) total += readings.back()->size;
         add(archive.get(), *readings.back());
     }
+    constexpr std::uint64_t most_beside_an_entry = 512;  // headers and names, of names that are not long
+    writing.bytes.reserve(total + most_beside_an_entry * (entries.size() + 1));
     const bool is_closed = zip_close(archive.get()) == 0;
     if (failure) std::rethrow_exception(failure);
     must(is_closed);
     static_cast<void>(archive.release());
-    return content(target.get());
+    return std::move(writing.bytes);
 }
 
 Bytes zip(const std::map<std::string, Bytes>& files) {
     std::vector<ZipEntry> entries;
     entries.reserve(files.size());
     for (const auto& [name, bytes] : files) entries.push_back(zip_entry(name, bytes));
+    return zip(entries);
+}
+
+Bytes zip(std::map<std::string, Bytes>&& files) {
+    std::vector<ZipEntry> entries;
+    entries.reserve(files.size());
+    for (auto& [name, bytes] : files) {
+        entries.push_back(zip_entry(name, bytes));
+        entries.back().close = [&bytes = bytes] { Bytes().swap(bytes); };
+    }
     return zip(entries);
 }
 

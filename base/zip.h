@@ -22,6 +22,7 @@ struct ZipEntry {
     std::string name;
     std::function<NextStretch()> open;  // called once per reading, of which there are two: an entry may exceed memory
     bool is_packed = false;             // by deflate; otherwise stored
+    std::function<void()> close = {};   // called after the last reading; may be empty
 };
 
 // An entry of bytes in memory, stored. `bytes` must outlive it.
@@ -31,7 +32,9 @@ ZipEntry zip_entry(std::string name, const Bytes& bytes);
 Bytes zip(const std::vector<ZipEntry>& entries);
 
 // The files by name, sorted and stored, so that neither the version of a compressor nor a cell without one matters.
+// The second releases each file when it is packed, so that the archive and the files are not in memory together.
 Bytes zip(const std::map<std::string, Bytes>& files);
+Bytes zip(std::map<std::string, Bytes>&& files);
 
 // The files of a ZIP that is, byte for byte, what zip(files) writes. Throws InputError (mesh) naming `source`, the job
 // file, if it is cut short, damaged, compressed, in another order, has anything before, between or behind its entries,

@@ -10,9 +10,9 @@
 #include "bench/clock.h"
 #include "bench/figures.h"
 #include "bench/other_simplifiers.h"
-#include "segment/mesh/distance.h"
 #include "segment/sample/sample.h"
 #include "segment/simplify/collapse.h"
+#include "segment/simplify/sampled_deviation.h"
 
 namespace {
 

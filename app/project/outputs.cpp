@@ -65,7 +65,9 @@ void write_pieces(const fs::path& folder, const Segmentation& segmentation, Frag
 
 std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, const Segmentation& segmentation,
                                     Setups& setups, const std::string& program_version, const Context& context) {
-    StageTimer stage(context, "jobs written");
+    StageTimer stage(context, "setups chosen");
+    setups.compute(segmentation.pieces, context);
+    stage.next("jobs written");
     project.jobs.clear();
     JobInput input;
     input.piece_no = 0;
@@ -80,9 +82,7 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
         context.check_cancelled();
         context.progress("jobs written", input.piece_no, segmentation.pieces.size());
         ++input.piece_no;
-        stage.next("setups chosen");
         const Carving& carving = setups.of(piece);
-        stage.next("jobs written");
         PieceReport report{piece.name, piece.mesh->triangles.size(), volume_mm3(*piece.mesh), carving, {}};
         report.carving.mesh.reset();
         const fs::path file = folder / "jobs" / job_file_name(piece.name);

@@ -6,7 +6,12 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
 
+#include "base/context.h"
+#include "base/parallel.h"
 #include "cam/cell/cell.h"
 #include "cam/setup/envelope.h"
 #include "cam/setup/setup.h"
@@ -26,18 +31,37 @@ class Setups {
 
     const Cell& cell() const { return cell_; }
 
+    // Computes those of all pieces, on several threads. Reports progress in pieces. Throws Cancelled.
+    void compute(std::span<const Piece> pieces, const Context& context) {
+        std::vector<const Piece*> missing;
+        for (const Piece& piece : pieces) {
+            if (!carvings_.contains(piece.mesh.get())) missing.push_back(&piece);
+        }
+        std::mutex changing;
+        std::size_t done = 0;
+        parallel_for(0, missing.size(), [&](std::size_t i) {
+            context.check_cancelled();
+            Carving carving = carving_of(*missing[i]);
+            const std::lock_guard lock(changing);
+            carvings_[missing[i]->mesh.get()] = std::move(carving);
+            context.progress("setups chosen", ++done, missing.size());
+        });
+    }
+
     // Valid while this object lives. Pieces are identified by their mesh.
     const Carving& of(const Piece& piece) {
         const auto [it, is_new] = carvings_.try_emplace(piece.mesh.get());
-        if (is_new) {
-            it->second.setup = choose_setup(piece, cell_);
-            it->second.envelope = check_envelope(it->second.setup, cell_);
-            it->second.mesh = piece.mesh;
-        }
+        if (is_new) it->second = carving_of(piece);
         return it->second;
     }
 
  private:
+    Carving carving_of(const Piece& piece) const {
+        Carving carving{choose_setup(piece, cell_), {}, piece.mesh};
+        carving.envelope = check_envelope(carving.setup, cell_);
+        return carving;
+    }
+
     Cell cell_;
     std::map<const TriangleMesh*, Carving> carvings_;
 };

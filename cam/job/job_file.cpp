@@ -99,12 +99,14 @@ TicketTemplate ticket_template(const JobInput& input) {
 
 Bytes job_file(const JobInput& input) {
     job_file_name(input.piece.name);  // throws if the name does not fit the wire
-    const TriangleMesh lying = apply(input.setup.piece_in_setup, *input.piece.mesh);
     const PreviewNotes notes{input.piece.name,  input.program_version,         input.piece_no,
                              input.piece_count, input.setup.base.value_or(-1), input.envelope.fits()};
     std::map<std::string, Bytes> files;
-    files["piece.stl"] = to_stl(lying);
-    files["preview.glb"] = preview_glb(lying, notes);
+    {
+        const TriangleMesh lying = apply(input.setup.piece_in_setup, *input.piece.mesh);
+        files["preview.glb"] = preview_glb(lying, notes);
+        files["piece.stl"] = to_stl(lying);
+    }
     const TicketTemplate ticket = ticket_template(input);
     files["setup.txt"] = to_bytes(setup_sheet(input, ticket.estimated_time_s));
     files[ticket_name] = to_bytes(to_json(ticket));
@@ -119,7 +121,7 @@ Bytes job_file(const JobInput& input) {
                          "cut the piece further");
     }
     files[manifest_name] = to_bytes(to_manifest(input, entries));
-    return zip(files);
+    return zip(std::move(files));
 }
 
 ReadJob parse_job(const Bytes& bytes, const std::string& source) {

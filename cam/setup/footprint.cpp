@@ -138,9 +138,34 @@ class OccupancyGrid {
     std::vector<char> covered_;  // row by row
 };
 
+// Removes points inside the polygon of the extreme points in eight directions: no corner of the hull lies there (S. G.
+// Akl and G. T. Toussaint, "A fast convex hull algorithm", 1978). Those within rounding of a side stay.
+void remove_inner_points(std::vector<Point2>& points) {
+    constexpr std::array<Point2, 8> directions{{{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+    std::array<Point2, 8> extreme;
+    for (std::size_t k = 0; k < directions.size(); ++k) {
+        extreme[k] = *std::max_element(points.begin(), points.end(), [&](Point2 a, Point2 b) {
+            return dot2(directions[k], a) < dot2(directions[k], b);
+        });
+    }
+    const Point2 size = minus(extreme[1], extreme[5]);
+    const double rounding = 1e-9 * (std::abs(extreme[0].x) + std::abs(extreme[4].x) + std::abs(extreme[2].y) +
+                                    std::abs(extreme[6].y) + std::hypot(size.x, size.y));
+    std::erase_if(points, [&](Point2 p) {
+        for (std::size_t k = 0; k < extreme.size(); ++k) {
+            const Point2 side = minus(extreme[(k + 1) % extreme.size()], extreme[k]);
+            const double length = std::abs(side.x) + std::abs(side.y);
+            if (length > 0 && cross2(side, minus(p, extreme[k])) <= rounding * length) return false;
+        }
+        return true;
+    });
+}
+
 }  // namespace
 
 std::vector<Point2> convex_hull(std::vector<Point2> points) {
+    if (points.empty()) return points;
+    remove_inner_points(points);
     std::sort(points.begin(), points.end(), [](Point2 a, Point2 b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); });
     points.erase(std::unique(points.begin(), points.end()), points.end());
     if (points.size() < 3) return points;

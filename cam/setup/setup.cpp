@@ -13,7 +13,6 @@
 #include "cam/setup/undercut.h"
 #include "segment/mesh/oriented_box.h"
 #include "segment/mesh/rays.h"
-#include "segment/mesh/transform.h"
 
 namespace qchopper {
 namespace {
@@ -86,6 +85,13 @@ BaseCandidate best_side(const Piece& piece, const RayTree& rays) {
     return {std::nullopt, up, facing(*piece.mesh, up, std::nullopt), projected_area_mm2(*piece.mesh, up), false};
 }
 
+// Precondition: the mesh has points.
+Box bounds_in(const Pose& piece_in_setup, const TriangleMesh& mesh) {
+    Box box{apply(piece_in_setup, mesh.points.front()), apply(piece_in_setup, mesh.points.front())};
+    for (const Vec3& p : mesh.points) extend(box, apply(piece_in_setup, p));
+    return box;
+}
+
 // Turns the piece so that the smallest rectangle of its footprint lies along x, then puts it on z = 0.
 void place(const TriangleMesh& mesh, Setup& setup) {
     const auto [e1, e2] = frame_under(setup.up);
@@ -95,10 +101,10 @@ void place(const TriangleMesh& mesh, Setup& setup) {
     const Point2 along = smallest_rectangle(std::move(footprint)).along;
     const Vec3 x = normalized(along.x * e1 + along.y * e2);
     setup.piece_in_setup = {{x, cross(setup.up, x), setup.up}, {}};
-    const Box turned = bounds(apply(setup.piece_in_setup, mesh));
+    const Box turned = bounds_in(setup.piece_in_setup, mesh);
     const Vec3 middle = turned.centre();
     setup.piece_in_setup.shift = -Vec3{middle.x, middle.y, turned.min.z};
-    setup.box = bounds(apply(setup.piece_in_setup, mesh));
+    setup.box = bounds_in(setup.piece_in_setup, mesh);
     assert(std::abs(setup.box.min.z) < 1e-6);
 }
 

@@ -16,26 +16,34 @@ namespace {
 // A vertical wall must not count as facing down because of rounding.
 constexpr double wall = 1e-6;
 
-// Whether a triangle faces down or has a part of the mesh straight above its middle.
-class OcclusionTest {
- public:
-    OcclusionTest(const TriangleMesh& mesh, const RayTree& rays, Vec3 up)
-        : mesh_(mesh), rays_(rays), up_(up), off_the_surface_(1e-5 * norm(bounds(mesh).size())) {}
+constexpr std::size_t at_once = 1024;
 
-    bool operator()(std::size_t triangle) const {
-        const Vec3 n = normalized(area_vector(mesh_, triangle));
-        if (dot(n, up_) < -wall) return true;
-        const Triangle& v = mesh_.triangles[triangle];
-        const Vec3 middle = (1.0 / 3) * (mesh_.points[v[0]] + mesh_.points[v[1]] + mesh_.points[v[2]]);
-        return rays_.meets(middle + off_the_surface_ * n, up_);
-    }
-
- private:
-    const TriangleMesh& mesh_;
-    const RayTree& rays_;
-    Vec3 up_;
-    double off_the_surface_;  // mm: rays are single precision
-};
+// Calls use(i, is_occluded) for i of [0, count), on several threads:
+// whether the triangle triangle_at(i) faces down or has a part of the mesh straight above its middle.
+template <class TriangleAt, class Use>
+void test_occlusion(const TriangleMesh& mesh, const RayTree& rays, Vec3 up, std::size_t count,
+                    const TriangleAt& triangle_at, const Use& use) {
+    const double off_the_surface = 1e-5 * norm(bounds(mesh).size());  // mm: rays are single precision
+    parallel_ranges(0, count, at_once, [&](std::size_t first, std::size_t end) {
+        std::vector<Vec3> origins;
+        std::vector<std::size_t> of_origin;
+        for (std::size_t i = first; i < end; ++i) {
+            const std::size_t t = triangle_at(i);
+            const Vec3 n = normalized(area_vector(mesh, t));
+            if (dot(n, up) < -wall) {
+                use(i, true);
+                continue;
+            }
+            const Triangle& v = mesh.triangles[t];
+            const Vec3 middle = (1.0 / 3) * (mesh.points[v[0]] + mesh.points[v[1]] + mesh.points[v[2]]);
+            origins.push_back(middle + off_the_surface * n);
+            of_origin.push_back(i);
+        }
+        std::vector<std::uint8_t> is_below(origins.size());
+        rays.meets(origins, up, is_below);
+        for (std::size_t k = 0; k < origins.size(); ++k) use(of_origin[k], is_below[k] != 0);
+    });
+}
 
 }  // namespace
 
@@ -57,11 +65,10 @@ Facing facing(const TriangleMesh& mesh, Vec3 up, std::optional<std::int32_t> bas
 }
 
 double occluded_area_ratio(const TriangleMesh& mesh, const RayTree& rays, Vec3 up, std::optional<std::int32_t> base) {
-    const OcclusionTest is_occluded(mesh, rays, up);
     std::vector<char> flags(mesh.triangles.size(), 0);
-    parallel_ranges(0, flags.size(), 1024, [&](std::size_t first, std::size_t end) {
-        for (std::size_t t = first; t < end; ++t) flags[t] = is_occluded(t) ? 1 : 0;
-    });
+    test_occlusion(
+        mesh, rays, up, flags.size(), [](std::size_t t) { return t; },
+        [&](std::size_t t, bool is_occluded) { flags[t] = is_occluded ? 1 : 0; });
     double all = 0;
     double occluded = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -94,13 +101,10 @@ std::vector<std::uint32_t> area_sample(const TriangleMesh& mesh, std::size_t cou
 double occluded_area_ratio(const TriangleMesh& mesh, const RayTree& rays, Vec3 up,
                            std::span<const std::uint32_t> sample) {
     assert(!sample.empty());
-    const OcclusionTest is_occluded(mesh, rays, up);
     std::atomic<std::size_t> occluded = 0;
-    parallel_ranges(0, sample.size(), 1024, [&](std::size_t first, std::size_t end) {
-        std::size_t found = 0;
-        for (std::size_t i = first; i < end; ++i) found += is_occluded(sample[i]) ? 1 : 0;
-        occluded += found;
-    });
+    test_occlusion(
+        mesh, rays, up, sample.size(), [&](std::size_t i) { return sample[i]; },
+        [&](std::size_t, bool is_occluded) { occluded += is_occluded ? 1 : 0; });
     return static_cast<double>(occluded) / static_cast<double>(sample.size());
 }
 

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <sstream>
+#include <string_view>
 
 #include "base/error.h"
 
@@ -151,7 +152,8 @@ Bytes to_glb(const GlbScene& scene) {
     for (const GlbNode& node : scene.nodes) add_node(model, node);
     std::ostringstream stream;
     tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true);
-    const std::string text = stream.str();
+    model = {};
+    const std::string_view text = stream.view();
     return {text.begin(), text.end()};
 }
 

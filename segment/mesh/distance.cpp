@@ -1,14 +1,11 @@
 // Branch and bound over the triangles, after M. Guthe, P. Borodin and R. Klein, "Fast and accurate Hausdorff distance
 // calculation between meshes" (2005): a triangle whose bound stays below the distance found is dropped, the others are
-// split in four. farthest_sample samples faces, as P. Cignoni, C. Rocchini and R. Scopigno do in "Metro: measuring
-// error on simplified surfaces" (1998), but for faces of which no sample can be the farthest. O(log triangles) per
-// point on average; a triangle tree of `to` in memory.
+// split in four. O(log triangles) per point on average; a triangle tree of `to` in memory.
 
 #include "segment/mesh/distance.h"
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -134,151 +131,6 @@ void settle(Farthest& result, std::vector<TrianglePart>& open, const DistanceOpt
     });
 }
 
-double longest_side(const TriangleCorners& p) {
-    return std::max({norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])});
-}
-
-double mean_longest_side(const TriangleMesh& mesh) {
-    double sum = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) sum += longest_side(corners_of(mesh, t));
-    return sum / static_cast<double>(mesh.triangles.size());
-}
-
-// A triangle, and its box grown by about the largest distance, in the coordinates of the tree.
-struct NearTriangle {
-    FloatBox box;
-    std::uint32_t triangle = 0;
-};
-
-// The largest distance of the samples of the faces added, or `mm` if none is larger. A sample closer than that to any
-// triangle cannot change it. If all corners of a face are that close to one triangle, none of its samples can, because
-// the distance to a triangle is convex. So it is with nearly all, and few are searched for in the tree. The triangles
-// that are tried are those around the face; what is found does not depend on them.
-class LargestDistance {
- public:
-    // `rounding` in mm is more than the error of any distance.
-    LargestDistance(const TriangleMesh& to, const TriangleTree& tree, double mm, double rounding)
-        : to_(to), tree_(tree), mm_(mm), rounding_(rounding) {}
-
-    // A grid of n steps along each side, and the middles of its upright cells.
-    void add_face(const TriangleCorners& p, int n) {
-        constexpr int steps_at_once = 5;
-        if (is_covered(p, last_)) return;
-        const Vec3 u = (1.0 / n) * (p[1] - p[0]);
-        const Vec3 v = (1.0 / n) * (p[2] - p[0]);
-        const int tiles = (n + steps_at_once - 1) / steps_at_once;
-        if (tiles == 1) {
-            list_near(p, p[0]);
-            if (!is_covered(p, near_)) add_tile(p[0], u, v, n, {0, 0, n + 1});
-            return;
-        }
-        const int size = n / tiles + 1;
-        const double steps = size;
-        for (int i = 0; i <= n; i += size) {
-            for (int k = 0; i + k <= n; k += size) {
-                const Vec3 a = p[0] + static_cast<double>(i) * u + static_cast<double>(k) * v;
-                list_near({a, a + steps * u, a + steps * v}, a + steps * (u + v));
-                add_tile(p[0], u, v, n, {i, k, size});
-            }
-        }
-    }
-
-    double mm() const { return mm_; }
-
- private:
-    double squared_distance(Vec3 p, const NearTriangle& near) const {
-        const Vec3 away = closest_on_triangle(p, corners_of(to_, near.triangle)) - p;
-        return dot(away, away);
-    }
-
-    bool is_covered(const TriangleCorners& face, const std::vector<NearTriangle>& by) {
-        const double limit = mm_ - rounding_;
-        if (limit <= 0) return false;
-        std::array<FloatBox, 3> at;
-        for (std::size_t k = 0; k < 3; ++k) at[k] = tree_.box_of({face[k], face[k], face[k]});
-        for (std::size_t i = 0; i < by.size(); ++i) {
-            if (!do_meet(at[0], by[i].box) || !do_meet(at[1], by[i].box) || !do_meet(at[2], by[i].box)) continue;
-            const auto is_near = [&](Vec3 p) { return squared_distance(p, by[i]) <= limit * limit; };
-            if (!std::all_of(face.begin(), face.end(), is_near)) continue;
-            keep(by[i]);
-            return true;
-        }
-        return false;
-    }
-
-    // Among the last ones that covered a face.
-    void keep(NearTriangle triangle) {
-        constexpr std::size_t most = 8;
-        const auto same = std::find_if(last_.begin(), last_.end(),
-                                       [&](const NearTriangle& other) { return other.triangle == triangle.triangle; });
-        if (same != last_.end()) return std::iter_swap(same, last_.begin());
-        if (last_.size() == most) last_.pop_back();
-        last_.insert(last_.begin(), triangle);
-    }
-
-    // A part of the grid of a face: the fewer triangles are around, the faster.
-    struct Tile {
-        int i;
-        int k;
-        int size;
-    };
-
-    void add_tile(Vec3 origin, Vec3 u, Vec3 v, int n, const Tile& tile) {
-        for (int i = tile.i; i < std::min(tile.i + tile.size, n + 1); ++i) {
-            for (int k = tile.k; k < std::min(tile.k + tile.size, n + 1 - i); ++k) {
-                const Vec3 corner = origin + static_cast<double>(i) * u + static_cast<double>(k) * v;
-                add(corner);
-                if (i + k < n) add(corner + (1.0 / 3) * (u + v));
-            }
-        }
-    }
-
-    // Around four points.
-    void list_near(const TriangleCorners& face, Vec3 fourth) {
-        constexpr std::size_t most = 256;
-        near_.clear();
-        const auto by = static_cast<float>(0.5 * std::min(mm_, longest_side(face)));
-        FloatBox around = grown(tree_.box_of(face), by);
-        const FloatBox more = grown(tree_.box_of({fourth, fourth, fourth}), by);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            around.min[axis] = std::min(around.min[axis], more.min[axis]);
-            around.max[axis] = std::max(around.max[axis], more.max[axis]);
-        }
-        tree_.for_each_place_near(around, [&](std::size_t place) {
-            if (near_.size() == most) return;
-            near_.push_back({grown(tree_.of_triangle[place], by), tree_.order[place]});
-        });
-    }
-
-    static FloatBox grown(FloatBox box, float by) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            box.min[axis] -= by;
-            box.max[axis] += by;
-        }
-        return box;
-    }
-
-    void add(Vec3 p) {
-        const FloatBox at = tree_.box_of({p, p, p});
-        double least = infinite;
-        for (std::size_t i = 0; i < near_.size(); ++i) {
-            if (!do_meet(at, near_[i].box)) continue;
-            const double squared = squared_distance(p, near_[i]);
-            if (squared <= mm_ * mm_) return std::swap(near_[i], near_[0]);
-            least = std::min(least, squared);
-        }
-        const TriangleTree::Nearest found = tree_.nearest(to_, p, std::sqrt(least) + rounding_);
-        mm_ = std::max(mm_, found.distance);
-    }
-
-    const TriangleMesh& to_;
-    const TriangleTree& tree_;
-    std::vector<NearTriangle> near_;  // around the face
-    std::vector<NearTriangle> last_;  // that covered the last faces
-    double mm_ = 0;
-    double rounding_ = 0;
-};
-
 }  // namespace
 
 Farthest farthest(const TriangleMesh& from, std::span<const std::uint32_t> triangles, const TriangleMesh& to,
@@ -335,34 +187,6 @@ Deviation deviation(const TriangleMesh& scan, const TriangleMesh& result, const 
     found.from_scan = farthest(scan, gone, result, options, context);
     found.from_result = farthest(result, made, scan, options, context);
     return found;
-}
-
-double farthest_sample(const TriangleMesh& from, const TriangleMesh& to, const Context& context) {
-    constexpr int most_steps = 200;
-    constexpr std::size_t faces_at_once = 1024;
-    constexpr std::size_t first_faces = 64;
-    const double spacing = mean_longest_side(to);
-    const TriangleTree tree(to);
-    const Box box = bounds(to);
-    const double rounding = 1e-10 * (norm(box.min) + norm(box.max));
-    std::atomic<double> farthest_mm{0};
-    const auto sample_faces = [&](std::size_t first, std::size_t end, std::size_t stride) {
-        context.check_cancelled();
-        LargestDistance largest(to, tree, farthest_mm.load(), rounding);
-        for (std::size_t t = first; t < end; t += stride) {
-            const TriangleCorners corners = corners_of(from, t);
-            const double steps = std::ceil(longest_side(corners) / std::max(spacing, 1e-12));
-            largest.add_face(corners, std::clamp(static_cast<int>(std::min(steps, 1e6)), 2, most_steps));
-        }
-        double before = farthest_mm.load();
-        while (before < largest.mm() && !farthest_mm.compare_exchange_weak(before, largest.mm())) {
-        }
-    };
-    // Some faces first: the larger the distance that is known, the less is searched for.
-    sample_faces(0, from.triangles.size(), from.triangles.size() / first_faces + 1);
-    parallel_ranges(0, from.triangles.size(), faces_at_once,
-                    [&](std::size_t first, std::size_t end) { sample_faces(first, end, 1); });
-    return farthest_mm.load();
 }
 
 }  // namespace qchopper

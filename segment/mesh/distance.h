@@ -46,10 +46,4 @@ struct Deviation {
 Deviation deviation(const TriangleMesh& scan, const TriangleMesh& result, const DistanceOptions& options = {},
                     const Context& context = {});
 
-// The largest distance of samples of `from` to the surface of `to`. The samples of a face are a grid of its corners,
-// points of its sides and of its inside, and the middles of half of the cells. The grid has as many steps along a side
-// as the mean longest side of the triangles of `to` fits in the longest side of the face, rounded up, but at least 2
-// and at most 200. Precondition: both have triangles (tests/segment/simplify/simplify_test.cpp).
-double farthest_sample(const TriangleMesh& from, const TriangleMesh& to, const Context& context = {});
-
 }  // namespace qchopper

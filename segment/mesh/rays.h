@@ -32,6 +32,9 @@ class RayTree {
     std::optional<RayHit> first_hit(Vec3 origin, Vec3 direction) const;
     // Whether there is one; faster.
     bool meets(Vec3 origin, Vec3 direction) const;
+    // The same for many rays of one direction: 1 per origin whose ray meets a triangle, else 0. Faster the closer to
+    // each other consecutive origins are. Both spans have the same size.
+    void meets(std::span<const Vec3> origins, Vec3 direction, std::span<std::uint8_t> result) const;
 
  private:
     struct Tree;

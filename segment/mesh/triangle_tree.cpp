@@ -132,9 +132,9 @@ FloatBox TriangleTree::box_of(const std::array<Vec3, 3>& corners) const {
     return box;
 }
 
-TriangleTree::Nearest TriangleTree::nearest(const TriangleMesh& mesh, Vec3 p, double within) const {
+TriangleTree::Nearest TriangleTree::nearest(const TriangleMesh& mesh, Vec3 p, double enough) const {
     Nearest best;
-    double best_squared = within * within;
+    double best_squared = std::numeric_limits<double>::infinity();
     const Vec3 at = p - centre;
     struct Open {
         std::size_t node;
@@ -155,6 +155,7 @@ TriangleTree::Nearest TriangleTree::nearest(const TriangleMesh& mesh, Vec3 p, do
                 best_squared = d;
                 best = {std::sqrt(d), point, order[place]};
             }
+            if (best.distance <= enough) return best;
             continue;
         }
         Open near{2 * node, squared_distance(of_node[2 * node], at)};

@@ -67,9 +67,9 @@ struct TriangleTree {
         Vec3 point;
         std::uint32_t triangle = 0;
     };
-    // The nearest point of the surface, if it is closer than `within`; else the distance is infinite. `mesh` is the one
-    // that the tree was built from.
-    Nearest nearest(const TriangleMesh& mesh, Vec3 p, double within = std::numeric_limits<double>::infinity()) const;
+    // The nearest point of the surface, or the first one found that is no farther than `enough`. `mesh` is the one that
+    // the tree was built from.
+    Nearest nearest(const TriangleMesh& mesh, Vec3 p, double enough = 0) const;
 
  private:
     template <class Enter, class Visit>

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "base/error.h"
-#include "segment/mesh/distance.h"
 #include "segment/mesh/links.h"
 #include "segment/simplify/collapse.h"
 #include "segment/simplify/collapse_passes.h"
+#include "segment/simplify/sampled_deviation.h"
 
 namespace qchopper {
 namespace {

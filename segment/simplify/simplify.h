@@ -26,7 +26,7 @@ struct SimplifyReport {
     std::size_t faces_after = 0;
     std::size_t cap_faces = 0;        // that had to stay
     double from_piece = 0;            // mm: largest distance of the samples of the piece to the result
-    double from_result = 0;           // mm: of the samples of the result to the piece (mesh/distance.h)
+    double from_result = 0;           // mm: of the samples of the result to the piece (sampled_deviation.h)
     bool has_too_many_faces = false;  // more faces than most_faces are left: no other edge could collapse
     bool is_by_queue = false;         // the passes did not reach most_faces, so the slower way was taken (collapse.h)
     double deviation() const { return from_piece > from_result ? from_piece : from_result; }

@@ -63,6 +63,13 @@ TEST(ZipFile, PackedTextIsSmallerAndTheSameEveryTime) {
     EXPECT_EQ(zip({entry}), once);
 }
 
+TEST(ZipFile, FilesThatAreGivenAwayArePackedAlikeAndReleased) {
+    std::map<std::string, Bytes> files{{"a.bin", Bytes(200'000, 7)}, {"b.bin", {}}, {"c.bin", {1, 2, 3}}};
+    const Bytes kept = zip(files);
+    EXPECT_EQ(zip(std::move(files)), kept);
+    for (const auto& [name, bytes] : files) EXPECT_EQ(bytes.capacity(), 0U) << name;  // NOLINT(bugprone-use-after-move)
+}
+
 TEST(ZipFile, EntriesKeepTheirOrder) {
     const Bytes b{'b'};
     const Bytes a{'a'};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -22,6 +23,33 @@ TEST(Rays, MeetTheFirstSurfaceFromEitherSide) {
 TEST(Rays, FarFromTheOriginAHundredthOfAMillimetreIsResolved) {
     const RayTree tree(shapes::moved(shapes::box({0, 0, 0}, {10, 10, 10}), {1e6, 1e6, 1e6}));
     EXPECT_NEAR(tree.first_hit({1e6 + 5, 1e6 + 4, 1e6 - 7.01}, {0, 0, 1})->distance, 7.01, 1e-5);
+}
+
+// Half a million triangles and more are several trees.
+TEST(Rays, AreTheSameInPacketsAndNameTrianglesOfTheWholeMesh) {
+    const TriangleMesh ball = shapes::ball({100, 200, -300}, 50, 600);
+    ASSERT_GT(ball.triangles.size(), std::size_t{1} << 19);
+    const RayTree tree(ball);
+    const Vec3 up = normalized({0.1, 0.2, 1});
+    std::vector<Vec3> origins;
+    for (std::size_t t = 0; t < ball.triangles.size(); t += 5'003) {
+        const auto& v = ball.triangles[t];
+        const Vec3 middle = (1.0 / 3) * (ball.points[v[0]] + ball.points[v[1]] + ball.points[v[2]]);
+        const Vec3 outward = normalized(middle - Vec3{100, 200, -300});
+        const auto hit = tree.first_hit(middle + outward, -outward);
+        ASSERT_TRUE(hit.has_value());
+        EXPECT_NEAR(hit->distance, 1, 1e-3);
+        const auto& found = ball.triangles[hit->triangle];
+        EXPECT_LT(norm(ball.points[found[0]] - middle), 2) << t;
+        origins.push_back(middle + 0.1 * outward);
+        origins.push_back(middle - 0.1 * outward);
+    }
+    origins.push_back({100, 200, 0});
+    ASSERT_EQ(origins.size() % 8, 1U);  // the last packet is not full
+    std::vector<std::uint8_t> is_met(origins.size(), 2);
+    tree.meets(origins, up, is_met);
+    for (std::size_t i = 0; i < origins.size(); ++i) EXPECT_EQ(is_met[i], tree.meets(origins[i], up) ? 1 : 0) << i;
+    EXPECT_NE(std::count(is_met.begin(), is_met.end(), 0), 0);
 }
 
 // All meshes at their places, joined.

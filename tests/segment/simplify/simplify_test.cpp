@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "segment/cut/cut.h"
-#include "segment/mesh/distance.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/manifold.h"
 #include "segment/mesh/measure.h"
@@ -18,6 +17,7 @@
 #include "segment/sample/sample.h"
 #include "segment/simplify/collapse.h"
 #include "segment/simplify/collapse_passes.h"
+#include "segment/simplify/sampled_deviation.h"
 #include "segment/simplify/sound_face.h"
 #include "tests/shapes.h"
 
@@ -345,7 +345,7 @@ TEST(Simplify, AnyNumberOfThreadsGivesTheSameBytes) {
     }
 }
 
-// The samples that distance.h states, each compared with every triangle.
+// The samples that sampled_deviation.h states, each compared with every triangle.
 TEST(Simplify, TheDeviationIsThatOfAllSamples) {
     const auto longest = [](const Corners& c) {
         return std::max({norm(c[1] - c[0]), norm(c[2] - c[1]), norm(c[0] - c[2])});
@@ -364,14 +364,27 @@ TEST(Simplify, TheDeviationIsThatOfAllSamples) {
         };
         for (std::size_t t = 0; t < from.triangles.size(); ++t) {
             const Corners c = corners_of(from, t);
-            const int n = std::clamp(static_cast<int>(std::ceil(longest(c) / spacing)), 2, 200);
+            const auto steps = [&](double length) {
+                return std::clamp(static_cast<int>(std::ceil(length / spacing)), 1, 200);
+            };
+            add((1.0 / 3) * (c[0] + c[1] + c[2]));
+            const Triangle& v = from.triangles[t];
+            for (std::size_t k = 0; k < 3; ++k) {
+                add(c[k]);
+                const bool is_ahead = v[k] < v[(k + 1) % 3];
+                const Vec3 a = c[is_ahead ? k : (k + 1) % 3];
+                const Vec3 b = c[is_ahead ? (k + 1) % 3 : k];
+                const int n = steps(norm(b - a));
+                for (int i = 1; i < n; ++i) add(a + (static_cast<double>(i) / n) * (b - a));
+            }
+            const int n = steps(longest(c));
             const Vec3 u = (1.0 / n) * (c[1] - c[0]);
-            const Vec3 v = (1.0 / n) * (c[2] - c[0]);
-            for (int i = 0; i <= n; ++i) {
-                for (int k = 0; i + k <= n; ++k) {
-                    const Vec3 corner = c[0] + static_cast<double>(i) * u + static_cast<double>(k) * v;
-                    add(corner);
-                    if (i + k < n) add(corner + (1.0 / 3) * (u + v));
+            const Vec3 w = (1.0 / n) * (c[2] - c[0]);
+            for (int i = 0; n > 1 && i < n; ++i) {
+                for (int k = 0; i + k < n; ++k) {
+                    const Vec3 at = c[0] + static_cast<double>(i) * u + static_cast<double>(k) * w;
+                    add(at + (1.0 / 3) * (u + w));
+                    if (i > 0 && k > 0) add(at);
                 }
             }
         }
