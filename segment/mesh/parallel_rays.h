@@ -6,6 +6,7 @@
 
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -15,13 +16,13 @@ namespace qchopper {
 
 struct RayQuery {
     Vec3 from;
-    bool up = false;  // along the normal; false: against it
+    bool up = false;                                         // along the normal; false: against it
+    double reach = std::numeric_limits<double>::infinity();  // how far it is looked, at least 0
 };
 
 // One distance per query: to the first surface through which the ray leaves the mesh; infinite if there is none within
-// `most`, which is at least 0. A surface through which the ray enters is ignored, so a ray that starts on a face and
-// runs inwards does not end there.
-std::vector<double> ray_distances(const TriangleMesh& mesh, Vec3 normal, std::span<const RayQuery> queries,
-                                  double most);
+// its reach. A surface through which the ray enters is ignored, so a ray that starts on a face and runs inwards does
+// not end there. The shorter the reach, the faster.
+std::vector<double> ray_distances(const TriangleMesh& mesh, Vec3 normal, std::span<const RayQuery> queries);
 
 }  // namespace qchopper

@@ -27,11 +27,11 @@ double thinness(const Piece& piece, const Plane& plane, double cap_area_mm2, dou
         const Centroid c = centroid(part);
         const double distance_to_plane = std::abs(height(plane.normal, c.at) - plane.offset);
         if (c.area == 0 || distance_to_plane >= distance) continue;
-        queries.push_back({c.at, !above});
+        queries.push_back({c.at, !above, distance_to_plane});
         weight.push_back(c.area * (1 - distance_to_plane / distance) * std::abs(along));
         off.push_back(distance_to_plane);
     }
-    const std::vector<double> free_lengths = ray_distances(mesh, plane.normal, queries, distance);
+    const std::vector<double> free_lengths = ray_distances(mesh, plane.normal, queries);
     double sum = 0;
     for (std::size_t q = 0; q < queries.size(); ++q) {
         if (free_lengths[q] >= off[q]) sum += weight[q];

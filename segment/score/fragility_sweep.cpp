@@ -62,12 +62,27 @@ void add_queries(std::vector<ThinQuery>& queries, const TriangleMesh& mesh, std:
     const auto whole_to = above ? crossed_from : std::upper_bound(crossed_to, offsets.end(), high + reach);
     if (whole_from != whole_to) {
         const Centroid c = centroid(thin_part(mesh, triangle, {normal, *whole_from}, above));
-        if (c.area > 0) queries.push_back({{c.at, !above}, c.area, along, index(whole_from), index(whole_to)});
+        // The ray looks as far as the farthest plane, which is the first below or the last above.
+        const double farthest = std::abs(height(normal, c.at) - (above ? *whole_from : *(whole_to - 1)));
+        if (c.area > 0)
+            queries.push_back({{c.at, !above, farthest}, c.area, along, index(whole_from), index(whole_to)});
     }
     for (auto it = crossed_from; it != crossed_to; ++it) {
         const Centroid c = centroid(thin_part(mesh, triangle, {normal, *it}, above));
-        if (c.area > 0) queries.push_back({{c.at, !above}, c.area, along, index(it), index(it) + 1});
+        const double off = std::abs(height(normal, c.at) - *it);
+        if (c.area > 0) queries.push_back({{c.at, !above, off}, c.area, along, index(it), index(it) + 1});
     }
+}
+
+// Whether no triangle of a cluster is nearly parallel to the planes, by the cone of its normals.
+bool is_steep(const Cluster& cluster, Vec3 normal) {
+    constexpr double rounding = 1e-6;
+    if (cluster.cone >= 1) return false;
+    const double along = std::min(1.0, std::abs(dot(cluster.axis, normal)));
+    const double across = std::sqrt(1 - along * along);
+    if (across <= cluster.cone) return false;  // the cone holds the normal or its opposite
+    // the cosine of the angle between the normal and the side of the cone that is nearest to it
+    return along * std::sqrt(1 - cluster.cone * cluster.cone) + across * cluster.cone < nearly_parallel - rounding;
 }
 
 }  // namespace
@@ -75,23 +90,31 @@ void add_queries(std::vector<ThinQuery>& queries, const TriangleMesh& mesh, std:
 std::vector<double> sweep_thinness(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
                                    double distance) {
     const TriangleMesh& mesh = *prepared.piece->mesh;
-    const std::size_t count = prepared.sums.size();
-    std::vector<std::vector<ThinQuery>> by_chunk((count + chunk - 1) / chunk);
+    constexpr std::size_t clusters_at_once = 512;
+    const std::size_t count = prepared.clusters.count();
+    std::vector<std::vector<ThinQuery>> by_chunk((count + clusters_at_once - 1) / clusters_at_once);
     parallel_for(0, by_chunk.size(), [&](std::size_t c) {
-        for (std::size_t t = c * chunk; t < std::min(count, (c + 1) * chunk); ++t) {
-            const Vec3 area = prepared.sums[t].area;
-            const double projected = dot(area, normal);
-            // A cheap test with a margin for rounding; the test below decides, by the same bits as the plain sum.
-            if (projected * projected < 0.80 * dot(area, area)) continue;
-            const double along = dot(normalized(area), normal);
-            if (std::abs(along) >= nearly_parallel) add_queries(by_chunk[c], mesh, t, normal, along, offsets, distance);
+        for (std::size_t k = c * clusters_at_once; k < std::min(count, (c + 1) * clusters_at_once); ++k) {
+            const Cluster& cluster = prepared.clusters.cluster[k];
+            // The cones hold the area vectors only where those are what undercut projects.
+            if (prepared.unit.empty() && is_steep(cluster, normal)) continue;
+            const std::uint32_t end = prepared.clusters.cluster[k + 1].first_triangle;
+            for (std::uint32_t t = cluster.first_triangle; t < end; ++t) {
+                const Vec3 area = prepared.sums[t].area;
+                const double projected = dot(area, normal);
+                // A cheap test with a margin for rounding; the test below decides, by the same bits as the plain sum.
+                if (projected * projected < 0.80 * dot(area, area)) continue;
+                const double along = dot(normalized(area), normal);
+                if (std::abs(along) < nearly_parallel) continue;
+                add_queries(by_chunk[c], mesh, t, normal, along, offsets, distance);
+            }
         }
     });
     std::vector<RayQuery> queries;
     for (const auto& some : by_chunk) {
         for (const ThinQuery& q : some) queries.push_back(q.ray);
     }
-    const std::vector<double> free_lengths = ray_distances(mesh, normal, queries, distance);
+    const std::vector<double> free_lengths = ray_distances(mesh, normal, queries);
     assert(free_lengths.size() == queries.size());
     std::vector<double> sums(offsets.size(), 0.0);
     std::size_t next = 0;

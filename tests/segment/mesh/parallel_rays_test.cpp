@@ -47,7 +47,7 @@ TEST(ParallelRays, AgreesWithTheDefinitionOnEveryShape) {
                 const double along = dot(normalized(area_vector(mesh, t)), n);
                 if (std::abs(along) > 0.5) queries.push_back({middle, along < 0});
             }
-            const std::vector<double> distances = ray_distances(mesh, n, queries, 1e9);
+            const std::vector<double> distances = ray_distances(mesh, n, queries);
             for (std::size_t q = 0; q < queries.size(); ++q) {
                 const double distance = distance_to_exit(mesh, queries[q].from, queries[q].up ? n : -n);
                 ASSERT_TRUE(std::isfinite(distance)) << name;
@@ -63,21 +63,22 @@ TEST(ParallelRays, ThroughEdgesAndVerticesOfAGridTheBoxIsNeverMissed) {
     const TriangleMesh box = shapes::box({0, 0, 0}, {10, 10, 10}, 5);
     std::vector<RayQuery> queries;
     for (int i = 1; i < 20; ++i) {
-        for (int j = 1; j < 20; ++j) queries.push_back({{0.5 * i, 0.5 * j, 4}, (i + j) % 2 == 0});
+        for (int j = 1; j < 20; ++j) queries.push_back({{0.5 * i, 0.5 * j, 4}, (i + j) % 2 == 0, 6});
     }
-    const std::vector<double> distances = ray_distances(box, {0, 0, 1}, queries, 6);
+    const std::vector<double> distances = ray_distances(box, {0, 0, 1}, queries);
     for (std::size_t q = 0; q < queries.size(); ++q) EXPECT_DOUBLE_EQ(distances[q], queries[q].up ? 6 : 4) << q;
 }
 
 TEST(ParallelRays, StopsAtACavityAndMeetsNothingOutside) {
     const TriangleMesh mesh = shapes::nested();
-    const std::vector<RayQuery> queries{{{50, 50, 95}, false}, {{50, 50, 110}, true}, {{150, 50, 50}, false}};
-    const std::vector<double> distances = ray_distances(mesh, {0, 0, 1}, queries, 20);
+    std::vector<RayQuery> queries{{{50, 50, 95}, false, 20}, {{50, 50, 110}, true, 20}, {{150, 50, 50}, false, 20}};
+    const std::vector<double> distances = ray_distances(mesh, {0, 0, 1}, queries);
     EXPECT_DOUBLE_EQ(distances[0], 15);
     EXPECT_TRUE(std::isinf(distances[1]));
     EXPECT_TRUE(std::isinf(distances[2]));
-    EXPECT_TRUE(std::isinf(ray_distances(mesh, {0, 0, 1}, queries, 14.9)[0]));
-    EXPECT_TRUE(ray_distances(mesh, {0, 0, 1}, {}, 20).empty());
+    queries[0].reach = 14.9;
+    EXPECT_TRUE(std::isinf(ray_distances(mesh, {0, 0, 1}, queries)[0]));
+    EXPECT_TRUE(ray_distances(mesh, {0, 0, 1}, {}).empty());
 }
 
 }  // namespace
