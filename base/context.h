@@ -12,7 +12,8 @@
 
 namespace qchopper {
 
-// A count of work items, never an estimate of time: "37 of 120 planes evaluated".
+// A count of work items, never an estimate of time: "37 of 120 planes evaluated". Work that may take long reports 0
+// when it begins.
 struct Progress {
     std::string what;  // "planes evaluated"
     std::size_t done = 0;

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/huge_pages.h"
+#include "base/unfinished.h"
 
 namespace qchopper {
 namespace {
@@ -43,6 +44,7 @@ void write_all(int fd, const std::uint8_t* data, std::size_t size, const std::fi
 void write_bytes(const std::filesystem::path& path, const std::uint8_t* data, std::size_t size) {
     const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
     const std::filesystem::path aside = path.string() + ".tmp." + std::to_string(::getpid());
+    const Unfinished listed(aside);
     try {
         const Descriptor file(::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
         if (file.fd < 0) throw InputError(InputFault::create, path.string() + " cannot be created: " + reason());

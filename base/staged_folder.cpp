@@ -72,7 +72,8 @@ void remove_leftovers(const fs::path& folder) {
 
 StagedFolder::StagedFolder(const fs::path& place)
     : place_(place),
-      path_(place.parent_path() / staged_name(place.filename().string(), static_cast<long>(::getpid()))) {
+      path_(place.parent_path() / staged_name(place.filename().string(), static_cast<long>(::getpid()))),
+      listed_(path_) {
     remove_leftovers(place.has_parent_path() ? place.parent_path() : fs::path("."));
     fs::remove_all(path_);  // of an earlier process with this number
     fs::create_directory(path_);

@@ -8,6 +8,8 @@
 
 #include <filesystem>
 
+#include "base/unfinished.h"
+
 namespace qchopper {
 
 class StagedFolder {
@@ -27,6 +29,7 @@ class StagedFolder {
  private:
     std::filesystem::path place_;
     std::filesystem::path path_;
+    Unfinished listed_;
     int descriptor_ = -1;
     bool is_moved_ = false;
 };

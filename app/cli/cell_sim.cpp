@@ -44,7 +44,7 @@ TcpAddress listen_address(const std::string& text) {
 }  // namespace
 
 int run(const CellSimArguments& arguments, Terminal& terminal) {
-    terminal.unchanged = "No cell was started.";
+    terminal.set_unchanged("No cell was started.");
     const TcpAddress address = listen_address(arguments.listen);
     CellSimOptions options;
     if (arguments.cell) options.limits = simulated_limits(read_cell(*arguments.cell));

@@ -40,7 +40,7 @@ int hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const Dispatc
 }
 
 int run(const DispatchArguments& arguments, Terminal& terminal) {
-    terminal.unchanged = "The project is unchanged, and no job was started.";
+    terminal.set_unchanged("The project is unchanged, and no job was started.");
     const auto [cell, jobs] = jobs_of(arguments.project, arguments.piece, terminal.context());
     const std::optional<std::string> to = arguments.to ? arguments.to : cell.link.to;
     const std::optional<std::filesystem::path> drop = arguments.drop ? arguments.drop : cell.link.drop;

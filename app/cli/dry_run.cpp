@@ -9,7 +9,7 @@
 namespace qchopper {
 
 int run(const DryRunArguments& arguments, Terminal& terminal) {
-    terminal.unchanged = "The project is unchanged.";
+    terminal.set_unchanged("The project is unchanged.");
     const auto [cell, jobs] = jobs_of(arguments.project, arguments.piece, terminal.context());
     const TemporaryFolder drop("qchopper-dry-run-");
     CellSimOptions options;

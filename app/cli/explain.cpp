@@ -20,7 +20,7 @@ std::filesystem::path picture_path(const ExplainArguments& a, std::int32_t cut) 
 }  // namespace
 
 int run(const ExplainArguments& arguments, Terminal& terminal) {
-    terminal.unchanged = "The project is unchanged.";
+    terminal.set_unchanged("The project is unchanged.");
     Context context = terminal.context();
     context.on_message = nullptr;
     OpenProject open(arguments.project, context);

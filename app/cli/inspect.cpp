@@ -11,7 +11,7 @@
 namespace qchopper {
 
 int run(const InspectArguments& arguments, Terminal& terminal) {
-    terminal.unchanged = "Nothing was changed.";
+    terminal.set_unchanged("Nothing was changed.");
     InspectOptions options;
     options.deep = arguments.deep;
     const Context context = terminal.context();

@@ -41,14 +41,26 @@ static_assert(static_cast<std::size_t>(DeviceFault::refused) + 1 == std::size(de
 
 // One line: what failed and why; what is unchanged; what to do.
 int report(Terminal& terminal, const std::string& what, const std::string& to_do, int code) {
-    std::string line = "qchopper: " + sentence(what) + " " + terminal.unchanged;
+    terminal.begin_end();
+    std::string line = "qchopper: " + sentence(what) + " " + terminal.unchanged();
     if (!to_do.empty()) line += " To do: " + sentence(to_do);
     for (char& c : line) {
         if (c == '\n' || c == '\r') c = ' ';  // names from files may contain line breaks
     }
     terminal.error(line);
-    terminal.json(error_document(what, terminal.unchanged, to_do, code));
+    terminal.json(error_document(what, terminal.unchanged(), to_do, code));
     return code;
+}
+
+int report_stop(Terminal& terminal) {
+    return report(terminal, "stopped on request", "", Terminal::cancel_code());
+}
+
+// Whether a command may be ended in the middle of its work: all but those that lead a cell, or are one.
+bool may_end_anywhere(const Arguments& arguments) {
+    const auto& command = arguments.command;
+    return !std::holds_alternative<DispatchArguments>(command) && !std::holds_alternative<DryRunArguments>(command) &&
+           !std::holds_alternative<CellSimArguments>(command);
 }
 
 }  // namespace
@@ -63,6 +75,7 @@ int run_program(int argc, const char* const* argv) {
         if (!arguments) return exit_done;  // help or version was asked for
         if (arguments->quiet) terminal.set_quiet();
         if (arguments->timings) terminal.set_timings();
+        if (may_end_anywhere(*arguments)) terminal.end_when_stopped([&] { report_stop(terminal); });
         return std::visit([&](const auto& command) { return run(command, terminal); }, arguments->command);
     } catch (const InputError& e) {
         const FaultRow& row = fault_rows[static_cast<std::size_t>(e.fault)];
@@ -70,7 +83,7 @@ int run_program(int argc, const char* const* argv) {
     } catch (const DeviceError& e) {
         return report(terminal, e.what(), e.to_do, device_codes[static_cast<std::size_t>(e.fault)]);
     } catch (const Cancelled&) {
-        return report(terminal, "stopped on request", "", Terminal::cancel_code());
+        return report_stop(terminal);
     } catch (const std::bad_alloc&) {
         return report(terminal, "out of memory", "use a scan with fewer faces, or a machine with more memory",
                       exit_internal);

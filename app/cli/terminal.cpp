@@ -1,5 +1,5 @@
-// The signal handler sets atomics; the context's flag is one of them, so that long work polls it. Progress is drawn at
-// most ten times a second.
+// The signal handler sets atomics; the context's flag is one of them, so that long work polls it. A thread polls it
+// too. Progress is drawn at most ten times a second, and at least twice.
 
 #include "app/cli/terminal.h"
 
@@ -12,15 +12,20 @@
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
+#include <utility>
 
 #include "app/cli/exit_code.h"
 #include "app/report/timings_report.h"
 #include "base/text.h"
+#include "base/unfinished.h"
 
 namespace qchopper {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds look_every{20};      // for a stop
+constexpr std::chrono::milliseconds time_to_answer{80};  // for the work itself
+constexpr std::chrono::milliseconds draw_every{100};     // at most
+constexpr std::chrono::milliseconds draw_again{500};     // where no count has changed
 
 std::atomic<bool> cancelled{false};
 std::atomic<int> signal_number{0};
@@ -59,9 +64,55 @@ void catch_signals() {
     signal(SIGPIPE, SIG_IGN);
 }
 
-Terminal::Terminal(bool json) : json_(json), shows_progress_(is_plain_terminal()) {}
+Terminal::Terminal(bool json)
+    : json_(json),
+      shows_progress_(is_plain_terminal()),
+      watcher_([this](const std::stop_token& stop) { watch(stop); }) {}
+
+Terminal::~Terminal() {
+    begin_end();
+}
+
+void Terminal::set_unchanged(const std::string& sentence) {
+    const std::lock_guard lock(changing_);
+    unchanged_ = sentence;
+}
+
+std::string Terminal::unchanged() const {
+    const std::lock_guard lock(changing_);
+    return unchanged_;
+}
+
+void Terminal::end_when_stopped(std::function<void()> report) {
+    const std::lock_guard lock(changing_);
+    report_stop_ = std::move(report);
+}
+
+void Terminal::begin_end() {
+    const std::lock_guard lock(changing_);  // held for good by end_at_once()
+    is_ending_ = true;
+    last_ = {};
+}
+
+void Terminal::watch(const std::stop_token& stop) {
+    std::optional<Clock::time_point> noticed;
+    std::unique_lock lock(changing_);
+    while (!waiting_.wait_for(lock, stop, look_every, [&] { return stop.stop_requested(); })) {
+        const auto now = Clock::now();
+        if (cancelled && !noticed) noticed = now;
+        if (noticed && now - *noticed >= time_to_answer && report_stop_ && !is_ending_) end_at_once();
+        if (shows_progress_ && !last_.what.empty() && now - drawn_ >= draw_again) draw_line(now);
+    }
+}
+
+void Terminal::end_at_once() {
+    remove_unfinished_and_block();
+    report_stop_();
+    std::_Exit(cancel_code());
+}
 
 void Terminal::set_quiet() {
+    const std::lock_guard lock(changing_);
     quiet_ = true;
     shows_progress_ = false;
 }
@@ -96,11 +147,14 @@ void Terminal::warn(const std::vector<std::string>& lines) {
 }
 
 void Terminal::error(const std::string& line) {
+    const std::lock_guard lock(changing_);
     clear_line();
     std::cerr << line << std::endl;
 }
 
 void Terminal::show(const std::vector<std::string>& lines, const std::string& document) {
+    begin_end();
+    const std::lock_guard lock(changing_);
     std::optional<RunTimes> times;
     if (timings_) times = timings_->so_far();
     clear_line();
@@ -119,29 +173,33 @@ void Terminal::json(const std::string& document) {
 
 void Terminal::progress(const Progress& progress) {
     if (!shows_progress_) return;
+    const std::lock_guard lock(changing_);
     const auto now = Clock::now();
-    if (what_ != progress.what || progress.done < done_) {  // other work, or the same once more
-        what_ = progress.what;
+    if (last_.what != progress.what || progress.done < last_.done) {  // other work, or the same once more
         started_ = now;
         done_at_start_ = progress.done;
         drawn_ = {};
     }
-    done_ = progress.done;
+    last_ = progress;
     const bool is_last = progress.total > 0 && progress.done >= progress.total;
-    if (!is_last && now - drawn_ < std::chrono::milliseconds(100)) return;
+    if (!is_last && now - drawn_ < draw_every) return;
+    draw_line(now);
+    if (is_last) clear_line();
+}
+
+void Terminal::draw_line(Clock::time_point now) {
     drawn_ = now;
-    std::string line = with_commas(progress.done);
-    if (progress.total > 0) line += " of " + with_commas(progress.total);
-    const std::size_t total_left = progress.total > done_at_start_ ? progress.total - done_at_start_ : 0;
+    std::string line = with_commas(last_.done);
+    if (last_.total > 0) line += " of " + with_commas(last_.total);
+    const std::size_t total_left = last_.total > done_at_start_ ? last_.total - done_at_start_ : 0;
     const double elapsed_s = std::chrono::duration<double>(now - started_).count();
-    line += " " + progress.what + "  " + fixed(std::floor(elapsed_s), 0) + " s" +
-            time_left(progress.done - done_at_start_, total_left, elapsed_s);
+    line += " " + last_.what + "  " + fixed(std::floor(elapsed_s), 0) + " s" +
+            time_left(last_.done - done_at_start_, total_left, elapsed_s);
     winsize size{};
     const std::size_t width = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 10 ? size.ws_col - 1U : 79;
     clear_line();
     std::cerr << line.substr(0, width) << std::flush;
     has_line_ = true;
-    if (is_last) clear_line();
 }
 
 ProjectContext Terminal::context() {
@@ -151,7 +209,7 @@ ProjectContext Terminal::context() {
     context.on_progress = [this](const Progress& p) { progress(p); };
     context.on_message = [this](const std::string& line) { message(line); };
     context.on_warning = [this](const std::string& line) { warn(line); };
-    context.on_saved = [this](const std::string& sentence) { unchanged = sentence; };
+    context.on_saved = [this](const std::string& sentence) { set_unchanged(sentence); };
     return context;
 }
 

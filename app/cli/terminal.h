@@ -1,14 +1,18 @@
 // Output of the program: results on stdout, messages on stderr, progress with counts and the time left on a terminal
-// only.
+// only. And the answer to Ctrl-C, also while work does not look for it.
 //
-// Not for several threads at once.
+// A thread of its own keeps the time in the progress line moving and watches for Ctrl-C; its users are one thread.
 
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstddef>
+#include <functional>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "app/project/project_context.h"
@@ -25,6 +29,7 @@ class Terminal {
  public:
     // With `json`, stdout holds exactly one JSON document.
     explicit Terminal(bool json);
+    ~Terminal();
     Terminal(const Terminal&) = delete;
     Terminal& operator=(const Terminal&) = delete;
 
@@ -43,30 +48,51 @@ class Terminal {
     // From now on contexts measure the time of stages.
     void set_timings();
 
-    // One sentence for the message of an error: what is unchanged or kept on disk.
-    std::string unchanged = "Nothing was written.";
+    // One sentence for the message of an error: what is unchanged or kept on disk; "Nothing was written." at first.
+    void set_unchanged(const std::string& sentence);
+    std::string unchanged() const;
 
-    // Shows progress in the terminal's last line, messages and warnings as above, and stores what is saved in
-    // `unchanged`. With the timings, if they are set. Cancelled by Ctrl-C and SIGTERM. Valid while this object lives.
+    // From now on a stop that is not answered at once ends the process: unfinished files are removed (unfinished.h),
+    // `report` prints why, and no destructor runs. For commands that a kill at any moment does not harm; not for those
+    // that lead a carving cell.
+    void end_when_stopped(std::function<void()> report);
+    // The program is about to report its end itself. Does not return if that has been done meanwhile.
+    void begin_end();
+
+    // Shows progress in the terminal's last line, messages and warnings as above, and stores what is saved by
+    // set_unchanged(). With the timings, if they are set. Cancelled by Ctrl-C and SIGTERM. Valid while this object
+    // lives.
     ProjectContext context();
     static bool is_cancelled();
     // The exit code for the last signal: 130, or 143 for SIGTERM.
     static int cancel_code();
 
  private:
+    using Clock = std::chrono::steady_clock;
+
     void progress(const Progress& progress);
+    void draw_line(Clock::time_point now);
     void clear_line();
+    void watch(const std::stop_token& stop);
+    void end_at_once();
+
+    // Recursive, because the report of a stop is printed by the public functions.
+    mutable std::recursive_mutex changing_;
+    std::condition_variable_any waiting_;
 
     bool json_;
     bool quiet_ = false;
     bool shows_progress_;
     bool has_line_ = false;
     std::optional<Timings> timings_;
-    std::string what_;  // of the last progress
-    std::size_t done_ = 0;
+    std::string unchanged_ = "Nothing was written.";
+    Progress last_;                  // progress; without a name if no work is under way
     std::size_t done_at_start_ = 0;  // when this work was first reported, at started_
-    std::chrono::steady_clock::time_point started_;
-    std::chrono::steady_clock::time_point drawn_;
+    Clock::time_point started_;
+    Clock::time_point drawn_;
+    std::function<void()> report_stop_;  // empty: a stop waits until work looks for it
+    bool is_ending_ = false;
+    std::jthread watcher_;  // the last member: it ends before the others
 };
 
 // From now on Ctrl-C and SIGTERM cancel long work, a second Ctrl-C within 2 s ends the program at once, and SIGPIPE is

@@ -38,7 +38,7 @@ LockedProject::LockedProject(ProjectDraft made, const Context& context)
     : lock(made.folder),
       project(
           made.folder, std::move(made.project), [scan = std::move(made.scan)]() mutable { return std::move(scan); },
-          context.timings) {}
+          context) {}
 
 LockedProject make_project(ProjectDraft draft, const ProjectContext& context) {
     const StageTimer stage(context, "project saved");

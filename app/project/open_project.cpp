@@ -35,14 +35,14 @@ std::string early_end(const std::string& sentence) {
 }
 
 OpenProject::OpenProject(std::filesystem::path folder, Project project,
-                         std::function<TriangleMesh()> import_project_scan, Timings* timings)
+                         std::function<TriangleMesh()> import_project_scan, const Context& context)
     : folder_(std::move(folder)),
       project_(std::move(project)),
-      timings_(timings),
+      context_(context),
       import_scan_(std::move(import_project_scan)) {}
 
 OpenProject::OpenProject(const std::filesystem::path& folder, const Context& context)
-    : OpenProject(folder, load_project(folder), {}, context.timings) {
+    : OpenProject(folder, load_project(folder), {}, context) {
     import_scan_ = [this, context] { return std::move(qchopper::import_project_scan(project_, context).mesh); };
 }
 
@@ -54,8 +54,8 @@ const TriangleMesh& OpenProject::scan() {
 const Segmentation& OpenProject::segmentation() {
     if (segmentation_) return *segmentation_;
     const TriangleMesh& imported = scan();
-    const StageTimer stage(timings_, "cuts replayed");
-    segmentation_ = replay(project_, imported);
+    const StageTimer stage(context_, "cuts replayed");
+    segmentation_ = replay(project_, imported, context_);
     return *segmentation_;
 }
 
@@ -84,7 +84,7 @@ void OpenProject::check_cell() {
 FitsCell OpenProject::fits_cell() {
     Setups* setups = this->setups();
     if (setups == nullptr) return {};
-    return [setups, timings = timings_](const Piece& piece) {
+    return [setups, timings = context_.timings](const Piece& piece) {
         const StageTimer stage(timings, "setups chosen");
         return setups->of(piece).envelope.fits();
     };
@@ -124,7 +124,8 @@ bool OpenProject::misses(std::size_t piece, const Plane& plane) {
 
 bool OpenProject::decide_cut(Cut cut) {
     Segmentation after = segmentation();
-    const StageTimer stage(timings_, "cuts made");
+    const StageTimer stage(context_, "cuts made");
+    context_.progress("cuts made", after.cuts.size(), 0);
     if (!apply(after, std::move(cut), project_.settings.objectives.fragment_volume_mm3)) return false;
     adopt(after);
     return true;
@@ -257,15 +258,15 @@ void OpenProject::keep_pieces_written() {
 }
 
 void OpenProject::save() {
-    const StageTimer stage(timings_, "project saved");
+    const StageTimer stage(context_, "project saved");
     save_project(folder_, project_);
     if (pieces_are_written_) write_current_pieces();
 }
 
 void OpenProject::write_current_pieces() {
     const Segmentation& current = segmentation();
-    const StageTimer stage(timings_, "pieces written");
-    write_pieces(folder_, current, project_.fragments);
+    const StageTimer stage(context_, "pieces written");
+    write_pieces(folder_, current, project_.fragments, context_);
 }
 
 }  // namespace qchopper

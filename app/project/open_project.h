@@ -35,10 +35,10 @@ std::string early_end(const std::string& sentence);
 class OpenProject {
  public:
     // `import_project_scan` returns the scan of project.scan; it is called once at most. Precondition of all functions
-    // that change something: the caller holds the lock of the folder (project_folder.h). `timings` outlives this
-    // object.
+    // that change something: the caller holds the lock of the folder (project_folder.h). What the context points to
+    // outlives this object.
     OpenProject(std::filesystem::path folder, Project project, std::function<TriangleMesh()> import_project_scan,
-                Timings* timings = nullptr);
+                const Context& context = {});
 
     // The project of a folder, whose scan is imported with the context when it is needed; every function that needs it
     // then throws what import_project_scan throws. Throws what load_project throws.
@@ -116,7 +116,7 @@ class OpenProject {
 
     std::filesystem::path folder_;
     Project project_;
-    Timings* timings_;
+    Context context_;
     std::function<TriangleMesh()> import_scan_;
     std::optional<TriangleMesh> scan_;
     std::optional<Segmentation> segmentation_;

@@ -47,10 +47,12 @@ void remove_but(const fs::path& folder, const std::set<std::string>& keep) {
 
 }  // namespace
 
-void write_pieces(const fs::path& folder, const Segmentation& segmentation, FragmentChoice fragments) {
+void write_pieces(const fs::path& folder, const Segmentation& segmentation, FragmentChoice fragments,
+                  const Context& context) {
     fs::create_directories(folder / "pieces");
     std::set<std::string> written;
     for (const Piece& piece : segmentation.pieces) {
+        context.progress("pieces written", written.size(), segmentation.pieces.size());
         const std::string name = piece.name + ".ply";
         assert(!piece.name.empty() && !written.contains(name));
         write_file(folder / "pieces" / name, to_ply(*piece.mesh));
@@ -66,6 +68,7 @@ void write_pieces(const fs::path& folder, const Segmentation& segmentation, Frag
 std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, const Segmentation& segmentation,
                                     Setups& setups, const std::string& program_version, const Context& context) {
     StageTimer stage(context, "setups chosen");
+    context.progress("setups chosen", 0, segmentation.pieces.size());
     setups.compute(segmentation.pieces, context);
     stage.next("jobs written");
     project.jobs.clear();
@@ -104,6 +107,7 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
 
 void write_pictures(const fs::path& folder, const std::vector<Piece>& pieces, const Context& context) {
     const StageTimer stage(context, "pictures drawn");
+    context.progress("pictures drawn", 0, 2);
     const std::vector<Vec3> shifts = exploded_shifts(pieces);
     Scene scene(coloured(pieces));
     write_file(folder / "pictures" / "segmentation.png", render_png(scene, {}, context));

@@ -18,7 +18,8 @@ namespace qchopper {
 
 // Writes pieces/<name>.ply, and pieces/fragments.ply if fragments are kept; removes other files there. Precondition:
 // the names of the pieces are different and not empty.
-void write_pieces(const std::filesystem::path& folder, const Segmentation& segmentation, FragmentChoice fragments);
+void write_pieces(const std::filesystem::path& folder, const Segmentation& segmentation, FragmentChoice fragments,
+                  const Context& context = {});
 
 // The result of prepare for one piece.
 struct PieceReport {

@@ -53,11 +53,12 @@ void record(Project& project, const Segmentation& segmentation) {
     project.warnings.insert(project.warnings.end(), segmentation.warnings.begin(), segmentation.warnings.end());
 }
 
-Segmentation replay(const Project& project, const TriangleMesh& scan) {
-    return replay(project, scan, project.cuts.size());
+Segmentation replay(const Project& project, const TriangleMesh& scan, const Context& context) {
+    return replay(project, scan, project.cuts.size(), context);
 }
 
-Segmentation replay(const Project& project, const TriangleMesh& scan, std::size_t cuts) {
+Segmentation replay(const Project& project, const TriangleMesh& scan, std::size_t cuts, const Context& context) {
+    context.progress("cuts made on the scan", 0, cuts);
     const double fragment_volume = project.settings.objectives.fragment_volume_mm3;
     Segmentation segmentation = uncut(scan, fragment_volume);
     discard_now(segmentation, project.discards);
@@ -68,6 +69,8 @@ Segmentation replay(const Project& project, const TriangleMesh& scan, std::size_
                              "prepare the scan again");
         }
         discard_now(segmentation, project.discards);
+        context.check_cancelled();
+        context.progress("cuts made on the scan", segmentation.cuts.size(), cuts);
     }
     return segmentation;
 }

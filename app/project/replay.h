@@ -11,6 +11,7 @@
 #include <string>
 
 #include "app/project/project.h"
+#include "base/context.h"
 
 namespace qchopper {
 
@@ -20,11 +21,11 @@ namespace qchopper {
 void record(Project& project, const Segmentation& segmentation);
 
 // Applies the first `cuts` of the cuts in force to the scan exactly as they were made, and discards what was discarded
-// before the next cut. Precondition: cuts <= project.cuts.size(). Throws InputError (config) if a cut misses or a piece
-// does not exist. O(cuts) times the cost of a cut.
-Segmentation replay(const Project& project, const TriangleMesh& scan, std::size_t cuts);
+// before the next cut. Reports progress in cuts. Throws Cancelled. Precondition: cuts <= project.cuts.size(). Throws
+// InputError (config) if a cut misses or a piece does not exist. O(cuts) times the cost of a cut.
+Segmentation replay(const Project& project, const TriangleMesh& scan, std::size_t cuts, const Context& context = {});
 // All of them.
-Segmentation replay(const Project& project, const TriangleMesh& scan);
+Segmentation replay(const Project& project, const TriangleMesh& scan, const Context& context = {});
 
 // The index of a piece in segmentation.pieces; nothing if no piece has that name. O(pieces).
 std::optional<std::size_t> piece_named(const Segmentation& segmentation, const std::string& name);

@@ -23,6 +23,7 @@ SegmentAnswer misfit_answer(const std::string& why, ProjectDraft draft) {
 
 void record_uncut(ProjectDraft& draft, const Context& context) {
     const StageTimer stage(context, "solids found");
+    context.progress("scans parted into solids", 0, 1);
     record(draft.project, uncut(draft.scan, draft.project.settings.objectives.fragment_volume_mm3));
 }
 

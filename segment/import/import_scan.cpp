@@ -115,6 +115,7 @@ RepairedScan repair_scan(const std::filesystem::path& path, const ImportOptions&
     context.check_cancelled();
     StageTimer stage(context, "scan read");
     const Bytes bytes = read_scan(path);
+    context.progress("MB of the scan read", 0, bytes.size() / 1'000'000);
     RawMesh scan = parse_mesh(bytes, name, folder_of(path));
     result.format = scan.format;
     result.sha256 = hash_of(bytes, scan.beside);

@@ -23,10 +23,10 @@ struct RepairState {
 struct StepProgress {
     const Context& context;
     std::size_t steps = 0;  // begun so far
-    // Throws Cancelled if the context asks for it.
+    // `what` names the step, as "edges paired". Throws Cancelled if the context asks for it.
     void begin(const std::string& what) {
         context.check_cancelled();
-        context.progress(what, ++steps, 0);
+        context.progress("steps of the repair (" + what + ")", ++steps, 0);
     }
 };
 

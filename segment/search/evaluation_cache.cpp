@@ -88,7 +88,9 @@ void EvaluationCache::evaluate(std::span<const Piece* const> pieces, const Conte
         tasks.push_back({piece, &e, {}});
     }
     if (tasks.empty()) return;
+    context.progress("pieces evaluated", 0, tasks.size());
     parallel_for(0, tasks.size(), [&](std::size_t i) {
+        context.check_cancelled();
         Task& task = tasks[i];
         if (!task.entry->box) task.entry->box = oriented_box(task.piece->mesh->points);
         task.evaluations.candidates = candidate_planes(*task.piece, *task.entry->box, options_);

@@ -85,6 +85,7 @@ class Search {
 
     void make_cuts() {
         const StageTimer stage(context_, "cuts made");
+        context_.progress("cuts made", beam_.front().segmentation.cuts.size(), 0);
         beam_ = next_round(std::move(beam_), settings_, cache_);
     }
 

@@ -1,8 +1,11 @@
 // qchopper repair as a process: what it writes, what it says, and that a failure leaves everything as it was.
 
 #include <gtest/gtest.h>
+#include <signal.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "app/cli/exit_code.h"
 #include "segment/io/read_mesh.h"
@@ -48,6 +51,21 @@ TEST_F(Repair, MakesASolidAndSaysHow) {
     const TriangleMesh solid = written("solid.ply");
     EXPECT_TRUE(edges(solid).faults.is_closed());
     EXPECT_EQ(solid.points, vertebra().points);  // to the last bit
+}
+
+// CGAL cannot be asked to stop; this wrap would take minutes.
+TEST_F(Repair, StopsInTheMiddleOfAnAlphaWrapAndLeavesNothing) {
+    const program::Contents before = program::contents(folder.path);
+    program::Process process(
+        {"repair", "scan.ply", "--units", "mm", "--alpha-wrap", "0.3", "-o", "wrapped.ply", "--json"}, {folder.path});
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    process.signal(SIGINT);
+    const Ended ended = process.wait(60);
+    EXPECT_TRUE(ended.in_time);
+    EXPECT_EQ(ended.code, exit_interrupted) << ended.err;
+    EXPECT_NE(ended.err.find("stopped on request. Nothing was written."), std::string::npos) << ended.err;
+    EXPECT_EQ(json::parse(ended.out)["exit_code"], int{exit_interrupted});
+    EXPECT_EQ(program::difference(before, program::contents(folder.path)), "");
 }
 
 TEST_F(Repair, EnlargesByAFactorAndSaysSo) {
