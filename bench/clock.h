@@ -1,4 +1,4 @@
-// Clocks: CPU time of this thread, and wall time.
+// Clocks: CPU time of this thread, CPU time of all threads, and wall time.
 
 #pragma once
 
@@ -13,6 +13,13 @@ namespace qchopper::bench {
 inline double cpu_s() {
     timespec t{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+// CPU seconds of the whole process, for work that runs on threads of a library.
+inline double process_cpu_s() {
+    timespec t{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
