@@ -46,34 +46,35 @@ void add_segment_steps(const CommandSpecimen& s, std::vector<CommandStep>& steps
     steps.push_back({"segment", "segment --undo", {"segment", project, "--undo"}, "cut", ""});
 }
 
-void add_project_steps(std::vector<CommandStep>& steps) {
+void add_project_steps(const CommandSpecimen& s, std::vector<CommandStep>& steps) {
     steps.push_back({"explain", "explain", {"explain", project}, "prepared", ""});
     steps.push_back({"export", "export 3mf", {"export", project, "--format", "3mf", "-o", "@/p.3mf"}, "prepared", ""});
-    steps.push_back({"export",
-                     "export 3mf, simplified",
-                     {"export", project, "--format", "3mf", "--simplify", "0.05", "-o", "@/p.3mf"},
-                     "prepared",
-                     ""});
+    steps.push_back(
+        {"export",
+         "export 3mf, simplified",
+         {"export", project, "--format", "3mf", "--max-faces", std::to_string(s.faces_a_piece), "-o", "@/p.3mf"},
+         "prepared",
+         ""});
     steps.push_back({"dry-run", "dry-run, all jobs", {"dry-run", project}, "prepared", ""});
 }
 
 }  // namespace
 
 std::vector<CommandSpecimen> command_specimens(const fs::path& data, const fs::path& made, bool is_small) {
-    const CommandSpecimen bunny{"bunny", data / "bunny_bun_zipper.ply", 0, "m", {0, 6}, all_groups()};
-    if (is_small) return {bunny, {"skull 100k", made / "skull_100k.ply", 100'000, "mm", {0, 6}, all_groups()}};
+    const CommandSpecimen bunny{"bunny", data / "bunny_bun_zipper.ply", 0, "m", {0, 6}, 2000, all_groups()};
+    if (is_small) return {bunny, {"skull 100k", made / "skull_100k.ply", 100'000, "mm", {0, 6}, 2000, all_groups()}};
     return {bunny,
-            {"CT head 371k", data / "ct_head_371k.ply", 0, "mm", {0, 6}, all_groups()},
-            {"skull 1.9M", made / "skull_1900k.ply", 1'900'000, "mm", {12, 20}, all_groups()},
-            {"CT head 1.9M", data / "ct_head_1912k.ply", 0, "mm", {0}, {"inspect", "repair", "prepare"}},
-            {"skull 10M", made / "skull_10M.ply", 10'000'000, "mm", {1}, {"inspect", "prepare"}}};
+            {"CT head 371k", data / "ct_head_371k.ply", 0, "mm", {0, 6}, 5000, all_groups()},
+            {"skull 1.9M", made / "skull_1900k.ply", 1'900'000, "mm", {12, 20}, 50'000, all_groups()},
+            {"CT head 1.9M", data / "ct_head_1912k.ply", 0, "mm", {0}, 50'000, {"inspect", "repair", "prepare"}},
+            {"skull 10M", made / "skull_10M.ply", 10'000'000, "mm", {1}, 50'000, {"inspect", "prepare"}}};
 }
 
 std::vector<CommandStep> command_steps(const CommandSpecimen& specimen, const std::set<std::string>& only) {
     std::vector<CommandStep> all;
     add_scan_steps(specimen, all);
     add_segment_steps(specimen, all);
-    add_project_steps(all);
+    add_project_steps(specimen, all);
     std::vector<CommandStep> chosen;
     std::set<std::string> needed;  // projects that later steps start from
     for (auto step = all.rbegin(); step != all.rend(); ++step) {

@@ -24,8 +24,9 @@ struct CommandSpecimen {
     std::filesystem::path scan;
     std::size_t faces = 0;  // of a synthetic skull that is made as the scan; 0: the scan is a file
     std::string unit = "mm";
-    std::vector<int> cuts;         // prepare once for each, ascending; the last project is that of the later steps
-    std::set<std::string> groups;  // the commands that are run
+    std::vector<int> cuts;          // prepare once for each, ascending; the last project is that of the later steps
+    std::size_t faces_a_piece = 0;  // to which export simplifies
+    std::set<std::string> groups;   // the commands that are run
 };
 
 // The specimens of the whole bench, or of the small one. `data` is the folder of the scans, `made` that of synthetic
