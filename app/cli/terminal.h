@@ -5,8 +5,8 @@
 
 #pragma once
 
+#include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstddef>
 #include <functional>
 #include <mutex>
@@ -78,11 +78,10 @@ class Terminal {
 
     // Recursive, because the report of a stop is printed by the public functions.
     mutable std::recursive_mutex changing_;
-    std::condition_variable_any waiting_;
 
     bool json_;
     bool quiet_ = false;
-    bool shows_progress_;
+    std::atomic<bool> shows_progress_;
     bool has_line_ = false;
     std::optional<Timings> timings_;
     std::string unchanged_ = "Nothing was written.";

@@ -4,7 +4,7 @@
 // Pineda, "A parallel algorithm for polygon rasterization" (1988); a query on an edge belongs to one triangle by a
 // symbolic shift, after H. Edelsbrunner and E. Mücke, "Simulation of simplicity" (1990). The crossing of
 // line_crossing.h would round to other last bits, and divides twice per triangle and query before it rejects. O(points
-// + triangles + queries in the cells covered); 12 bytes a point, 60 a query.
+// + triangles + queries in the cells covered); 12 bytes a point, about 130 a query.
 
 #include "segment/mesh/parallel_rays.h"
 

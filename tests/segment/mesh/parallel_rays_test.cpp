@@ -59,6 +59,38 @@ TEST(ParallelRays, AgreesWithTheDefinitionOnEveryShape) {
     EXPECT_GT(compared, 5000U);
 }
 
+// Whatever a short reach leaves out of consideration, it loses nothing: also far from the origin, where coordinates in
+// single precision would be coarse.
+TEST(ParallelRays, AShortReachChangesNoDistanceWithinIt) {
+    std::mt19937 random(5);
+    std::normal_distribution<double> normal;
+    std::size_t within = 0;
+    std::size_t beyond = 0;
+    for (const auto& [name, shape, solids] : shapes::all_closed()) {
+        for (const Vec3 shift : {Vec3{}, Vec3{3e5, -2e5, 1e5}}) {
+            const TriangleMesh mesh = shapes::moved(shape, shift);
+            const Vec3 n = normalized({normal(random), normal(random), normal(random)});
+            std::vector<RayQuery> queries;
+            for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+                const Triangle& v = mesh.triangles[t];
+                const Vec3 middle = (1.0 / 3) * (mesh.points[v[0]] + mesh.points[v[1]] + mesh.points[v[2]]);
+                const double along = dot(normalized(area_vector(mesh, t)), n);
+                if (std::abs(along) > 0.3) queries.push_back({middle, along < 0});
+            }
+            const std::vector<double> all = ray_distances(mesh, n, queries);
+            for (std::size_t q = 0; q < queries.size(); ++q) queries[q].reach = all[q] * (q % 2 == 0 ? 1 : 0.999);
+            const std::vector<double> some = ray_distances(mesh, n, queries);
+            for (std::size_t q = 0; q < queries.size(); ++q) {
+                const bool is_within = all[q] <= queries[q].reach;
+                ASSERT_EQ(some[q], is_within ? all[q] : std::numeric_limits<double>::infinity()) << name << " " << q;
+                ++(is_within ? within : beyond);
+            }
+        }
+    }
+    EXPECT_GT(within, 1000U);
+    EXPECT_GT(beyond, 1000U);
+}
+
 TEST(ParallelRays, ThroughEdgesAndVerticesOfAGridTheBoxIsNeverMissed) {
     const TriangleMesh box = shapes::box({0, 0, 0}, {10, 10, 10}, 5);
     std::vector<RayQuery> queries;
