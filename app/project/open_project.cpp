@@ -43,12 +43,19 @@ OpenProject::OpenProject(std::filesystem::path folder, Project project,
 
 OpenProject::OpenProject(const std::filesystem::path& folder, const Context& context)
     : OpenProject(folder, load_project(folder), {}, context) {
-    import_scan_ = [this, context] { return std::move(qchopper::import_project_scan(project_, context).mesh); };
+    import_scan_ = [this] { return std::move(qchopper::import_project_scan(project_, context_).mesh); };
 }
 
 const TriangleMesh& OpenProject::scan() {
-    if (!scan_) scan_ = import_scan_();
+    if (!scan_) {
+        scan_ = import_scan_();
+        import_scan_ = [this] { return std::move(qchopper::import_project_scan(project_, context_).mesh); };
+    }
     return *scan_;
+}
+
+void OpenProject::release_scan() {
+    if (segmentation_) scan_.reset();
 }
 
 const Segmentation& OpenProject::segmentation() {
@@ -213,6 +220,7 @@ SearchEnd OpenProject::search(const FitsCell& fits_cell, const std::function<voi
                               const Context& context, std::optional<double> time_limit_s) {
     remove_outputs(folder_, project_);
     Segmentation working = segmentation();
+    release_scan();
     const StageTimer stage(context, "search");
     BeamProgress progress = beam_progress(project_, working, [this]() -> const TriangleMesh& { return scan(); });
     const auto keep = [&](const Segmentation& best) {
@@ -243,6 +251,8 @@ PreparedProject OpenProject::prepare(const std::string& program_version, const C
     if (is_out_of_time) record_end(*end_);
     if (!end_ || is_out_of_time) write_current_pieces();
     PreparedProject prepared{folder_, {}, setups()->cell(), {}};
+    static_cast<void>(segmentation());
+    release_scan();
     prepared.pieces = write_jobs(folder_, project_, segmentation(), *setups(), program_version, context);
     write_pictures(folder_, segmentation().pieces, context);
     project_.stage = is_out_of_time ? Stage::cutting : Stage::done;

@@ -34,9 +34,9 @@ std::string early_end(const std::string& sentence);
 
 class OpenProject {
  public:
-    // `import_project_scan` returns the scan of project.scan; it is called once at most. Precondition of all functions
-    // that change something: the caller holds the lock of the folder (project_folder.h). What the context points to
-    // outlives this object.
+    // `import_project_scan` returns the scan of project.scan; it is called once at most, and later the scan is imported
+    // from its file. Precondition of all functions that change something: the caller holds the lock of the folder
+    // (project_folder.h). What the context points to outlives this object.
     OpenProject(std::filesystem::path folder, Project project, std::function<TriangleMesh()> import_project_scan,
                 const Context& context = {});
 
@@ -111,6 +111,8 @@ class OpenProject {
     void record_end(const SearchEnd& end);
     std::optional<Decision> change_committed(const Decision* changed, std::size_t committed);
     void commit_first(std::size_t committed);
+    // Frees the scan, which the pieces do not need: 36 bytes a face. scan() imports it again.
+    void release_scan();
     void save();
     void write_current_pieces();
 
