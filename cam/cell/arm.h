@@ -4,13 +4,19 @@
 // After M. Brandstötter, A. Angerer and M. Hofbaur, "An analytical solution of the inverse kinematics problem of
 // industrial serial manipulators with an ortho-parallel basis and a spherical wrist" (2014). mm, radians, seconds. A
 // pose is that of the flange in the frame of the robot's base: z up, x forward at zero; the flange's z points out of
-// it. Pure functions, for any number of threads. forward() of every answer of inverse() is the pose that was asked for,
-// to 1e-6 mm and 1e-9 rad (tests/cam/cell/arm_test.cpp).
+// it. Pure functions, for any number of threads; only turns_within() allocates. forward() of every answer of inverse()
+// is the pose that was asked for, to 1e-6 mm and 1e-9 rad (tests/cam/cell/arm_test.cpp).
+//
+// An angle is a rotation in the convention of the paper, a joint is what the controller shows. Preconditions of all
+// functions: c2 > 0, a2 and c3 are not both 0, each sign is 1 or -1.
 
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
+#include <optional>
+#include <vector>
 
 #include "base/pose.h"
 
@@ -45,5 +51,99 @@ struct JointRange {
 };
 
 using JointRanges = std::array<JointRange, axes_of_arm>;
+
+// The flange in the base. Joints that are not finite give a pose that is not finite.
+Pose forward(const ArmGeometry& arm, const Joints& joints);
+
+// Which of the eight ways to hold a pose. Two of them meet at each singularity, and there rounding decides.
+struct ArmBranch {
+    bool is_back = false;            // the arm bends backwards over axis 1 to the wrist centre
+    bool is_elbow_negative = false;  // angle of axis 3 + atan2(a2, c3), in -pi..pi, is negative
+    bool is_wrist_flipped = false;   // angle of axis 5, in -pi..pi, is negative
+    bool operator==(const ArmBranch&) const = default;
+};
+
+// The branch of finite joints.
+ArmBranch branch_of(const ArmGeometry& arm, const Joints& joints);
+
+struct ArmAnswer {
+    Joints joints{};
+    ArmBranch branch;
+};
+
+// At most one answer for each branch.
+class ArmAnswers {
+ public:
+    std::size_t size() const { return size_; }
+    bool empty() const { return size_ == 0; }
+    const ArmAnswer* begin() const { return answers_.data(); }
+    const ArmAnswer* end() const { return answers_.data() + size_; }
+    // Precondition: i < size().
+    const ArmAnswer& operator[](std::size_t i) const {
+        assert(i < size_);
+        return answers_[i];
+    }
+    // Precondition: size() < 8.
+    void push_back(const ArmAnswer& answer) {
+        assert(size_ < answers_.size());
+        answers_[size_++] = answer;
+    }
+
+ private:
+    std::array<ArmAnswer, 8> answers_{};
+    std::size_t size_ = 0;
+};
+
+// All joints, each in -pi..pi, that hold the flange at a pose, whatever the ranges: 8 answers, or 4 where only the
+// front or only the back reaches the wrist centre, or none where neither does or an argument is not finite. A wrist
+// centre that is too far by rounding (cosine of the elbow beyond +1 or -1 by at most 1e-9) is reached.
+//
+// Where the pose leaves joints free, `neighbour` decides, the joints of a pose nearby. At the wrist's singularity (sine
+// of angle 5 below 1e-9) joint 4 is that of the neighbour and joint 6 follows; at the shoulder's (wrist centre within
+// 1e-9 mm of axis 1) joint 1 of the front is that of the neighbour. The two wrist branches are then the same joints, as
+// are the two elbow branches of a stretched arm.
+ArmAnswers inverse(const ArmGeometry& arm, const Pose& flange, const Joints& neighbour = {});
+
+// The answers of inverse() of which each joint, by whole turns, can lie in its range less `margin` (radians) at both
+// ends. Of the turns that lie there the one nearest to the neighbour's joint is given; turns_within() lists all.
+ArmAnswers inverse_within(const ArmGeometry& arm, const JointRanges& ranges, double margin, const Pose& flange,
+                          const Joints& neighbour = {});
+
+// Whether each joint lies in its range less `margin` (radians) at both ends.
+bool is_within(const JointRanges& ranges, double margin, const Joints& joints);
+
+// All joints that differ from the given ones by whole turns of axes and lie in the ranges less `margin` (radians), in
+// ascending order of joint 1, then of joint 2 and so on. None if a joint or a range is not finite. Their number is the
+// product of the numbers of turns of the six axes.
+std::vector<Joints> turns_within(const JointRanges& ranges, double margin, const Joints& joints);
+
+// How near joints are to a singularity, where the arm cannot move in some direction. 0 is singular in each.
+struct ArmSingularity {
+    double wrist = 0;     // |sin| of angle 5, 0..1: axes 4 and 6 are parallel
+    double shoulder = 0;  // mm: distance of the wrist centre from axis 1, measured at right angles to the offset b
+    double elbow = 0;     // 1 - distance of the wrist centre from axis 2 / its largest, 0..1: the arm is stretched
+};
+
+// An arm folded completely is singular as well, and its elbow is not 0; no range of a real arm contains it.
+ArmSingularity singularity(const ArmGeometry& arm, const Joints& joints);
+
+// Row by row. Rows 0..2: velocity of the flange's origin (mm/rad), rows 3..5: angular velocity (rad/rad), both along
+// x, y, z of the base; columns: joints.
+using Jacobian = std::array<std::array<double, axes_of_arm>, 6>;
+
+// The geometric Jacobian: velocity of the flange = jacobian * speeds of the joints.
+Jacobian jacobian(const ArmGeometry& arm, const Joints& joints);
+
+// Along x, y, z of the base.
+struct CartesianVelocity {
+    Vec3 linear;   // mm/s
+    Vec3 angular;  // rad/s
+};
+
+// Speeds of the joints (radians/s) at which the tool tip has a velocity; tip_in_flange is the tool tip in the frame of
+// the flange (mm). Nothing at a singularity, or if an argument is not finite: singular is a pivot of at most 1e-9 when
+// lengths are divided by that of the stretched arm.
+std::optional<Joints> joint_speeds(const ArmGeometry& arm, const Joints& joints, Vec3 tip_in_flange,
+                                   const CartesianVelocity& tip);
 
 }  // namespace qchopper

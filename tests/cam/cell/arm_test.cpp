@@ -1,0 +1,536 @@
+#include "cam/cell/arm.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "cam/cell/kuka_angles.h"
+#include "tests/cam/cell/arms.h"
+
+namespace qchopper {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double full_turn = 2 * pi;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+std::vector<NamedArm> all_arms() {
+    std::vector<NamedArm> arms = real_arms();
+    arms.push_back(offset_arm());
+    return arms;
+}
+
+Vec3 column(const Pose& pose, int i) {
+    return {pose.row[0][i], pose.row[1][i], pose.row[2][i]};
+}
+
+// Angle of the rotation from one pose to another, for small angles.
+double rotation_between(const Pose& a, const Pose& b) {
+    double square = 0;
+    for (int i = 0; i < 3; ++i) square += dot(column(a, i) - column(b, i), column(a, i) - column(b, i));
+    return std::sqrt(square / 2);
+}
+
+double distance_modulo_turns(const Joints& a, const Joints& b) {
+    double largest = 0;
+    for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
+        largest = std::max(largest, std::abs(std::remainder(a[axis] - b[axis], full_turn)));
+    }
+    return largest;
+}
+
+bool is_among(const ArmAnswers& answers, const Joints& joints, double tolerance) {
+    return std::any_of(answers.begin(), answers.end(), [&](const ArmAnswer& answer) {
+        return distance_modulo_turns(answer.joints, joints) <= tolerance;
+    });
+}
+
+Joints random_joints(const NamedArm& arm, std::mt19937& random) {
+    Joints joints{};
+    for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
+        joints[axis] = std::uniform_real_distribution(arm.ranges[axis].min, arm.ranges[axis].max)(random);
+    }
+    return joints;
+}
+
+void expect_near(Vec3 a, Vec3 b, double tolerance, const std::string& what) {
+    EXPECT_LE(norm(a - b), tolerance) << what << ": " << a.x << " " << a.y << " " << a.z << " is not " << b.x << " "
+                                      << b.y << " " << b.z;
+}
+
+// Largest errors over the answers of many poses.
+struct WorstErrors {
+    double position = 0;
+    double rotation = 0;
+    double joints = 0;
+    void add_pose(const Pose& asked, const Pose& got) {
+        position = std::max(position, norm(asked.shift - got.shift));
+        rotation = std::max(rotation, rotation_between(asked, got));
+    }
+};
+
+struct PoseOfJoints {
+    NamedArm arm;
+    Joints degrees;
+    Vec3 position;
+    Vec3 z_axis;
+};
+
+TEST(Arm, FlangeIsWhereTheTablesSay) {
+    const Vec3 turned{.257707, -.428045, -.866236};
+    const std::vector<PoseOfJoints> cases{
+        {kr_120_r2500_pro(), {0, -90, 90, 0, 0, 0}, {1565, 0, 1784}, {1, 0, 0}},
+        {kr_120_r2500_pro(), {0, -90, 90, 0, 90, 0}, {1350, 0, 1569}, {0, 0, -1}},
+        {kr_120_r2500_pro(), {30, -60, 80, 20, 45, -70}, {1658.134, -1017.365, 1104.141}, turned},
+        {kr_60_ha(), {0, -90, 90, 0, 0, 0}, {1340, 0, 1810}, {1, 0, 0}},
+        {kr_60_ha(), {30, -60, 80, 20, 45, -70}, {1425.243, -870.338, 1259.660}, turned},
+        {irb_6640_185(), {0, 0, 0, 0, 0, 0}, {1912, 0, 2055}, {1, 0, 0}},
+        {irb_6640_185(), {0, 0, 0, 0, 90, 0}, {1712, 0, 1855}, {0, 0, -1}},
+        {irb_6640_185(), {30, 20, 10, 20, 45, -70}, {1750.481, 1066.492, 1081.576}, {.121687, .349514, -.928995}}};
+    for (const PoseOfJoints& c : cases) {
+        const Pose flange = forward(c.arm.geometry, radians(c.degrees));
+        expect_near(flange.shift, c.position, 0.001, c.arm.name);
+        expect_near(column(flange, 2), c.z_axis, 1e-6, c.arm.name);
+        const ArmAnswers answers = inverse(c.arm.geometry, flange);
+        for (const ArmAnswer& answer : answers) {
+            expect_near(forward(c.arm.geometry, answer.joints).shift, c.position, 0.001, c.arm.name);
+        }
+        EXPECT_TRUE(is_among(answers, radians(c.degrees), 1e-9)) << c.arm.name;
+    }
+}
+
+TEST(Arm, FlangesXAxisIsWhereTheTablesSay) {
+    const Joints bent = radians({30, -60, 80, 20, 45, -70});
+    for (const NamedArm& arm : {kr_120_r2500_pro(), kr_60_ha()}) {
+        expect_near(column(forward(arm.geometry, bent), 0), {.040830, .900541, -.432850}, 1e-6, arm.name);
+    }
+    const Pose flange = forward(irb_6640_185().geometry, radians({30, 20, 10, 20, 45, -70}));
+    expect_near(column(flange, 0), {-.018804, -.934971, -.354226}, 1e-6, "IRB 6640");
+}
+
+TEST(Arm, EveryAnswerHoldsThePoseAndTheGeneratingJointsAreOneOfThem) {
+    for (const NamedArm& arm : all_arms()) {
+        std::mt19937 random(7);
+        WorstErrors worst;
+        std::size_t missing = 0;
+        std::size_t answered = 0;
+        std::size_t misnamed = 0;
+        for (int i = 0; i < 100'000; ++i) {
+            const Joints joints = random_joints(arm, random);
+            const ArmBranch branch = branch_of(arm.geometry, joints);
+            const Pose flange = forward(arm.geometry, joints);
+            const ArmAnswers answers = inverse(arm.geometry, flange);
+            const ArmAnswer* generating = nullptr;
+            for (const ArmAnswer& answer : answers) {
+                worst.add_pose(flange, forward(arm.geometry, answer.joints));
+                misnamed += branch_of(arm.geometry, answer.joints) == answer.branch ? 0 : 1;
+                if (answer.branch == branch) generating = &answer;
+            }
+            answered += answers.size();
+            missing += generating == nullptr ? 1 : 0;
+            if (generating != nullptr) {
+                worst.joints = std::max(worst.joints, distance_modulo_turns(generating->joints, joints));
+            }
+        }
+        EXPECT_EQ(missing, 0U) << arm.name;
+        EXPECT_EQ(misnamed, 0U) << arm.name;
+        EXPECT_GT(answered, 400'000U) << arm.name;
+        EXPECT_LT(worst.position, 1e-6) << arm.name;
+        EXPECT_LT(worst.rotation, 1e-9) << arm.name;
+        EXPECT_LT(worst.joints, 1e-7) << arm.name;
+    }
+}
+
+TEST(Arm, BranchesOfAPoseDifferAndJointsAreWithinOneTurn) {
+    std::mt19937 random(8);
+    for (const NamedArm& arm : all_arms()) {
+        const Pose flange = forward(arm.geometry, radians({10, -70, 100, 30, 60, 20}));
+        const ArmAnswers answers = inverse(arm.geometry, flange, random_joints(arm, random));
+        EXPECT_FALSE(answers.empty()) << arm.name;
+        for (std::size_t i = 0; i < answers.size(); ++i) {
+            for (const double joint : answers[i].joints) EXPECT_LE(std::abs(joint), pi) << arm.name;
+            for (std::size_t j = 0; j < i; ++j) {
+                EXPECT_FALSE(answers[i].branch == answers[j].branch) << arm.name;
+                EXPECT_GT(distance_modulo_turns(answers[i].joints, answers[j].joints), 1e-3) << arm.name;
+            }
+        }
+    }
+}
+
+TEST(Arm, BranchSaysWhereWristCentreElbowAndWristAre) {
+    const NamedArm arm = kr_120_r2500_pro();
+    const auto branch = [&](const Joints& degrees) { return branch_of(arm.geometry, radians(degrees)); };
+    EXPECT_EQ(branch({0, -90, 90, 0, 30, 0}), (ArmBranch{false, false, false}));
+    EXPECT_EQ(branch({0, -90, 90, 0, -30, 0}), (ArmBranch{false, false, true}));
+    EXPECT_EQ(branch({0, -30, -60, 0, 30, 0}), (ArmBranch{false, true, false}));
+    EXPECT_EQ(branch({0, -140, -60, 0, 30, 0}), (ArmBranch{true, true, false}));
+}
+
+TEST(Arm, UnreachablePosesHaveNoAnswer) {
+    for (const NamedArm& arm : all_arms()) {
+        EXPECT_TRUE(inverse(arm.geometry, {Pose{}.row, {20'000, 0, 500}}).empty()) << arm.name;
+        EXPECT_TRUE(inverse(arm.geometry, {Pose{}.row, {0, 0, 1e200}}).empty()) << arm.name;
+    }
+    // Too near to axis 2: between the lengths of upper arm and forearm lie 149 mm.
+    const ArmGeometry arm = kr_120_r2500_pro().geometry;
+    const ArmAnswers behind = inverse(arm, {Pose{}.row, {350 + 100, 0, 675 + 215}});
+    EXPECT_EQ(behind.size(), 4U);
+    for (const ArmAnswer& answer : behind) EXPECT_TRUE(answer.branch.is_back);
+    // Nearer to axis 1 than the arm is offset.
+    const ArmGeometry offset = offset_arm().geometry;
+    EXPECT_TRUE(inverse(offset, {Pose{}.row, {119, 0, 2000}}).empty());
+    EXPECT_FALSE(inverse(offset, {Pose{}.row, {121, 0, 2000}}).empty());
+}
+
+TEST(Arm, ReachEndsAtTheStretchedArm) {
+    for (const NamedArm& arm : real_arms()) {
+        const ArmGeometry& g = arm.geometry;
+        const double stretched = g.c2 + std::hypot(g.a2, g.c3);
+        const auto flange_at = [&](double distance) { return Pose{Pose{}.row, {g.a1 + distance, 0, g.c1 + g.c4}}; };
+        const Pose flange = flange_at(stretched);
+        const ArmAnswers answers = inverse(g, flange);
+        ASSERT_EQ(answers.size(), 4U) << arm.name;
+        for (const ArmAnswer& answer : answers) {
+            const Pose held = forward(g, answer.joints);
+            EXPECT_LT(norm(held.shift - flange.shift), 1e-6) << arm.name;
+            EXPECT_LT(rotation_between(held, flange), 1e-9) << arm.name;
+            EXPECT_NEAR(singularity(g, answer.joints).elbow, 0, 1e-12) << arm.name;
+        }
+        const Pose rounded = flange_at(stretched + 1e-8);
+        EXPECT_EQ(inverse(g, rounded).size(), 4U) << arm.name;
+        for (const ArmAnswer& answer : inverse(g, rounded)) {
+            EXPECT_LT(norm(forward(g, answer.joints).shift - rounded.shift), 1e-6) << arm.name;
+        }
+        EXPECT_TRUE(inverse(g, flange_at(stretched + 1e-3)).empty()) << arm.name;
+        // Where acos loses half of its digits, the pose is exact still.
+        for (const double shorter : {1e-12, 1e-10, 1e-8, 1e-6, 1e-4}) {
+            const Pose near = flange_at(stretched - shorter);
+            for (const ArmAnswer& answer : inverse(g, near)) {
+                EXPECT_LT(norm(forward(g, answer.joints).shift - near.shift), 1e-9) << arm.name << " " << shorter;
+            }
+        }
+    }
+}
+
+TEST(Arm, ValuesThatAreNotFiniteHaveNoAnswer) {
+    const NamedArm arm = kr_120_r2500_pro();
+    const Joints joints = radians({30, -60, 80, 20, 45, -70});
+    const Pose flange = forward(arm.geometry, joints);
+    for (const double bad : {nan, infinite, -infinite}) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (int k = 0; k < 3; ++k) {
+                Pose pose = flange;
+                pose.row[i][k] = bad;
+                EXPECT_TRUE(inverse(arm.geometry, pose).empty());
+            }
+            Pose pose = flange;
+            pose.shift[static_cast<int>(i)] = bad;
+            EXPECT_TRUE(inverse(arm.geometry, pose).empty());
+            EXPECT_TRUE(inverse_within(arm.geometry, arm.ranges, 0, pose).empty());
+        }
+        for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
+            Joints broken = joints;
+            broken[axis] = bad;
+            EXPECT_TRUE(inverse(arm.geometry, flange, broken).empty());
+            EXPECT_TRUE(inverse(arm.geometry, forward(arm.geometry, broken)).empty());
+            EXPECT_TRUE(turns_within(arm.ranges, 0, broken).empty());
+            EXPECT_FALSE(is_within(arm.ranges, 0, broken));
+            EXPECT_FALSE(joint_speeds(arm.geometry, broken, {}, {{1, 0, 0}, {}}));
+        }
+        EXPECT_TRUE(inverse_within(arm.geometry, arm.ranges, std::abs(bad), flange).empty());
+        EXPECT_TRUE(turns_within(arm.ranges, -std::abs(bad), joints).empty());
+        EXPECT_FALSE(joint_speeds(arm.geometry, joints, {bad, 0, 0}, {{1, 0, 0}, {}}));
+        EXPECT_FALSE(joint_speeds(arm.geometry, joints, {}, {{bad, 0, 0}, {}}));
+        EXPECT_FALSE(joint_speeds(arm.geometry, joints, {}, {{}, {0, 0, bad}}));
+    }
+}
+
+TEST(Arm, WristAtItsSingularityFollowsTheNeighbour) {
+    for (const NamedArm& arm : real_arms()) {
+        const Joints held = radians({20, -70, 60, 37, 0, 10});
+        const Pose flange = forward(arm.geometry, held);
+        const Joints neighbour = radians({0, 0, 0, 37 - 360, 0, 0});
+        const ArmAnswers near = inverse(arm.geometry, flange, neighbour);
+        EXPECT_TRUE(is_among(near, held, 1e-9)) << arm.name;
+        const ArmAnswers far = inverse(arm.geometry, flange);
+        EXPECT_TRUE(is_among(far, radians({20, -70, 60, 0, 0, 47}), 1e-9)) << arm.name;
+        for (const ArmAnswers& answers : {near, far}) {
+            for (const ArmAnswer& answer : answers) {
+                const Pose again = forward(arm.geometry, answer.joints);
+                EXPECT_LT(norm(again.shift - flange.shift), 1e-6) << arm.name;
+                EXPECT_LT(rotation_between(again, flange), 1e-9) << arm.name;
+            }
+        }
+    }
+}
+
+TEST(Arm, PoseIsExactHoweverNearTheWristIsToItsSingularity) {
+    for (const NamedArm& arm : all_arms()) {
+        for (const double angle : {1e-3, 1e-6, 1e-8, 1.1e-9, 0.9e-9, 1e-12}) {
+            Joints joints = radians({20, -70, 60, 37, 0, 10});
+            joints[4] = arm.geometry.sign[4] * (angle + arm.geometry.offset[4]);
+            const Pose flange = forward(arm.geometry, joints);
+            const ArmAnswers answers = inverse(arm.geometry, flange);
+            EXPECT_GE(answers.size(), 4U) << arm.name;
+            for (const ArmAnswer& answer : answers) {
+                EXPECT_LT(rotation_between(forward(arm.geometry, answer.joints), flange), 1.5e-9)
+                    << arm.name << " " << angle;
+            }
+        }
+    }
+}
+
+TEST(Arm, ShoulderAtItsSingularityFollowsTheNeighbour) {
+    const ArmGeometry arm = kr_120_r2500_pro().geometry;
+    const Pose flange{Pose{}.row, {0, 0, 2200}};
+    const ArmAnswers answers = inverse(arm, flange, radians({50, 0, 0, 0, 0, 0}));
+    ASSERT_FALSE(answers.empty());
+    for (const ArmAnswer& answer : answers) {
+        const double expected = answer.branch.is_back ? radians(-130) : radians(50);
+        EXPECT_NEAR(std::remainder(answer.joints[0] - expected, full_turn), 0, 1e-12);
+        EXPECT_LT(norm(forward(arm, answer.joints).shift - flange.shift), 1e-6);
+        EXPECT_LT(singularity(arm, answer.joints).shoulder, 1e-6);
+        EXPECT_FALSE(joint_speeds(arm, answer.joints, {0, 0, 300}, {{0, 10, 0}, {}}));
+    }
+}
+
+TEST(Arm, AnswersWithinRangesAreThoseThatSomeTurnBringsThere) {
+    for (const NamedArm& arm : all_arms()) {
+        std::mt19937 random(9);
+        std::size_t kept = 0;
+        for (int i = 0; i < 2'000; ++i) {
+            const double margin = radians(i % 2 == 0 ? 0 : 3);
+            const Joints joints = random_joints(arm, random);
+            const Joints neighbour = random_joints(arm, random);
+            const Pose flange = forward(arm.geometry, joints);
+            const ArmAnswers within = inverse_within(arm.geometry, arm.ranges, margin, flange, neighbour);
+            std::size_t reachable = 0;
+            for (const ArmAnswer& answer : inverse(arm.geometry, flange, neighbour)) {
+                reachable += turns_within(arm.ranges, margin, answer.joints).empty() ? 0 : 1;
+            }
+            EXPECT_EQ(within.size(), reachable) << arm.name;
+            for (const ArmAnswer& answer : within) {
+                EXPECT_TRUE(is_within(arm.ranges, margin, answer.joints)) << arm.name;
+                for (const Joints& turned : turns_within(arm.ranges, margin, answer.joints)) {
+                    EXPECT_TRUE(is_within(arm.ranges, margin, turned)) << arm.name;
+                    EXPECT_LT(distance_modulo_turns(turned, answer.joints), 1e-12) << arm.name;
+                    for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
+                        EXPECT_LE(std::abs(answer.joints[axis] - neighbour[axis]),
+                                  std::abs(turned[axis] - neighbour[axis]) + 1e-12)
+                            << arm.name;
+                    }
+                }
+            }
+            if (is_within(arm.ranges, margin, joints)) {
+                EXPECT_TRUE(is_among(within, joints, 1e-6)) << arm.name;
+            }
+            kept += within.size();
+        }
+        EXPECT_GT(kept, 2'000U) << arm.name;
+    }
+}
+
+TEST(Arm, EveryTurnOfEveryAxisInItsRangeIsListed) {
+    JointRanges ranges = kr_120_r2500_pro().ranges;
+    const Joints joints = radians({-178, -60, 80, 20, 45, -70});
+    const std::vector<Joints> turned = turns_within(ranges, 0, joints);
+    const std::vector<Joints> expected{radians({-178, -60, 80, -340, 45, -70}), radians({-178, -60, 80, -340, 45, 290}),
+                                       radians({-178, -60, 80, 20, 45, -70}),   radians({-178, -60, 80, 20, 45, 290}),
+                                       radians({182, -60, 80, -340, 45, -70}),  radians({182, -60, 80, -340, 45, 290}),
+                                       radians({182, -60, 80, 20, 45, -70}),    radians({182, -60, 80, 20, 45, 290})};
+    ASSERT_EQ(turned.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
+            EXPECT_NEAR(turned[i][axis], expected[i][axis], 1e-12) << i << " " << axis;
+        }
+    }
+    EXPECT_EQ(turns_within(ranges, radians(5), joints).size(), 4U) << "182 degrees is outside of 185 less 5";
+    EXPECT_EQ(turns_within(ranges, radians(7.5), joints).size(), 0U) << "-178 degrees too";
+    EXPECT_TRUE(turns_within(ranges, radians(70), joints).empty()) << "nothing is left of the range of axis 2";
+    ranges[5].max = infinite;
+    EXPECT_TRUE(turns_within(ranges, 0, joints).empty());
+}
+
+TEST(Arm, TurnNearestToTheNeighbourIsGiven) {
+    const NamedArm arm = kr_120_r2500_pro();
+    const Joints joints = radians({30, -60, 80, 20, 45, -70});
+    const Pose flange = forward(arm.geometry, joints);
+    const auto given = [&](const Joints& neighbour) {
+        const ArmAnswers answers = inverse_within(arm.geometry, arm.ranges, 0, flange, neighbour);
+        for (const ArmAnswer& answer : answers) {
+            if (answer.branch == branch_of(arm.geometry, joints)) return answer.joints;
+        }
+        return Joints{};
+    };
+    EXPECT_NEAR(given(joints)[3], radians(20), 1e-9);
+    EXPECT_NEAR(given(joints)[5], radians(-70), 1e-9);
+    EXPECT_NEAR(given(radians({30, -60, 80, -300, 45, 280}))[3], radians(-340), 1e-9);
+    EXPECT_NEAR(given(radians({30, -60, 80, -300, 45, 280}))[5], radians(290), 1e-9);
+    EXPECT_NEAR(given(radians({30, -60, 80, 349, 45, 1e6}))[3], radians(20), 1e-9) << "380 degrees are out of range";
+    EXPECT_NEAR(given(radians({30, -60, 80, 349, 45, 1e6}))[5], radians(290), 1e-9);
+}
+
+TEST(Arm, SingularityMeasuresAreWhatTheyAreCalled) {
+    for (const NamedArm& arm : real_arms()) {
+        const ArmGeometry& g = arm.geometry;
+        const double forearm = std::hypot(g.a2, g.c3);
+        // Forearm at right angles to the upper arm: angle 3 plus the forearm's bend is 90 degrees.
+        Joints joints{};
+        const Joints angles{0, 0, pi / 2 - std::atan2(g.a2, g.c3), 0, pi / 6, 0};
+        for (std::size_t i = 0; i < axes_of_arm; ++i) joints[i] = g.sign[i] * (angles[i] + g.offset[i]);
+        const ArmSingularity nearness = singularity(g, joints);
+        EXPECT_NEAR(nearness.wrist, 0.5, 1e-12) << arm.name;
+        EXPECT_NEAR(nearness.shoulder, g.a1 + forearm, 1e-9) << arm.name;
+        EXPECT_NEAR(nearness.elbow, 1 - std::hypot(g.c2, forearm) / (g.c2 + forearm), 1e-12) << arm.name;
+    }
+    const ArmGeometry offset = offset_arm().geometry;
+    const ArmAnswers answers = inverse(offset, {Pose{}.row, {300, 400, 1800}});
+    EXPECT_FALSE(answers.empty());
+    for (const ArmAnswer& answer : answers) {
+        EXPECT_NEAR(singularity(offset, answer.joints).shoulder, std::sqrt(500.0 * 500 - 120 * 120), 1e-6);
+    }
+}
+
+TEST(Arm, JacobianIsTheDerivativeOfTheFlange) {
+    constexpr double h = 1e-5;
+    for (const NamedArm& arm : all_arms()) {
+        std::mt19937 random(10);
+        for (int i = 0; i < 200; ++i) {
+            const Joints joints = random_joints(arm, random);
+            const Jacobian rows = jacobian(arm.geometry, joints);
+            const Pose here = forward(arm.geometry, joints);
+            for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
+                Joints before = joints;
+                Joints after = joints;
+                before[axis] -= h;
+                after[axis] += h;
+                const Pose a = forward(arm.geometry, before);
+                const Pose b = forward(arm.geometry, after);
+                Vec3 angular;  // sum of c x dc / 2 over the columns c of a rotation that changes by w x c
+                for (int k = 0; k < 3; ++k) {
+                    angular = angular + (0.5 / (2 * h)) * cross(column(here, k), column(b, k) - column(a, k));
+                }
+                const Vec3 linear = (1 / (2 * h)) * (b.shift - a.shift);
+                expect_near({rows[0][axis], rows[1][axis], rows[2][axis]}, linear, 1e-5, arm.name);
+                expect_near({rows[3][axis], rows[4][axis], rows[5][axis]}, angular, 1e-8, arm.name);
+            }
+        }
+    }
+}
+
+TEST(Arm, JointSpeedsMoveTheToolTip) {
+    constexpr double h = 1e-4;  // s
+    const Vec3 tip_in_flange{30, -20, 550};
+    const CartesianVelocity wanted{{40, -25, 10}, {0.05, 0.02, -0.04}};
+    for (const NamedArm& arm : all_arms()) {
+        std::mt19937 random(11);
+        int moved = 0;
+        for (int i = 0; i < 500; ++i) {
+            const Joints joints = random_joints(arm, random);
+            const ArmSingularity nearness = singularity(arm.geometry, joints);
+            if (nearness.wrist < 0.15 || nearness.shoulder < 150 || nearness.elbow < 0.02) continue;
+            const auto speeds = joint_speeds(arm.geometry, joints, tip_in_flange, wanted);
+            ASSERT_TRUE(speeds) << arm.name;
+            Joints before = joints;
+            Joints after = joints;
+            for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
+                before[axis] -= h * (*speeds)[axis];
+                after[axis] += h * (*speeds)[axis];
+            }
+            const Pose a = forward(arm.geometry, before);
+            const Pose b = forward(arm.geometry, after);
+            const Pose here = forward(arm.geometry, joints);
+            expect_near((1 / (2 * h)) * (apply(b, tip_in_flange) - apply(a, tip_in_flange)), wanted.linear, 1e-3,
+                        arm.name);
+            for (int k = 0; k < 3; ++k) {
+                expect_near((1 / (2 * h)) * (column(b, k) - column(a, k)), cross(wanted.angular, column(here, k)), 1e-5,
+                            arm.name);
+            }
+            ++moved;
+        }
+        EXPECT_GT(moved, 100) << arm.name;
+    }
+}
+
+TEST(Arm, NoJointSpeedsAtASingularity) {
+    for (const NamedArm& arm : real_arms()) {
+        const ArmGeometry& g = arm.geometry;
+        EXPECT_FALSE(joint_speeds(g, radians({10, -70, 60, 30, 0, 20}), {}, {{1, 2, 3}, {}})) << arm.name;
+        EXPECT_TRUE(joint_speeds(g, radians({10, -70, 60, 30, 0.01, 20}), {}, {{1, 2, 3}, {}})) << arm.name;
+        const double stretched = g.c2 + std::hypot(g.a2, g.c3);
+        for (const ArmAnswer& answer : inverse(g, {Pose{}.row, {g.a1 + stretched + 1e-8, 0, g.c1 + g.c4}})) {
+            EXPECT_FALSE(joint_speeds(g, answer.joints, {}, {{1, 2, 3}, {}})) << arm.name;
+        }
+    }
+}
+
+TEST(Arm, JointSpeedsDoNotDependOnTheDirectionsOfTheAxes) {
+    // Axes along x, y and z of the base: the Jacobian has zeros on its diagonal.
+    const NamedArm arm = kr_120_r2500_pro();
+    const auto speeds = joint_speeds(arm.geometry, radians({0, -90, 90, 0, 90, 0}), {}, {{0, 135, 0}, {0, 0, 0.1}});
+    ASSERT_TRUE(speeds);
+    // The flange at x = 1350 mm turns about axis 1, whose joint counts the other way.
+    for (std::size_t axis = 0; axis < axes_of_arm; ++axis) EXPECT_NEAR((*speeds)[axis], axis == 0 ? -0.1 : 0, 1e-12);
+}
+
+// Largest difference of two sets of angles, whole turns aside.
+double difference(const KukaAngles& a, const KukaAngles& b) {
+    return std::max({std::abs(std::remainder(a.a - b.a, full_turn)), std::abs(std::remainder(a.b - b.b, full_turn)),
+                     std::abs(std::remainder(a.c - b.c, full_turn))});
+}
+
+TEST(KukaAngles, AreThoseOfTheTables) {
+    const ArmGeometry arm = kr_120_r2500_pro().geometry;
+    const KukaAngles ahead = kuka_angles(forward(arm, radians({0, -90, 90, 0, 0, 0})));
+    EXPECT_LT(difference(ahead, {0, pi / 2, 0}), 1e-9);
+    EXPECT_EQ(ahead.c, 0);
+    EXPECT_LT(difference(kuka_angles(forward(arm, radians({0, -90, 90, 0, 90, 0}))), {pi, 0, pi}), 1e-9);
+}
+
+TEST(KukaAngles, AreTurnsAboutZThenYThenX) {
+    EXPECT_LT(norm(rotate(pose_of({pi / 2, 0, 0}, {}), {1, 0, 0}) - Vec3{0, 1, 0}), 1e-15);
+    EXPECT_LT(norm(rotate(pose_of({0, pi / 2, 0}, {}), {1, 0, 0}) - Vec3{0, 0, -1}), 1e-15);
+    EXPECT_LT(norm(rotate(pose_of({0, 0, pi / 2}, {}), {0, 1, 0}) - Vec3{0, 0, 1}), 1e-15);
+    const Pose chained = pose_of({0.3, 0, 0}, {}) * pose_of({0, -0.4, 0}, {}) * pose_of({0, 0, 0.5}, {});
+    EXPECT_LT(rotation_between(chained, pose_of({0.3, -0.4, 0.5}, {})), 1e-15);
+    EXPECT_EQ(pose_of({1, 2, 3}, {4, 5, 6}).shift, (Vec3{4, 5, 6}));
+}
+
+TEST(KukaAngles, GiveTheRotationBack) {
+    std::mt19937 random(12);
+    std::uniform_real_distribution<double> turn(-pi, pi);
+    std::uniform_real_distribution<double> half(-pi / 2, pi / 2);
+    for (int i = 0; i < 10'000; ++i) {
+        const KukaAngles angles{turn(random), half(random), turn(random)};
+        const Pose pose = pose_of(angles, {});
+        const KukaAngles read = kuka_angles(pose);
+        EXPECT_LT(difference(read, angles), 1e-9);
+        EXPECT_LT(rotation_between(pose_of(read, {}), pose), 1e-12);
+    }
+}
+
+TEST(KukaAngles, LeaveOutCWhereBIsARightAngle) {
+    for (const double side : {1.0, -1.0}) {
+        for (const double distance : {0.0, 1e-12, 0.9e-9, 1.1e-9, 1e-8, 1e-6}) {
+            const Pose pose = pose_of({0.7, side * (pi / 2 - distance), 0.2}, {});
+            const KukaAngles read = kuka_angles(pose);
+            EXPECT_LT(rotation_between(pose_of(read, {}), pose), 1.5e-9) << distance;
+            const Pose other = pose_of({0.4, 0.5, -0.6}, {});
+            const Pose rounded = inverse(other) * (other * pose);
+            EXPECT_LT(rotation_between(pose_of(kuka_angles(rounded), {}), rounded), 1.5e-9) << distance;
+            if (distance < 1e-9) {
+                EXPECT_EQ(read.c, 0) << distance;
+                EXPECT_NEAR(read.a, 0.7 - side * 0.2, 2e-9) << distance;
+            } else {
+                EXPECT_LT(difference(read, {0.7, side * (pi / 2 - distance), 0.2}), 1e-5) << distance;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace qchopper
