@@ -30,7 +30,7 @@ bool is_identifier(const std::string& name) {
 }
 
 std::string read_identifier(const TomlReader& reader, std::string_view key) {
-    const std::string name = reader.text(key);
+    std::string name = reader.text(key);
     if (!is_identifier(name)) {
         reader.refuse(key, name + " is not a name: a letter, then letters, digits and _, at most 24 characters");
     }

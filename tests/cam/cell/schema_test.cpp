@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <span>
+#include <sstream>
 #include <string>
 
 #include "cam/cell/cell_keys.h"
@@ -47,6 +49,32 @@ void expect_same(const std::string& version, std::span<const TableKeys> known) {
         if (in_reader[path].contains("sources")) in_reader[path + ".sources"] = names_of(table.with_origin());
     }
     EXPECT_EQ(in_schema, in_reader);
+}
+
+bool is_word_part(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+// Whether the key stands in the text as a whole word.
+bool has_word(const std::string& text, const std::string& key) {
+    for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) {
+        const bool begins = at == 0 || !is_word_part(text[at - 1]);
+        const std::size_t end = at + key.size();
+        if (begins && (end == text.size() || !is_word_part(text[end]))) return true;
+    }
+    return false;
+}
+
+TEST(CellPage, ExplainsEveryKeyOfVersion2) {
+    std::ifstream stream(QCHOPPER_SOURCE_DIR "/docs/cell-file.md");
+    std::ostringstream bytes;
+    bytes << stream.rdbuf();
+    const std::string page = bytes.str();
+    for (const TableKeys& table : keys_2::all) {
+        for (const std::string_view key : table.keys) {
+            EXPECT_TRUE(has_word(page, std::string(key))) << table.path << "." << key;
+        }
+    }
 }
 
 TEST(CellSchema, HasTheKeysOfTheReader) {
