@@ -73,8 +73,10 @@ const toml::node& need(const TomlReader& reader, const toml::table& table, std::
 
 }  // namespace
 
-TomlReader::TomlReader(std::shared_ptr<const Table> table, std::string file, std::string prefix, Keys known)
-    : table_(std::move(table)), file_(std::move(file)), prefix_(std::move(prefix)) {
+TomlReader::TomlReader(std::shared_ptr<const Table> table, std::string file, std::string prefix)
+    : table_(std::move(table)), file_(std::move(file)), prefix_(std::move(prefix)) {}
+
+TomlReader TomlReader::with_keys(Keys known) const {
     for (const auto& [key, node] : *table_->keys) {
         const std::string_view name = key.str();
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
@@ -82,13 +84,18 @@ TomlReader::TomlReader(std::shared_ptr<const Table> table, std::string file, std
         throw InputError(InputFault::config, place(file_, node) + ": unknown key " + prefix_ + shown,
                          "did you mean " + prefix_ + std::string(nearest(shown, known)) + "?");
     }
+    return *this;
 }
 
 TomlReader TomlReader::parse(std::string_view text, const std::string& file, Keys known) {
+    return parse(text, file).with_keys(known);
+}
+
+TomlReader TomlReader::parse(std::string_view text, const std::string& file) {
     try {
         auto whole = std::make_shared<const toml::table>(toml::parse(text, file));
         const toml::table* keys = whole.get();
-        return {std::make_shared<const Table>(Table{std::move(whole), keys}), file, "", known};
+        return {std::make_shared<const Table>(Table{std::move(whole), keys}), file, ""};
     } catch (const toml::parse_error& error) {
         throw InputError(InputFault::config,
                          file + ":" + std::to_string(error.source().begin.line) + ": not TOML from column " +
@@ -119,6 +126,12 @@ std::string TomlReader::text(std::string_view key, std::size_t longest) const {
         refuse(key, "must be one line of at most " + std::to_string(longest) + " characters");
     }
     return value->get();
+}
+
+bool TomlReader::boolean(std::string_view key) const {
+    const toml::node& node = need(*this, *table_->keys, key);
+    if (!node.is_boolean()) refuse(key, "must be true or false, not " + kind(node));
+    return node.as_boolean()->get();
 }
 
 double TomlReader::number(std::string_view key, double least, double most) const {
@@ -161,6 +174,19 @@ std::vector<std::string> TomlReader::texts(std::string_view key) const {
     return values;
 }
 
+std::vector<std::array<double, 2>> TomlReader::pairs(std::string_view key, double least, double most) const {
+    const toml::node& node = need(*this, *table_->keys, key);
+    if (!node.is_array()) refuse(key, "must be a list of lists of two numbers, not " + kind(node));
+    std::vector<std::array<double, 2>> values;
+    for (const toml::node& element : *node.as_array()) {
+        const toml::array* pair = element.as_array();
+        if (pair == nullptr || pair->size() != 2) refuse(key, "must be a list of lists of two numbers");
+        values.push_back(
+            {checked(*this, key, *pair->get(0), least, most), checked(*this, key, *pair->get(1), least, most)});
+    }
+    return values;
+}
+
 Vec3 TomlReader::vector(std::string_view key, double least, double most) const {
     const std::vector<double> v = numbers(key, 3, least, most);
     return {v[0], v[1], v[2]};
@@ -169,7 +195,9 @@ Vec3 TomlReader::vector(std::string_view key, double least, double most) const {
 TomlReader TomlReader::table(std::string_view key, Keys known) const {
     const toml::node& node = need(*this, *table_->keys, key);
     if (!node.is_table()) refuse(key, "must be a table [" + full(key) + "], not " + kind(node));
-    return {std::make_shared<const Table>(Table{table_->whole, node.as_table()}), file_, full(key) + ".", known};
+    const TomlReader reader(std::make_shared<const Table>(Table{table_->whole, node.as_table()}), file_,
+                            full(key) + ".");
+    return reader.with_keys(known);
 }
 
 std::vector<TomlReader> TomlReader::tables(std::string_view key, Keys known) const {
@@ -179,8 +207,9 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key, Keys known) con
     std::vector<TomlReader> readers;
     for (const toml::node& element : *list) {
         if (!element.is_table()) refuse(key, "must be tables [[" + full(key) + "]], not " + kind(element));
-        readers.push_back(TomlReader(std::make_shared<const Table>(Table{table_->whole, element.as_table()}), file_,
-                                     full(key) + ".", known));
+        const TomlReader reader(std::make_shared<const Table>(Table{table_->whole, element.as_table()}), file_,
+                                full(key) + ".");
+        readers.push_back(reader.with_keys(known));
     }
     return readers;
 }

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -25,17 +26,24 @@ class TomlReader {
     // The outermost table. Throws InputError (config) if the text is not TOML or has an unknown key; `file` is for
     // messages.
     static TomlReader parse(std::string_view text, const std::string& file, Keys known);
+    // The same with any keys, for a file of which one key tells which others it may have; then call with_keys().
+    static TomlReader parse(std::string_view text, const std::string& file);
+    // This table. Throws InputError (config) if it has an unknown key.
+    TomlReader with_keys(Keys known) const;
 
     bool has(std::string_view key) const;
     // Each throws InputError (config) if the key is missing, of another type, or out of bounds.
     // One line, not empty, of at most `longest` bytes.
     std::string text(std::string_view key, std::size_t longest = 60) const;
+    bool boolean(std::string_view key) const;
     double number(std::string_view key, double least, double most) const;
     std::uint32_t whole(std::string_view key, std::uint32_t least, std::uint32_t most) const;
     std::vector<double> numbers(std::string_view key, std::size_t count, double least, double most) const;
     // Lists of any length, also empty.
     std::vector<double> numbers(std::string_view key, double least, double most) const;
     std::vector<std::string> texts(std::string_view key) const;
+    // A list of any length of lists of two numbers.
+    std::vector<std::array<double, 2>> pairs(std::string_view key, double least, double most) const;
     Vec3 vector(std::string_view key, double least, double most) const;
     TomlReader table(std::string_view key, Keys known) const;
     std::vector<TomlReader> tables(std::string_view key, Keys known) const;
@@ -45,7 +53,7 @@ class TomlReader {
 
  private:
     struct Table;  // hides the TOML library; owns the whole file
-    TomlReader(std::shared_ptr<const Table> table, std::string file, std::string prefix, Keys known);
+    TomlReader(std::shared_ptr<const Table> table, std::string file, std::string prefix);
     std::string full(std::string_view key) const { return prefix_ + std::string(key); }
 
     std::shared_ptr<const Table> table_;

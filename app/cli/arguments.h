@@ -102,6 +102,18 @@ struct ExportArguments : ExportRequest {
     std::filesystem::path project;
 };
 
+struct CellsListArguments {
+    std::filesystem::path folder = "cells";
+};
+
+struct CellsShowArguments {
+    std::filesystem::path file;
+};
+
+struct CellsCheckArguments {
+    std::filesystem::path file;
+};
+
 struct DryRunArguments {
     std::filesystem::path project;
     std::optional<std::string> piece;
@@ -130,7 +142,8 @@ struct Arguments {
     bool quiet = false;
     bool timings = false;
     std::variant<SampleArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
-                 ExplainArguments, ExportArguments, DryRunArguments, CellSimArguments, DispatchArguments>
+                 ExplainArguments, ExportArguments, CellsListArguments, CellsShowArguments, CellsCheckArguments,
+                 DryRunArguments, CellSimArguments, DispatchArguments>
         command;
 };
 

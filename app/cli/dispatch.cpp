@@ -10,6 +10,7 @@
 #include "app/cli/exit_code.h"
 #include "app/report/hand_over_report.h"
 #include "cam/cell/cell.h"
+#include "cam/cell/cell_check.h"
 #include "devices/codec.h"
 #include "devices/first_contact.h"
 #include "devices/modbus_tcp.h"
@@ -27,6 +28,16 @@ bool is_confirmed(const std::string& question) {
     std::string line;
     std::getline(std::cin, line);
     return line == "y" || line == "Y" || line == "yes";
+}
+
+// What is assumed may be planned and simulated with, never carved with.
+void refuse_uncertain(const Cell& cell) {
+    const CellCheck check = check_cell(cell);
+    if (check.may_be_dispatched()) return;
+    throw InputError(InputFault::config,
+                     "no job goes to a real cell by the cell file of this project: " + check.against_dispatch.front() +
+                         (check.against_dispatch.size() > 1 ? ", and more" : ""),
+                     "see qchopper cells check, measure, correct the cell file and prepare the scan again");
 }
 
 }  // namespace
@@ -62,8 +73,12 @@ int run(const DispatchArguments& arguments, Terminal& terminal) {
     options.drop_folder = *drop;
     if (options.want_simulated) {
         terminal.message("the cell at " + *to + " is SIMULATED: nothing moves");
-    } else if (!arguments.yes && !is_confirmed("Hand " + std::to_string(jobs.size()) + " jobs to the REAL cell \"" +
-                                               cell.name + "\" at " + *to + "?")) {
+    } else {
+        refuse_uncertain(cell);
+    }
+    if (!options.want_simulated && !arguments.yes &&
+        !is_confirmed("Hand " + std::to_string(jobs.size()) + " jobs to the REAL cell \"" + cell.name + "\" at " + *to +
+                      "?")) {
         terminal.message("not confirmed: nothing was sent");
         return exit_demand_broken;
     }

@@ -12,7 +12,7 @@ struct Examples {
     const char* lines;
 };
 
-constexpr std::array<Examples, 11> all_examples{{
+constexpr std::array<Examples, 12> all_examples{{
     {"", R"(  qchopper sample vertebra --faces 50000 -o vertebra.ply
   qchopper inspect vertebra.ply --units mm
   qchopper prepare vertebra.ply --units mm --cell cells/foam-1.toml --min-cuts 3 -o vertebra.qch
@@ -47,6 +47,9 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
   qchopper explain vertebra.qch --cut 1 -o cut-1.svg)"},
     {"export", R"(  qchopper export vertebra.qch --format 3mf
   qchopper export vertebra.qch --format stl --pose setup --simplify 0.05 -o models)"},
+    {"cells", R"(  qchopper cells list
+  qchopper cells show cells/kr60-ha.toml
+  qchopper cells check cells/kr60-ha.toml --json)"},
     {"dry-run", R"(  qchopper dry-run vertebra.qch
   qchopper dry-run vertebra.qch --piece B)"},
     {"cell-sim", R"(  qchopper cell-sim --listen 127.0.0.1:15020 --drop drop --consent ask)"},

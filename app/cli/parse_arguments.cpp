@@ -39,6 +39,9 @@ struct Parser {
     SegmentArguments segment;
     ExplainArguments explain;
     ExportArguments exported;
+    CellsListArguments cells_list;
+    CellsShowArguments cells_show;
+    CellsCheckArguments cells_check;
     DryRunArguments dry_run;
     CellSimArguments cell_sim;
     DispatchArguments dispatch;
@@ -54,10 +57,15 @@ struct Parser {
         add_segment(app, segment, common);
         add_explain();
         add_export();
+        add_cells();
         add_dry_run();
         add_cell_sim();
         add_dispatch();
-        for (CLI::App* command : app.get_subcommands({})) command->footer(examples_of(command->get_name()));
+        for (CLI::App* command : app.get_subcommands({})) {
+            const std::string examples = examples_of(command->get_name());
+            command->footer(examples);
+            for (CLI::App* inner : command->get_subcommands({})) inner->footer(examples);
+        }
     }
 
     void add_sample() {
@@ -117,6 +125,21 @@ struct Parser {
         c->add_option("-o,--out", exported.out,
                       "the file to make, or for STL and PLY the folder (NAME.3mf, NAME-stl beside the project)");
         add_common(c, common, [this] { common.command = exported; });
+    }
+
+    void add_cells() {
+        CLI::App* c = app.add_subcommand("cells", "list, show and check cell files");
+        c->require_subcommand(1);
+        CLI::App* list = c->add_subcommand("list", "list the cell files of a folder");
+        list->add_option("FOLDER", cells_list.folder, "where they lie (cells)");
+        add_common(list, common, [this] { common.command = cells_list; });
+        CLI::App* show = c->add_subcommand("show", "show what a cell file describes");
+        show->add_option("CELL", cells_show.file, "the cell file, NAME.toml")->required();
+        add_common(show, common, [this] { common.command = cells_show; });
+        CLI::App* check = c->add_subcommand(
+            "check", "tell what is assumed or missing in a cell file, and whether its jobs may be dispatched");
+        check->add_option("CELL", cells_check.file, "the cell file, NAME.toml")->required();
+        add_common(check, common, [this] { common.command = cells_check; });
     }
 
     void add_dry_run() {

@@ -37,7 +37,13 @@ LockedProject::LockedProject(const std::filesystem::path& folder, const std::opt
 LockedProject::LockedProject(ProjectDraft made, const Context& context)
     : lock(made.folder),
       project(
-          made.folder, std::move(made.project), [scan = std::move(made.scan)]() mutable { return std::move(scan); },
+          made.folder, made.project,
+          [scan = std::optional(std::move(made.scan)), of = made.project, context]() mutable {
+              if (!scan) return std::move(import_project_scan(of, context).mesh);
+              TriangleMesh mesh = std::move(*scan);
+              scan.reset();
+              return mesh;
+          },
           context) {}
 
 LockedProject make_project(ProjectDraft draft, const ProjectContext& context) {

@@ -47,10 +47,7 @@ OpenProject::OpenProject(const std::filesystem::path& folder, const Context& con
 }
 
 const TriangleMesh& OpenProject::scan() {
-    if (!scan_) {
-        scan_ = import_scan_();
-        import_scan_ = [this] { return std::move(qchopper::import_project_scan(project_, context_).mesh); };
-    }
+    if (!scan_) scan_ = import_scan_();
     return *scan_;
 }
 

@@ -1,8 +1,8 @@
-// Reads the cell file: reach, table, stock, tool, and where the controller listens.
+// Reads the cell file: reach, table, stock, tools, robot, and where the controller listens.
 //
-// Lengths in mm in the cell's base frame, z up. In a cell that read_cell returns sizes are positive, the reach box is
-// not empty and the middle of the table lies in it, there are 1 to 1000 blocks, and no two have the same name
-// (tests/cam/cell/cell_test.cpp). docs/cell-file.md explains each key.
+// Lengths in mm in the cell's base frame, z up; angles in radians. In a cell that read_cell returns sizes are positive,
+// the reach box is not empty and the middle of the table lies in it, there are 1 to 1000 blocks, and no two have the
+// same name (tests/cam/cell/cell_test.cpp). docs/cell-file.md explains each key.
 
 #pragma once
 
@@ -13,12 +13,16 @@
 #include <string_view>
 #include <vector>
 
+#include "cam/cell/carving_tool.h"
 #include "cam/cell/material.h"
+#include "cam/cell/origin.h"
+#include "cam/cell/robot.h"
 #include "segment/mesh/measure.h"
 
 namespace qchopper {
 
-// Where a block stands: its underside on the table, its middle above the table's middle.
+// Where a block stands: its underside on the table, its middle above the table's middle. Of a rotary table the square
+// inside of its rim, so that a block on it stands on the table at every angle.
 struct Table {
     double centre_x = 0;
     double centre_y = 0;
@@ -33,9 +37,12 @@ struct Stock {
     std::string name;
     Vec3 size;  // before a quarter turn (Setup::stock_turned)
     Material material = Material::unspecified;
+    bool is_sawn = false;  // may be sawn down to any smaller size
+    double kerf = 0;       // width of foam that a saw cut takes
     bool operator==(const Stock&) const = default;
 };
 
+// The tool that jobs name.
 struct Tool {
     std::uint16_t number = 1;
     std::string name;
@@ -53,18 +60,71 @@ struct Link {
     bool operator==(const Link&) const = default;
 };
 
+// Foam around the piece.
+struct Margins {
+    double sides = 5;
+    double top = 3;
+    double spoil = 10;  // layer under the piece that stays on the table
+    bool operator==(const Margins&) const = default;
+};
+
+// A box in which nothing of robot, spindle and tool may be.
+struct Obstacle {
+    std::string name;
+    Box box;
+    bool operator==(const Obstacle&) const = default;
+};
+
+// Where every program begins and ends.
+struct StartPose {
+    Joints joints{};  // of a robot
+    Vec3 tip;         // of a gantry
+    bool operator==(const StartPose&) const = default;
+};
+
+enum class Dialect { krl, rapid, ngc };
+
+struct ProgramSettings {
+    Dialect dialect = Dialect::krl;
+    std::uint32_t memory_bytes = 3'000'000;  // of the controller, for programs
+    std::uint32_t lines_per_chunk = 1'400;
+    double link_feed_mm_per_s = 0;                // largest, of moves that remove no foam
+    std::optional<std::string> tool_change_call;  // program that changes the tool; nothing: stop for a person
+    bool operator==(const ProgramSettings&) const = default;
+};
+
+// What only version 2 tells.
+struct CellMachine {
+    std::optional<Robot> robot;  // nothing: a gantry of three axes, whose travel is Cell::reach
+    Spindle spindle;
+    std::optional<Extraction> extraction;
+    std::vector<CarvingTool> tools;           // at least one
+    std::optional<RotaryTable> rotary_table;  // nothing: the table is fixed
+    double max_tilt = 0;                      // of the tool axis from the vertical, radians
+    double max_unreachable = 0.02;            // share of a piece's area without its base, 0..1
+    Margins margins;
+    std::vector<Obstacle> obstacles;
+    StartPose start;
+    ProgramSettings program;
+    std::vector<ValueOrigin> origins;  // in the order of the tables; of keys that are given or have a default
+    bool operator==(const CellMachine&) const = default;
+};
+
 struct Cell {
     std::string name;
     std::uint16_t id = 0;  // CELL_ID on the wire, 1..65535
     Box reach;             // what the tool tip reaches
     Table table;
     std::vector<Stock> stock;
-    double stock_margin = 0;  // foam kept around the piece: four sides and above
+    double stock_margin = 0;  // foam kept around the piece: four sides and above; version 2: the larger of both margins
     double clearance = 20;    // height above the block in which the tool travels
-    Tool tool;
+    Tool tool;                // version 2: the first one
     Link link;
+    std::optional<CellMachine> machine;  // version 2; nothing: version 1, boxes only
     bool operator==(const Cell&) const = default;
 };
+
+const char* to_word(Dialect dialect);  // "krl", "rapid", "ngc"
 
 // Throws InputError: missing if the file cannot be read, config if it describes no valid cell (file, line, key, why).
 Cell read_cell(const std::filesystem::path& path);

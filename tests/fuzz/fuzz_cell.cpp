@@ -3,12 +3,34 @@
 #include <cmath>
 
 #include "cam/cell/cell.h"
+#include "cam/cell/cell_check.h"
 #include "tests/fuzz/demand.h"
 
 namespace qchopper {
 namespace {
 
+void demand_possible(const Robot& robot) {
+    for (const JointRange& range : robot.ranges) {
+        demand(range.min < range.max && range.speed > 0 && range.acceleration > 0);
+        demand(std::isfinite(range.min) && std::isfinite(range.max));
+    }
+    for (const int sign : robot.geometry.sign) demand(sign == 1 || sign == -1);
+    for (const LinkCapsule& capsule : robot.capsules) demand(capsule.radius > 0 && capsule.link >= 0);
+}
+
+void demand_possible(const CellMachine& machine) {
+    if (machine.robot) demand_possible(*machine.robot);
+    demand(!machine.tools.empty() && machine.max_unreachable >= 0 && machine.max_unreachable <= 1);
+    for (const CarvingTool& tool : machine.tools) {
+        demand(tool.diameter > 0 && tool.flute_length <= tool.stick_out && gauge_length(tool) > tool.stick_out);
+        demand(tool.feed_min_mm_per_s < tool.feed_max_mm_per_s && tool.rpm_min < tool.rpm_max);
+        demand(tool.corner_radius >= 0 && 2 * tool.corner_radius <= tool.diameter);
+    }
+}
+
 void demand_possible(const Cell& cell) {
+    if (cell.machine) demand_possible(*cell.machine);
+    check_cell(cell);
     demand(!cell.name.empty() && cell.id >= 1 && !cell.stock.empty());
     for (int axis = 0; axis < 3; ++axis) demand(cell.reach.min[axis] < cell.reach.max[axis]);
     demand(cell.table.size_x > 0 && cell.table.size_y > 0);

@@ -45,7 +45,7 @@ std::vector<Encoded> job_seeds() {
     Bytes texts = files["ticket.json"];
     texts.push_back(0);
     texts.insert(texts.end(), files["manifest.json"].begin(), files["manifest.json"].end());
-    const Bytes cell = read_file(QCHOPPER_SOURCE_DIR "/cells/foam-1.toml");
+    const auto cell = [](const std::string& name) { return read_file(QCHOPPER_SOURCE_DIR "/cells/" + name + ".toml"); };
     std::string small =
         "name = \"test\"\nid = 7\nstock_margin = 10\n[reach]\nmin = [-1200, -1200, 0]\nmax = [1200, 1200, 1400]\n"
         "[table]\ncentre = [0, 50]\nsize = [2200, 1600]\nheight = 150\n"
@@ -55,7 +55,9 @@ std::vector<Encoded> job_seeds() {
     parse_cell(small, "small");
     return {{"job", "packed", whole},
             {"job", "texts", texts},
-            {"cell", "foam-1", cell},
+            {"cell", "foam-1", cell("foam-1")},
+            {"cell", "robot", cell("kr120-r2500-pro-rotary")},
+            {"cell", "gantry", cell("gantry-3axis")},
             {"cell", "small", {small.begin(), small.end()}}};
 }
 

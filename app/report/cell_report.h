@@ -1,0 +1,39 @@
+// The results of `cells list`, `cells show` and `cells check`: lines for people and documents for programs
+// (docs/cell-file.md). O(values of the files).
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cam/cell/cell.h"
+#include "cam/cell/cell_check.h"
+
+namespace qchopper {
+
+// A cell file of a folder.
+struct ListedCell {
+    std::string file;
+    std::optional<Cell> cell;  // nothing: it is wrong
+    std::string error;         // why
+};
+
+struct ShownCell {
+    std::string file;
+    const Cell& cell;  // outlives this object
+};
+
+struct CheckedCell {
+    std::string file;
+    const Cell& cell;  // outlives this object
+    CellCheck check;
+};
+
+std::vector<std::string> lines(const std::vector<ListedCell>& cells);
+std::string document(const std::vector<ListedCell>& cells);
+std::vector<std::string> lines(const ShownCell& shown);
+std::string document(const ShownCell& shown);
+std::vector<std::string> lines(const CheckedCell& checked);
+std::string document(const CheckedCell& checked);
+
+}  // namespace qchopper

@@ -1,0 +1,271 @@
+// One function per table of the file; those of robot, spindle and tools are in sources of their own. O(file), and
+// O(blocks^2) to find two of one name.
+
+#include "cam/cell/cell.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "cam/cell/cell_keys.h"
+#include "cam/cell/cell_tables.h"
+
+namespace qchopper {
+namespace {
+
+constexpr double farthest = 100'000;  // mm; a coordinate of version 1 that is larger is in a wrong unit
+constexpr std::size_t most_blocks = 1000;
+constexpr std::size_t most_obstacles = 1000;
+
+// `name` is the table's, for messages.
+Box read_box(const TomlReader& reader, const std::string& name, double most) {
+    const Box box{reader.vector("min", -most, most), reader.vector("max", -most, most)};
+    constexpr std::array<const char*, 3> axes{"x", "y", "z"};
+    for (int axis = 0; axis < 3; ++axis) {
+        if (box.min[axis] < box.max[axis]) continue;
+        reader.refuse("max", "must be larger than " + name + ".min, and is not along " + axes[axis]);
+    }
+    return box;
+}
+
+// The middle of the table's top must lie in the reach; the keys are those that give its height and its middle.
+void check_table(const TomlReader& reader, const Table& table, const Box& reach, const char* height,
+                 const char* centre) {
+    if (table.height < reach.min.z) reader.refuse(height, "the table lies below the reach (reach.min z)");
+    if (table.height >= reach.max.z) reader.refuse(height, "the table lies above the reach (reach.max z)");
+    if (table.centre_x <= reach.min.x || table.centre_x >= reach.max.x || table.centre_y <= reach.min.y ||
+        table.centre_y >= reach.max.y) {
+        reader.refuse(centre, "the middle of the table lies outside of the reach");
+    }
+}
+
+Table read_table(const TomlReader& reader, const Box& reach, double most) {
+    const std::vector<double> centre = reader.numbers("centre", 2, -most, most);
+    const std::vector<double> size = reader.numbers("size", 2, smallest, most);
+    const Table table{centre[0], centre[1], size[0], size[1], reader.number("height", -most, most)};
+    check_table(reader, table, reach, "height", "centre");
+    return table;
+}
+
+Stock read_block(const TomlReader& reader, double most) {
+    Stock stock;
+    stock.name = reader.text("name");
+    stock.size = reader.vector("size", smallest, most);
+    if (!reader.has("material")) return stock;
+    const std::optional<Material> material = material_of(reader.text("material"));
+    if (!material) reader.refuse("material", "unknown material", "use pu_foam, eps, xps, other or unspecified");
+    stock.material = *material;
+    return stock;
+}
+
+// `read` reads one block.
+template <typename Read>
+std::vector<Stock> read_stock(const TomlReader& reader, Keys known, Read read) {
+    std::vector<Stock> stock;
+    for (const TomlReader& row : reader.tables("stock", known)) {
+        const Stock block = read(row);
+        const bool twice =
+            std::any_of(stock.begin(), stock.end(), [&](const Stock& other) { return other.name == block.name; });
+        if (twice) row.refuse("name", "a second block named " + block.name, "give each block a name of its own");
+        if (stock.size() == most_blocks) reader.refuse("stock", "more than a thousand blocks");
+        stock.push_back(block);
+    }
+    if (stock.empty()) reader.refuse("stock", "no block to carve from", "add at least one [[stock]]");
+    return stock;
+}
+
+Tool read_tool(const TomlReader& reader) {
+    Tool tool;
+    tool.number = static_cast<std::uint16_t>(reader.whole("number", 0, 65535));
+    tool.name = reader.text("name");
+    tool.diameter = reader.number("diameter", smallest, 1000);
+    tool.spindle_max_rpm = static_cast<std::uint16_t>(reader.whole("spindle_max_rpm", 1, 65535));
+    tool.feed_max_mm_per_min = reader.whole("feed_max_mm_per_min", 1, 1'000'000);
+    tool.removal_mm3_per_s = reader.number("removal_mm3_per_s", smallest, 1e9);
+    return tool;
+}
+
+// HOST:PORT, with an IPv6 address in brackets because it contains colons.
+bool is_address(const std::string& to) {
+    const std::size_t colon = to.rfind(':');
+    if (colon == std::string::npos || colon == 0 || to.size() - colon > 6) return false;
+    unsigned port = 0;
+    const char* end = to.data() + to.size();
+    const auto parsed = std::from_chars(to.data() + colon + 1, end, port);
+    if (parsed.ec != std::errc{} || parsed.ptr != end || port == 0 || port > 65535) return false;
+    const std::string host = to.substr(0, colon);
+    if (host.find_first_of(" \t/@") != std::string::npos) return false;
+    if (host.front() == '[') return host.size() > 2 && host.back() == ']';
+    return host.find_first_of(":[]") == std::string::npos;
+}
+
+Link read_link(const TomlReader& reader, const std::filesystem::path& path) {
+    Link link;
+    if (reader.has("to")) {
+        link.to = reader.text("to");
+        if (!is_address(*link.to)) {
+            reader.refuse("to", *link.to + " is not HOST:PORT", "for example \"192.168.1.10:502\", port 1 to 65535");
+        }
+    }
+    if (reader.has("drop")) {
+        const std::filesystem::path drop = reader.text("drop");
+        link.drop = drop.is_absolute() ? drop : path.parent_path() / drop;
+    }
+    return link;
+}
+
+Cell read_version_1(const TomlReader& reader, const std::filesystem::path& path) {
+    Cell cell;
+    cell.name = reader.text("name");
+    cell.id = static_cast<std::uint16_t>(reader.whole("id", 1, 65535));
+    cell.reach = read_box(reader.table("reach", keys_1::reach), "reach", farthest);
+    cell.table = read_table(reader.table("table", keys_1::table), cell.reach, farthest);
+    cell.stock = read_stock(reader, keys_1::stock, [](const TomlReader& row) { return read_block(row, farthest); });
+    cell.stock_margin = reader.number("stock_margin", 0, 10'000);
+    if (reader.has("clearance")) cell.clearance = reader.number("clearance", 0, 10'000);
+    cell.tool = read_tool(reader.table("tool", keys_1::tool));
+    if (reader.has("link")) cell.link = read_link(reader.table("link", keys_1::link), path);
+    return cell;
+}
+
+Stock read_block_2(const TomlReader& reader, Origins& origins) {
+    Stock stock = read_block(reader, farthest_2);
+    stock.is_sawn = reader.has("sawn") && reader.boolean("sawn");
+    if (stock.is_sawn) {
+        stock.kerf = reader.number("kerf", 0, 50);
+    } else if (reader.has("kerf")) {
+        reader.refuse("kerf", "has no meaning for a block that is not sawn", "add sawn = true, or leave it out");
+    }
+    add_origins(reader, keys_2::stock, "stock " + stock.name, origins);
+    return stock;
+}
+
+RotaryTable read_rotary_table(const TomlReader& reader) {
+    RotaryTable table;
+    table.table_in_cell = read_pose(reader);
+    constexpr double most_lean = 1;  // degrees
+    if (table.table_in_cell.row[2].z < std::cos(most_lean * degree)) {
+        reader.refuse("abc_deg", "the table's z must be upright within 1 degree: a block stands on it");
+    }
+    table.radius = reader.number("radius", smallest, farthest_2);
+    table.speed = reader.number("speed_deg_per_s", smallest, 1'000) * degree;
+    table.external_axis = static_cast<int>(reader.whole("external_axis", 1, 6));
+    return table;
+}
+
+// The table as blocks see it: of a rotary one the square inside of its rim.
+void read_tables(const TomlReader& root, Cell& cell, CellMachine& machine) {
+    if (root.has("table") && root.has("rotary_table")) {
+        root.refuse("rotary_table", "a cell has one table", "leave out [table] or [rotary_table]");
+    }
+    if (!root.has("rotary_table")) {
+        const TomlReader reader = root.table("table", keys_2::table.keys);
+        cell.table = read_table(reader, cell.reach, farthest_2);
+        return add_origins(reader, keys_2::table, "table", machine.origins);
+    }
+    if (!machine.robot) root.refuse("rotary_table", "a gantry has three axes", "describe a fixed [table]");
+    const TomlReader reader = root.table("rotary_table", keys_2::rotary_table.keys);
+    machine.rotary_table = read_rotary_table(reader);
+    const Vec3 centre = machine.rotary_table->table_in_cell.shift;
+    const double side = std::numbers::sqrt2 * machine.rotary_table->radius;
+    cell.table = {centre.x, centre.y, side, side, centre.z};
+    check_table(reader, cell.table, cell.reach, "position", "position");
+    add_origins(reader, keys_2::rotary_table, "rotary_table", machine.origins);
+}
+
+std::vector<Obstacle> read_obstacles(const TomlReader& root, Origins& origins) {
+    std::vector<Obstacle> obstacles;
+    if (!root.has("obstacle")) return obstacles;
+    for (const TomlReader& row : root.tables("obstacle", keys_2::obstacle.keys)) {
+        if (obstacles.size() == most_obstacles) root.refuse("obstacle", "more than a thousand obstacles");
+        obstacles.push_back({row.text("name"), read_box(row, "obstacle", farthest_2)});
+        add_origins(row, keys_2::obstacle, "obstacle " + obstacles.back().name, origins);
+    }
+    return obstacles;
+}
+
+Margins read_margins(const TomlReader& root, Origins& origins) {
+    Margins margins;
+    if (!root.has("margin")) {
+        for (const std::string_view key : keys_2::margin.keys) {
+            origins.push_back({"margin", std::string(key), Origin::by_default});
+        }
+        return margins;
+    }
+    const TomlReader reader = root.table("margin", keys_2::margin.keys);
+    if (reader.has("sides")) margins.sides = reader.number("sides", 0, 1'000);
+    if (reader.has("top")) margins.top = reader.number("top", 0, 1'000);
+    if (reader.has("spoil")) margins.spoil = reader.number("spoil", 0, 1'000);
+    add_defaults(reader, keys_2::margin.keys, "margin", origins);
+    return margins;
+}
+
+void read_limits(const TomlReader& root, Cell& cell, CellMachine& machine) {
+    machine.margins = read_margins(root, machine.origins);
+    cell.stock_margin = std::max(machine.margins.sides, machine.margins.top);
+    if (root.has("clearance")) cell.clearance = root.number("clearance", 0, 1'000);
+    if (root.has("max_unreachable")) machine.max_unreachable = root.number("max_unreachable", 0, 1);
+    add_defaults(root, std::to_array<std::string_view>({"clearance", "max_unreachable"}), "", machine.origins);
+    if (!machine.robot) {
+        if (root.has("max_tilt_deg")) root.refuse("max_tilt_deg", "a gantry does not tilt its tool", "leave it out");
+        return;
+    }
+    machine.max_tilt = (root.has("max_tilt_deg") ? root.number("max_tilt_deg", 0, 90) : 60) * degree;
+    add_defaults(root, std::to_array<std::string_view>({"max_tilt_deg"}), "", machine.origins);
+}
+
+// As jobs name it.
+Tool tool_of(const CarvingTool& tool) {
+    return {tool.number,
+            tool.name,
+            tool.diameter,
+            tool.rpm_max,
+            static_cast<std::uint32_t>(std::floor(60 * tool.feed_max_mm_per_s)),
+            tool.removal_mm3_per_s};
+}
+
+Cell read_version_2(const TomlReader& root, const std::filesystem::path& path) {
+    Cell cell;
+    CellMachine machine;
+    cell.name = root.text("name");
+    cell.id = static_cast<std::uint16_t>(root.whole("id", 1, 65535));
+    if (root.has("robot")) machine.robot = read_robot(root, machine.origins);
+    const TomlReader reach = root.table("reach", keys_2::reach.keys);
+    cell.reach = read_box(reach, "reach", farthest_2);
+    add_origins(reach, keys_2::reach, "reach", machine.origins);
+    read_tables(root, cell, machine);
+    machine.program = read_program(root, machine.robot.has_value(), machine.origins);
+    machine.tools = read_tools(root, machine.origins);
+    cell.tool = tool_of(machine.tools.front());
+    machine.spindle = read_spindle(root, machine.robot, machine.tools, machine.program.dialect, machine.origins);
+    machine.extraction = read_extraction(root, machine.program.dialect);
+    cell.stock =
+        read_stock(root, keys_2::stock.keys, [&](const TomlReader& row) { return read_block_2(row, machine.origins); });
+    machine.obstacles = read_obstacles(root, machine.origins);
+    machine.start = read_start(root, machine.robot, cell.reach);
+    read_limits(root, cell, machine);
+    if (root.has("link")) cell.link = read_link(root.table("link", keys_2::link.keys), path);
+    cell.machine = std::move(machine);
+    return cell;
+}
+
+}  // namespace
+
+Cell parse_cell(std::string_view text, const std::filesystem::path& path) {
+    const TomlReader root = TomlReader::parse(text, path.string());
+    const std::uint32_t version = root.has("version") ? root.whole("version", 1, 2) : 1;
+    if (version == 1) return read_version_1(root.with_keys(keys_1::root), path);
+    return read_version_2(root.with_keys(keys_2::root.keys), path);
+}
+
+Cell read_cell(const std::filesystem::path& path) {
+    const Bytes bytes = read_file(path, settings_limit);
+    return parse_cell({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
+}
+
+}  // namespace qchopper

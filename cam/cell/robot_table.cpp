@@ -1,0 +1,162 @@
+// The tables of the robot: one function each; degrees become radians here. O(capsules).
+
+#include <algorithm>
+#include <cmath>
+
+#include "cam/cell/cell_tables.h"
+
+namespace qchopper {
+namespace {
+
+constexpr double longest_link = 5'000;  // mm
+constexpr double most_turns = 720;      // degrees
+constexpr std::size_t most_capsules = 100;
+
+std::string axis_name(std::size_t axis) {
+    return "axis " + std::to_string(axis + 1);
+}
+
+Joints read_joints(const TomlReader& reader, std::string_view key, double least, double most) {
+    const std::vector<double> values = reader.numbers(key, axes_of_arm, least, most);
+    Joints joints{};
+    for (std::size_t axis = 0; axis < axes_of_arm; ++axis) joints[axis] = values[axis] * degree;
+    return joints;
+}
+
+ArmGeometry read_geometry(const TomlReader& reader) {
+    ArmGeometry g;
+    g.a1 = reader.number("a1", -longest_link, longest_link);
+    g.a2 = reader.number("a2", -longest_link, longest_link);
+    g.b = reader.number("b", -longest_link, longest_link);
+    g.c1 = reader.number("c1", 0, longest_link);
+    g.c2 = reader.number("c2", smallest, longest_link);
+    g.c3 = reader.number("c3", smallest, longest_link);
+    g.c4 = reader.number("c4", 0, longest_link);
+    g.offset = read_joints(reader, "offset_deg", -360, 360);
+    const std::vector<double> signs = reader.numbers("sign", axes_of_arm, -1, 1);
+    for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
+        if (std::abs(signs[axis]) != 1) reader.refuse("sign", "must be 1 or -1, and is not for " + axis_name(axis));
+        g.sign[axis] = signs[axis] > 0 ? 1 : -1;
+    }
+    return g;
+}
+
+JointRanges read_ranges(const TomlReader& reader) {
+    const Joints min = read_joints(reader, "min_deg", -most_turns, most_turns);
+    const Joints max = read_joints(reader, "max_deg", -most_turns, most_turns);
+    const Joints speed = read_joints(reader, "speed_deg_per_s", smallest, 5'000);
+    const Joints acceleration = read_joints(reader, "acceleration_deg_per_s2", smallest, 100'000);
+    JointRanges ranges;
+    for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
+        if (min[axis] >= max[axis]) {
+            reader.refuse("max_deg", "must be larger than robot.min_deg, and is not for " + axis_name(axis));
+        }
+        ranges[axis] = {min[axis], max[axis], speed[axis], acceleration[axis]};
+    }
+    return ranges;
+}
+
+// The angles that joint range and cable both allow.
+AngleRange common(const JointRange& joint, const AngleRange& cable) {
+    return {std::max(joint.min, cable.min), std::min(joint.max, cable.max)};
+}
+
+CableLimits read_cable(const TomlReader& reader, const JointRanges& ranges) {
+    const CableLimits cable{read_angle_range(reader, "axis_4_deg"), read_angle_range(reader, "axis_6_deg")};
+    const AngleRange axis_4 = common(ranges[3], cable.axis_4);
+    const AngleRange axis_6 = common(ranges[5], cable.axis_6);
+    const std::string why = "lies outside of the axis' range, robot.min_deg to robot.max_deg";
+    if (axis_4.min >= axis_4.max) reader.refuse("axis_4_deg", why);
+    if (axis_6.min >= axis_6.max) reader.refuse("axis_6_deg", why);
+    return cable;
+}
+
+LinkCapsule read_capsule(const TomlReader& reader) {
+    LinkCapsule capsule;
+    capsule.link = static_cast<int>(reader.whole("link", 0, axes_of_arm));
+    capsule.from = reader.vector("from", -farthest_2, farthest_2);
+    capsule.to = reader.vector("to", -farthest_2, farthest_2);
+    capsule.radius = reader.number("radius", smallest, farthest_2);
+    return capsule;
+}
+
+std::vector<LinkCapsule> read_capsules(const TomlReader& reader, Origins& origins) {
+    std::vector<LinkCapsule> capsules;
+    for (const TomlReader& row : reader.tables("capsule", keys_2::capsule.keys)) {
+        if (capsules.size() == most_capsules) reader.refuse("capsule", "more than a hundred capsules");
+        capsules.push_back(read_capsule(row));
+        add_origins(row, keys_2::capsule, "robot.capsule " + std::to_string(capsules.size()), origins);
+    }
+    return capsules;
+}
+
+void check_start(const TomlReader& reader, const Joints& joints, const Robot& robot) {
+    for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
+        AngleRange range{robot.ranges[axis].min, robot.ranges[axis].max};
+        if (robot.cable && axis == 3) range = common(robot.ranges[axis], robot.cable->axis_4);
+        if (robot.cable && axis == 5) range = common(robot.ranges[axis], robot.cable->axis_6);
+        if (joints[axis] >= range.min && joints[axis] <= range.max) continue;
+        reader.refuse("joints_deg", axis_name(axis) + " is outside of its range",
+                      "see robot.min_deg, robot.max_deg and robot.cable");
+    }
+}
+
+}  // namespace
+
+Pose read_pose(const TomlReader& reader) {
+    const std::vector<double> abc = reader.numbers("abc_deg", 3, -360, 360);
+    const double ca = std::cos(abc[0] * degree), sa = std::sin(abc[0] * degree);
+    const double cb = std::cos(abc[1] * degree), sb = std::sin(abc[1] * degree);
+    const double cc = std::cos(abc[2] * degree), sc = std::sin(abc[2] * degree);
+    Pose pose;
+    pose.row = {Vec3{ca * cb, ca * sb * sc - sa * cc, ca * sb * cc + sa * sc},
+                Vec3{sa * cb, sa * sb * sc + ca * cc, sa * sb * cc - ca * sc}, Vec3{-sb, cb * sc, cb * cc}};
+    pose.shift = reader.vector("position", -farthest_2, farthest_2);
+    return pose;
+}
+
+AngleRange read_angle_range(const TomlReader& reader, std::string_view key) {
+    const std::vector<double> range = reader.numbers(key, 2, -most_turns, most_turns);
+    if (range[0] >= range[1]) reader.refuse(key, "the first number must be below the second");
+    return {range[0] * degree, range[1] * degree};
+}
+
+Robot read_robot(const TomlReader& root, Origins& origins) {
+    const TomlReader reader = root.table("robot", keys_2::robot.keys);
+    Robot robot;
+    robot.name = reader.text("name");
+    robot.geometry = read_geometry(reader);
+    robot.ranges = read_ranges(reader);
+    robot.payload_kg = reader.number("payload_kg", smallest, 10'000);
+    add_origins(reader, keys_2::robot, "robot", origins);
+    const TomlReader base = reader.table("base", keys_2::base.keys);
+    robot.base_in_cell = read_pose(base);
+    add_origins(base, keys_2::base, "robot.base", origins);
+    if (reader.has("cable")) {
+        const TomlReader cable = reader.table("cable", keys_2::cable.keys);
+        robot.cable = read_cable(cable, robot.ranges);
+        add_origins(cable, keys_2::cable, "robot.cable", origins);
+    }
+    if (reader.has("capsule")) robot.capsules = read_capsules(reader, origins);
+    return robot;
+}
+
+StartPose read_start(const TomlReader& root, const std::optional<Robot>& robot, const Box& reach) {
+    const TomlReader reader = root.table("start", keys_2::start.keys);
+    StartPose start;
+    if (robot) {
+        if (reader.has("tip")) reader.refuse("tip", "belongs to a gantry", "a robot starts from joints_deg");
+        start.joints = read_joints(reader, "joints_deg", -most_turns, most_turns);
+        check_start(reader, start.joints, *robot);
+        return start;
+    }
+    if (reader.has("joints_deg")) reader.refuse("joints_deg", "belongs to a robot", "a gantry starts from tip");
+    start.tip = reader.vector("tip", -farthest_2, farthest_2);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (start.tip[axis] >= reach.min[axis] && start.tip[axis] <= reach.max[axis]) continue;
+        reader.refuse("tip", "lies outside of the reach");
+    }
+    return start;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,124 @@
+// The list of tools: one function per group of keys. O(tools^2), to find two of one number.
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "cam/cell/cell_tables.h"
+
+namespace qchopper {
+namespace {
+
+constexpr double widest = 500;        // mm
+constexpr double longest = 2'000;     // mm
+constexpr double slowest_feed = 1;    // mm/s
+constexpr double fastest_feed = 500;  // mm/s
+constexpr std::size_t most_tools = 100;
+constexpr std::size_t most_steps = 20;
+
+constexpr std::array<const char*, 4> shapes{"ball", "flat", "bull", "cone"};  // in the order of ToolShape
+
+ToolShape read_shape(const TomlReader& reader) {
+    const std::string word = reader.text("shape");
+    const auto* found = std::find(shapes.begin(), shapes.end(), word);
+    if (found == shapes.end()) reader.refuse("shape", "unknown shape " + word, "use ball, flat, bull or cone");
+    return static_cast<ToolShape>(found - shapes.begin());
+}
+
+void refuse_unless(const TomlReader& reader, std::string_view key, bool has_meaning, ToolShape shape) {
+    if (!has_meaning && reader.has(key)) {
+        reader.refuse(key, std::string("has no meaning for the shape ") + to_word(shape), "leave it out");
+    }
+}
+
+void read_profile(const TomlReader& reader, CarvingTool& tool) {
+    tool.shape = read_shape(reader);
+    tool.diameter = reader.number("diameter", smallest, widest);
+    const double radius = tool.diameter / 2;
+    const bool is_bull = tool.shape == ToolShape::bull;
+    const bool is_cone = tool.shape == ToolShape::cone;
+    refuse_unless(reader, "corner_radius", is_bull || is_cone, tool.shape);
+    refuse_unless(reader, "tip_angle_deg", is_cone, tool.shape);
+    if (tool.shape == ToolShape::ball) tool.corner_radius = radius;
+    if (is_cone) tool.tip_angle = reader.number("tip_angle_deg", 1, 179) * degree;
+    if (!is_bull && !reader.has("corner_radius")) return;
+    tool.corner_radius = reader.number("corner_radius", is_bull ? smallest : 0, widest);
+    if (tool.corner_radius >= radius) reader.refuse("corner_radius", "must be less than half the diameter");
+}
+
+std::vector<HolderStep> read_holder(const TomlReader& reader, double tool_diameter) {
+    std::vector<HolderStep> holder;
+    for (const auto& [diameter, length] : reader.pairs("holder", smallest, longest)) {
+        if (diameter < tool_diameter) reader.refuse("holder", "a step of the holder is narrower than the tool");
+        if (holder.size() == most_steps) reader.refuse("holder", "more than twenty steps");
+        holder.push_back({diameter, length});
+    }
+    if (holder.empty()) reader.refuse("holder", "must have at least one step, [diameter, length]");
+    return holder;
+}
+
+void read_lengths(const TomlReader& reader, CarvingTool& tool) {
+    tool.flute_length = reader.number("flute_length", smallest, longest);
+    tool.stick_out = reader.number("stick_out", smallest, longest);
+    if (tool.stick_out < tool.flute_length) {
+        reader.refuse("stick_out", "must not be less than flute_length: the holder would hold the cutting edges");
+    }
+    tool.holder = read_holder(reader, tool.diameter);
+}
+
+void read_windows(const TomlReader& reader, CarvingTool& tool) {
+    const std::vector<double> feed = reader.numbers("feed_mm_per_s", 2, slowest_feed, fastest_feed);
+    const std::vector<double> rpm = reader.numbers("rpm", 2, 1, 65'535);
+    constexpr const char* order = "the first number must be below the second";
+    if (feed[0] >= feed[1]) reader.refuse("feed_mm_per_s", order);
+    if (rpm[0] >= rpm[1]) reader.refuse("rpm", order);
+    tool.feed_min_mm_per_s = feed[0];
+    tool.feed_max_mm_per_s = feed[1];
+    tool.rpm_min = static_cast<std::uint16_t>(rpm[0]);
+    tool.rpm_max = static_cast<std::uint16_t>(rpm[1]);
+    if (tool.rpm_min != rpm[0] || tool.rpm_max != rpm[1]) reader.refuse("rpm", "must be whole numbers");
+}
+
+CarvingTool read_tool_2(const TomlReader& reader) {
+    CarvingTool tool;
+    tool.number = static_cast<std::uint16_t>(reader.whole("number", 0, 65'535));
+    tool.name = reader.text("name");
+    read_profile(reader, tool);
+    read_lengths(reader, tool);
+    read_windows(reader, tool);
+    tool.mass_kg = reader.number("mass_kg", smallest, 1'000);
+    tool.removal_mm3_per_s = reader.number("removal_mm3_per_s", smallest, 1e9);
+    tool.is_length_measured = reader.boolean("length_measured");
+    return tool;
+}
+
+}  // namespace
+
+const char* to_word(ToolShape shape) {
+    return shapes[static_cast<std::size_t>(shape)];
+}
+
+double gauge_length(const CarvingTool& tool) {
+    return std::accumulate(tool.holder.begin(), tool.holder.end(), tool.stick_out,
+                           [](double sum, const HolderStep& step) { return sum + step.length; });
+}
+
+std::vector<CarvingTool> read_tools(const TomlReader& root, Origins& origins) {
+    std::vector<CarvingTool> tools;
+    for (const TomlReader& row : root.tables("tool", keys_2::tool.keys)) {
+        if (tools.size() == most_tools) root.refuse("tool", "more than a hundred tools");
+        const CarvingTool read = read_tool_2(row);
+        const bool is_second = std::any_of(tools.begin(), tools.end(),
+                                           [&](const CarvingTool& other) { return other.number == read.number; });
+        if (is_second) {
+            row.refuse("number", "a second tool with the number " + std::to_string(read.number),
+                       "give each tool a number of its own");
+        }
+        add_origins(row, keys_2::tool, "tool " + std::to_string(read.number), origins);
+        tools.push_back(read);
+    }
+    if (tools.empty()) root.refuse("tool", "no tool to carve with", "add at least one [[tool]]");
+    return tools;
+}
+
+}  // namespace qchopper

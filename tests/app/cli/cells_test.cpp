@@ -1,0 +1,86 @@
+// cells as a process: what it lists, shows and checks, and its exit codes.
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/cli/program.h"
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct Cells : ::testing::Test {
+    program::Folder folder;
+    program::Ended run(const program::Arguments& arguments) const { return program::run(arguments, {folder.path}); }
+    void SetUp() override {
+        fs::copy(fs::path(QCHOPPER_SOURCE_DIR) / "cells", folder.path / "cells");
+        before = program::contents(folder.path);
+    }
+    void TearDown() override { EXPECT_EQ(program::difference(before, program::contents(folder.path)), ""); }
+    program::Contents before;
+};
+
+TEST_F(Cells, ListsTheFolder) {
+    const program::Ended listed = run({"cells", "list"});
+    EXPECT_EQ(listed.code, 0) << listed.err;
+    for (const char* text : {"cells/foam-1.toml", "KUKA KR 120 R2500 pro", "gantry of three axes"}) {
+        EXPECT_NE(listed.out.find(text), std::string::npos) << listed.out;
+    }
+    const json rows = json::parse(run({"cells", "list", "cells", "--json"}).out);
+    EXPECT_EQ(rows["schema"], "qchopper-cells-1");
+    ASSERT_EQ(rows["cells"].size(), 5U);
+    EXPECT_EQ(rows["cells"][0]["may_be_dispatched"], true);
+    EXPECT_EQ(rows["cells"][4]["robot"], "KUKA KR 60 HA");
+    EXPECT_EQ(rows["cells"][4]["may_be_dispatched"], false);
+}
+
+TEST_F(Cells, AWrongFileDoesNotHideTheOthers) {
+    program::put(folder.path / "cells" / "wrong.toml", "version = 2\nnam = \"x\"\n");
+    before = program::contents(folder.path);
+    const program::Ended listed = run({"cells", "list", "--json"});
+    EXPECT_EQ(listed.code, 78) << listed.err;
+    const json rows = json::parse(listed.out)["cells"];
+    ASSERT_EQ(rows.size(), 6U);
+    EXPECT_EQ(rows[5]["error"], "cells/wrong.toml:2: unknown key nam");
+    EXPECT_EQ(run({"cells", "list", "nowhere"}).code, 66);
+    EXPECT_EQ(run({"cells", "show", "cells/wrong.toml"}).code, 78);
+    EXPECT_EQ(run({"cells", "check", "cells/none.toml"}).code, 66);
+    EXPECT_EQ(run({"cells"}).code, 64);
+    EXPECT_EQ(run({"cells", "shw"}).code, 64);
+}
+
+TEST_F(Cells, ShowsWhatTheFileDescribes) {
+    const program::Ended shown = run({"cells", "show", "cells/kr120-r2500-pro-rotary.toml"});
+    EXPECT_EQ(shown.code, 0) << shown.err;
+    for (const char* text : {"robot      KUKA KR 120 R2500 pro, payload 120 kg", "\n4     -350     350      292    584",
+                             "rotary, radius 750", "ball nose 6 mm", "kerf 3"}) {
+        EXPECT_NE(shown.out.find(text), std::string::npos) << text << "\n" << shown.out;
+    }
+    const json robot = json::parse(run({"cells", "show", "cells/irb6640-185-2.8.toml", "--json"}).out);
+    EXPECT_EQ(robot["schema"], "qchopper-cell-1");
+    EXPECT_EQ(robot["machine"]["robot"]["lengths"]["c3"], 1392);
+    EXPECT_NEAR(robot["machine"]["robot"]["axes"][1]["max_deg"].get<double>(), 85.1, 1e-9);
+    EXPECT_EQ(robot["machine"]["tools"][0]["gauge_length"], 200);
+    const program::Ended old = run({"cells", "show", "cells/foam-1.toml"});
+    EXPECT_NE(old.out.find("not described: the arm is not checked"), std::string::npos) << old.out;
+    EXPECT_TRUE(json::parse(run({"cells", "show", "cells/foam-1.toml", "--json"}).out)["machine"].is_null());
+}
+
+TEST_F(Cells, ChecksWhatIsAssumed) {
+    const program::Ended checked = run({"cells", "check", "cells/kr60-ha.toml"});
+    EXPECT_EQ(checked.code, 1) << checked.err;
+    EXPECT_NE(checked.out.find("robot.base.position is assumed: a frame"), std::string::npos) << checked.out;
+    EXPECT_NE(checked.out.find("dispatch: not allowed"), std::string::npos) << checked.out;
+    const json document = json::parse(run({"cells", "check", "cells/kr60-ha.toml", "--json"}).out);
+    EXPECT_EQ(document["schema"], "qchopper-cell-check-1");
+    EXPECT_EQ(document["may_be_dispatched"], false);
+    EXPECT_EQ(document["uncertain"][0],
+              (json{{"table", "robot"}, {"key", "acceleration_deg_per_s2"}, {"origin", "assumed"}}));
+    EXPECT_EQ(run({"cells", "check", "cells/foam-1.toml"}).code, 0);
+}
+
+}  // namespace
+}  // namespace qchopper

@@ -1,0 +1,401 @@
+// Version 2 of the cell file: what is read, what is refused and where, and the ready cells.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <random>
+#include <sstream>
+
+#include "base/error.h"
+#include "cam/cell/cell.h"
+#include "cam/cell/cell_check.h"
+#include "cam/cell/cell_keys.h"
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double degree = std::numbers::pi / 180;
+
+const fs::path cells = fs::path(QCHOPPER_SOURCE_DIR) / "cells";
+
+std::string bytes_of(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream bytes;
+    bytes << stream.rdbuf();
+    return bytes.str();
+}
+
+const std::string& robot_cell() {
+    static const std::string text = bytes_of(cells / "kr120-r2500-pro-rotary.toml");
+    return text;
+}
+const std::string& gantry_cell() {
+    static const std::string text = bytes_of(cells / "gantry-3axis.toml");
+    return text;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    if (at != std::string::npos) text.replace(at, from.size(), to);
+    return text;
+}
+
+// "cell.toml:LINE: KEY" of the first occurrence of a text.
+int line_of(const std::string& text, const std::string& part) {
+    const std::size_t at = text.find(part);
+    EXPECT_NE(at, std::string::npos) << part;
+    return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+}
+
+std::string refused(const std::string& text) {
+    try {
+        parse_cell(text, "cell.toml");
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.fault, InputFault::config);
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "one line: " << error.what();
+        return error.what();
+    }
+    return "taken";
+}
+
+TEST(CellVersion2, EveryFileOfTheFolderIsACell) {
+    int files = 0;
+    for (const auto& entry : fs::directory_iterator(cells)) {
+        const Cell cell = read_cell(entry.path());
+        EXPECT_EQ(cell.name, entry.path().stem().string());
+        EXPECT_EQ(cell.machine.has_value(), cell.name != "foam-1");
+        ++files;
+    }
+    EXPECT_EQ(files, 5);
+}
+
+TEST(CellVersion2, ARobotIsReadAsItIsWritten) {
+    const Cell cell = parse_cell(robot_cell(), "shop/cell.toml");
+    ASSERT_TRUE(cell.machine && cell.machine->robot);
+    const CellMachine& machine = *cell.machine;
+    const Robot& robot = *machine.robot;
+    EXPECT_EQ(robot.name, "KUKA KR 120 R2500 pro");
+    const ArmGeometry geometry{350, 41, 0, 675, 1150, 1000, 215, {0, -90 * degree, 0, 0, 0, 0}, {-1, 1, 1, -1, 1, -1}};
+    EXPECT_EQ(robot.geometry, geometry);
+    EXPECT_EQ(robot.ranges[1], (JointRange{-140 * degree, -5 * degree, 130 * degree, 260 * degree}));
+    EXPECT_EQ(robot.payload_kg, 120);
+    EXPECT_EQ(robot.base_in_cell, Pose{});
+    EXPECT_EQ(robot.cable, (CableLimits{{-180 * degree, 180 * degree}, {-180 * degree, 180 * degree}}));
+    ASSERT_EQ(robot.capsules.size(), 3U);
+    EXPECT_EQ(robot.capsules[0], (LinkCapsule{2, {350, 0, 675}, {350, 0, 1825}, 200}));
+    ASSERT_TRUE(machine.rotary_table);
+    EXPECT_EQ(machine.rotary_table->table_in_cell.shift, (Vec3{1450, 0, 300}));
+    EXPECT_EQ(machine.rotary_table->speed, 30 * degree);
+    EXPECT_EQ(machine.spindle.spindle_in_flange.shift, (Vec3{0, 0, 350}));
+    EXPECT_EQ(machine.spindle.on, (Signal{SignalKind::output, "1", 1}));
+    EXPECT_EQ(machine.spindle.speed, (Signal{SignalKind::output, "1", 0.0000555556}));
+    EXPECT_EQ(machine.spindle.at_speed, (Signal{SignalKind::input, "1", 1}));
+    ASSERT_TRUE(machine.extraction);
+    EXPECT_EQ(machine.extraction->off, (Signal{SignalKind::output, "2", 1}));
+    EXPECT_EQ(machine.max_tilt, 60 * degree);
+    EXPECT_EQ(machine.max_unreachable, 0.02);
+    EXPECT_EQ(machine.margins, (Margins{5, 3, 10}));
+    ASSERT_EQ(machine.obstacles.size(), 1U);
+    EXPECT_EQ(machine.obstacles[0].box, (Box{{-600, 1800, 0}, {600, 2600, 1400}}));
+    EXPECT_EQ(machine.start.joints[1], -90 * degree);
+    EXPECT_EQ(machine.program, (ProgramSettings{Dialect::krl, 3'000'000, 1'400, 300, std::nullopt}));
+    ASSERT_EQ(machine.tools.size(), 4U);
+    CarvingTool tool;
+    tool.number = 4;
+    tool.name = "ball nose 6 mm";
+    tool.diameter = 6;
+    tool.corner_radius = 3;
+    tool.flute_length = 50;
+    tool.stick_out = 100;
+    tool.holder = {{20, 50}, {32, 50}};
+    tool.feed_min_mm_per_s = 10;
+    tool.feed_max_mm_per_s = 60;
+    tool.rpm_min = 12000;
+    tool.rpm_max = 18000;
+    tool.mass_kg = 0.9;
+    tool.removal_mm3_per_s = 1500;
+    EXPECT_EQ(machine.tools[3], tool);
+    EXPECT_EQ(gauge_length(tool), 200);
+    EXPECT_EQ(cell.stock[2], (Stock{"large", {1000, 600, 500}, Material::pu_foam, true, 3}));
+}
+
+// What setup, jobs and simulation read of every cell.
+TEST(CellVersion2, IsAlsoACellForThoseThatKnowNoRobot) {
+    const Cell cell = parse_cell(robot_cell(), "shop/cell.toml");
+    EXPECT_EQ(cell.tool, (Tool{1, "ball nose 20 mm", 20, 18000, 9000, 24000}));
+    EXPECT_EQ(cell.stock_margin, 5);
+    EXPECT_EQ(cell.clearance, 20);
+    EXPECT_EQ(cell.table.height, 300);
+    // The corners of the square lie on the rim.
+    EXPECT_NEAR(std::hypot(cell.table.size_x / 2, cell.table.size_y / 2), 750, 1e-9);
+    EXPECT_EQ(cell.link.drop, "shop/drop");
+}
+
+TEST(CellVersion2, AGantryHasNoRobot) {
+    const Cell cell = parse_cell(gantry_cell(), "cell.toml");
+    ASSERT_TRUE(cell.machine);
+    EXPECT_FALSE(cell.machine->robot);
+    EXPECT_FALSE(cell.machine->rotary_table);
+    EXPECT_EQ(cell.machine->max_tilt, 0);
+    EXPECT_EQ(cell.machine->start.tip, (Vec3{100, 100, 850}));
+    EXPECT_EQ(cell.machine->program.dialect, Dialect::ngc);
+}
+
+// A, B and C turn about z, then the new y, then the new x.
+TEST(CellVersion2, AFrameIsReadInTheOrderOfKuka) {
+    const std::string text = replaced(robot_cell(), "abc_deg = [0.0, 0.0, 0.0]", "abc_deg = [90.0, 0.0, 90.0]");
+    const Pose base = parse_cell(text, "cell.toml").machine->robot->base_in_cell;
+    EXPECT_NEAR(norm(rotate(base, {1, 0, 0}) - Vec3{0, 1, 0}), 0, 1e-12);
+    EXPECT_NEAR(norm(rotate(base, {0, 1, 0}) - Vec3{0, 0, 1}), 0, 1e-12);
+    EXPECT_NEAR(norm(rotate(base, {0, 0, 1}) - Vec3{1, 0, 0}), 0, 1e-12);
+    const std::string tilted = replaced(robot_cell(), "abc_deg = [0.0, 0.0, 0.0]", "abc_deg = [0.0, 90.0, 0.0]");
+    const Pose down = parse_cell(tilted, "cell.toml").machine->robot->base_in_cell;
+    EXPECT_NEAR(norm(rotate(down, {1, 0, 0}) - Vec3{0, 0, -1}), 0, 1e-12);
+}
+
+TEST(CellVersion2, DefaultsAreKnownAsSuch) {
+    std::string text = robot_cell();
+    for (const char* line :
+         {"max_tilt_deg = 60.0", "max_unreachable = 0.02", "lines_per_chunk = 1400", "spoil = 10.0"}) {
+        text = replaced(text, line, "");
+    }
+    const Cell cell = parse_cell(text, "cell.toml");
+    const Cell whole = parse_cell(robot_cell(), "cell.toml");
+    EXPECT_EQ(cell.machine->max_tilt, whole.machine->max_tilt);
+    EXPECT_EQ(cell.machine->program, whole.machine->program);
+    EXPECT_EQ(cell.machine->margins, whole.machine->margins);
+    const std::vector<ValueOrigin>& origins = cell.machine->origins;
+    for (const ValueOrigin& value :
+         {ValueOrigin{"", "max_tilt_deg", Origin::by_default}, ValueOrigin{"", "max_unreachable", Origin::by_default},
+          ValueOrigin{"program", "lines_per_chunk", Origin::by_default},
+          ValueOrigin{"margin", "spoil", Origin::by_default}}) {
+        EXPECT_NE(std::find(origins.begin(), origins.end(), value), origins.end()) << value.key;
+    }
+}
+
+TEST(CellVersion2, OriginsAreThoseOfTheTableUnlessAKeyHasItsOwn) {
+    const Cell cell = parse_cell(robot_cell(), "cell.toml");
+    const auto origin = [&](const std::string& table, const std::string& key) {
+        for (const ValueOrigin& value : cell.machine->origins) {
+            if (value.table == table && value.key == key) return std::string(to_word(value.origin));
+        }
+        return std::string("none");
+    };
+    EXPECT_EQ(origin("robot", "a1"), "data sheet");
+    EXPECT_EQ(origin("robot", "min_deg"), "assumed");
+    EXPECT_EQ(origin("robot.capsule 3", "radius"), "assumed");
+    EXPECT_EQ(origin("tool 4", "holder"), "assumed");
+    EXPECT_EQ(origin("robot", "name"), "none");
+    EXPECT_EQ(origin("stock small", "kerf"), "none");
+}
+
+// One wrong text per row; `place` is a text of the changed file in the line that the message names.
+TEST(CellVersion2, NamesLineAndKeyOfEveryFault) {
+    struct Case {
+        std::string from, to, place, key, word;
+    };
+    const std::vector<Case> of_robot{
+        {"version = 2", "version = 3", "version", "version", "out of bounds"},
+        {"version = 2", "version = \"2\"", "version", "version", "whole number"},
+        {"payload_kg", "payload", "payload =", "unknown key robot.payload", ""},
+        {"radius = 200.0", "radius = 200.0\nlenght = 1", "lenght", "unknown key robot.capsule.lenght", ""},
+        {"[obstacle", "[obstcle", "obstcle", "unknown key obstcle", ""},
+        {"c2 = 1150.0", "c2 = -1150.0", "c2 =", "robot.c2", "out of bounds"},
+        {"c2 = 1150.0", "c2 = nan", "c2 =", "robot.c2", "finite"},
+        {"c4 = 215.0", "c4 = 6000.0", "c4 =", "robot.c4", "out of bounds"},
+        {"sign = [-1, 1,", "sign = [-1, 0,", "sign =", "robot.sign", "axis 2"},
+        {"sign = [-1, 1,", "sign = [1,", "sign =", "robot.sign", "6 numbers"},
+        {"min_deg = [-185.0, -140.0", "min_deg = [-185.0, -5.0", "max_deg =", "robot.max_deg", "axis 2"},
+        {"min_deg = [-185.0", "min_deg = [nan", "min_deg =", "robot.min_deg", "finite"},
+        {"speed_deg_per_s = [136.0", "speed_deg_per_s = [0", "speed_deg_per_s =", "robot.speed_deg_per_s", "bounds"},
+        {"acceleration_deg_per_s2 = [272.0", "acceleration_deg_per_s2 = [inf", "acceleration_deg",
+         "robot.acceleration_deg_per_s2", "finite"},
+        {"position = [0.0, 0.0, 0.0]", "position = [0.0, 0.0, 5001.0]", "position =", "robot.base.position", "bounds"},
+        {"abc_deg = [0.0, 0.0, 0.0]", "abc_deg = [0.0, 0.0]", "abc_deg =", "robot.base.abc_deg", "3 numbers"},
+        {"axis_4_deg = [-180.0, 180.0]", "axis_4_deg = [180.0, -180.0]", "axis_4_deg", "robot.cable.axis_4_deg",
+         "below the second"},
+        {"axis_6_deg = [-180.0, 180.0]", "axis_6_deg = [400.0, 500.0]", "axis_6_deg", "robot.cable.axis_6_deg",
+         "outside"},
+        {"link = 2", "link = 7", "link = 7", "robot.capsule.link", "out of bounds"},
+        {"radius = 200.0", "radius = 0", "radius = 0", "robot.capsule.radius", "out of bounds"},
+        {"tool_axis = \"z\"", "tool_axis = \"y\"", "tool_axis", "spindle.tool_axis", "must be"},
+        {"mass_kg = 15.0", "mass_kg = 119.0", "mass_kg = 119", "spindle.mass_kg", "payload_kg"},
+        {"on = { output = 1 }", "on = { output = 0 }", "on = { output = 0 }", "spindle.on.output", "out of bounds"},
+        {"on = { output = 1 }", "on = { output = \"one\" }", "on = { output", "spindle.on.output", "whole number"},
+        {"on = { output = 1 }", "on = { input = 1 }", "on = { input", "unknown key spindle.on.input", ""},
+        {"on = { output = 1 }", "on = {}", "on = {}", "spindle.on", "which signal"},
+        {"on = { output = 1 }", "on = { call = \"2X\" }", "on = { call", "spindle.on.call", "not a name"},
+        {"on = { output = 1 }", "on = { output = 1, call = \"X\" }", "on = { output", "spindle.on.call", "one of"},
+        {"external_axis = 1", "external_axis = 0", "external_axis", "rotary_table.external_axis", "out of bounds"},
+        {"abc_deg = [0.0, 0.0, 0.0]        # it", "abc_deg = [0.0, 2.0, 0.0]  # it", "# it turns",
+         "rotary_table.abc_deg", "upright"},
+        {"position = [1450.0, 0.0, 300.0]", "position = [1450.0, 0.0, 200.0]", "position = [1450",
+         "rotary_table.position", "below the reach"},
+        {"max = [600.0, 2600.0, 1400.0]", "max = [600.0, 1600.0, 1400.0]", "max = [600.0", "obstacle.max", "along y"},
+        {"joints_deg = [0.0, -90.0", "joints_deg = [0.0, 0.0", "joints_deg", "start.joints_deg", "axis 2"},
+        {"joints_deg = [0.0, -90.0, 90.0, 0.0", "joints_deg = [0.0, -90.0, 90.0, 181.0", "joints_deg",
+         "start.joints_deg", "axis 4"},
+        {"[start]\n", "[start]\ntip = [0, 0, 0]\n", "tip = [", "start.tip", "gantry"},
+        {"dialect = \"krl\"", "dialect = \"ngc\"", "dialect", "program.dialect", "krl or rapid"},
+        {"dialect = \"krl\"", "dialect = \"gcode\"", "dialect", "program.dialect", "unknown dialect"},
+        {"memory_bytes = 3000000", "memory_bytes = 3", "memory_bytes", "program.memory_bytes", "out of bounds"},
+        {"link_feed = 300.0", "link_feed = -1.0", "link_feed", "program.link_feed", "out of bounds"},
+        {"tool_change = \"stop\"", "tool_change = \"call 7\"", "tool_change", "program.tool_change", "call NAME"},
+        {"number = 2", "number = 1", "name = \"flat", "tool.number", "second tool"},
+        {"shape = \"flat\"", "shape = \"square\"", "shape = \"square", "tool.shape", "unknown shape"},
+        {"shape = \"flat\"", "shape = \"flat\"\ncorner_radius = 1.0", "corner_radius", "tool.corner_radius",
+         "no meaning"},
+        {"shape = \"flat\"", "shape = \"bull\"\ncorner_radius = 10.0", "corner_radius", "tool.corner_radius", "half"},
+        {"shape = \"flat\"", "shape = \"bull\"", "name = \"flat", "tool.corner_radius", "missing"},
+        {"shape = \"flat\"", "shape = \"cone\"", "name = \"flat", "tool.tip_angle_deg", "missing"},
+        {"shape = \"flat\"", "shape = \"flat\"\ntip_angle_deg = 30.0", "tip_angle", "tool.tip_angle_deg", "no meaning"},
+        {"stick_out = 150.0", "stick_out = 99.0", "stick_out = 99", "tool.stick_out", "flute_length"},
+        {"holder = [[40.0, 50.0]]", "holder = [[19.0, 50.0]]", "holder = [[19", "tool.holder", "narrower"},
+        {"holder = [[40.0, 50.0]]", "holder = [40.0, 50.0]", "holder = [40", "tool.holder", "two numbers"},
+        {"holder = [[40.0, 50.0]]", "holder = []", "holder = []", "tool.holder", "at least one"},
+        {"feed_mm_per_s = [20.0, 150.0]", "feed_mm_per_s = [20.0, 501.0]", "feed_mm_per_s = [20.0, 501",
+         "tool.feed_mm_per_s", "out of bounds"},
+        {"feed_mm_per_s = [20.0, 150.0]", "feed_mm_per_s = [20.0, 20.0]", "feed_mm_per_s = [20.0, 20.0]",
+         "tool.feed_mm_per_s", "below the second"},
+        {"rpm = [6000, 18000]", "rpm = [6000, 1800.5]", "rpm = [6000, 1800.5", "tool.rpm", "below the second"},
+        {"rpm = [6000, 18000]", "rpm = [6000.5, 18000]", "rpm = [6000.5", "tool.rpm", "whole"},
+        {"length_measured = false", "length_measured = 0", "length_measured = 0", "tool.length_measured",
+         "true or false"},
+        {"sawn = true  # may be sawn down\n", "", "kerf = 3", "stock.kerf", "not sawn"},
+        {"kerf = 3.0", "", "name = \"large\"", "stock.kerf", "missing"},
+        {"max_tilt_deg = 60.0", "max_tilt_deg = 91.0", "max_tilt_deg", "max_tilt_deg", "out of bounds"},
+        {"max_unreachable = 0.02", "max_unreachable = 2", "max_unreachable", "max_unreachable", "out of bounds"},
+        {"spoil = 10.0", "spoil = -1.0", "spoil", "margin.spoil", "out of bounds"},
+        {"source = \"data sheet\"", "source = \"guessed\"", "\"guessed\"", "robot.source", "unknown origin"},
+        {"payload_kg = \"assumed\"", "payload_kg = \"?\"", "payload_kg = \"?\"", "robot.sources.payload_kg",
+         "unknown origin"},
+        {"sources = {", "sources = { name = \"assumed\",", "sources = {", "unknown key robot.sources.name", ""},
+        {"[rotary_table]", "[table]\ncentre = [1450, 0]\nsize = [9, 9]\nheight = 300\n[rotary_table]",
+         "abc_deg = [0.0, 0.0, 0.0]        # it", "", "one table"},
+    };
+    for (const Case& one : of_robot) {
+        const std::string text = replaced(robot_cell(), one.from, one.to);
+        const std::string what = refused(text);
+        EXPECT_NE(what.find(one.key), std::string::npos) << one.to << " -> " << what;
+        EXPECT_NE(what.find(one.word), std::string::npos) << one.to << " -> " << what;
+        if (what.find("is missing") != std::string::npos || one.word == "one table") continue;  // the table's line
+        if (one.key == "tool.number") continue;  // a line before its place
+        EXPECT_EQ(what.find("cell.toml:" + std::to_string(line_of(text, one.place)) + ": "), 0U)
+            << one.to << " -> " << what;
+    }
+    const std::vector<Case> of_gantry{
+        {"max_unreachable = 0.02", "max_unreachable = 0.02\nmax_tilt_deg = 30.0", "", "max_tilt_deg", "does not tilt"},
+        {"dialect = \"ngc\"", "dialect = \"krl\"", "", "program.dialect", "ngc"},
+        {"tip = [100.0", "tip = [-1.0", "", "start.tip", "outside of the reach"},
+        {"[start]\n", "[start]\njoints_deg = [0, 0, 0, 0, 0, 0]\n", "", "start.joints_deg", "robot"},
+        {"[spindle]\n", "[spindle]\nposition = [0, 0, 0]\n", "", "spindle.position", "no flange"},
+        {"tool_axis = \"z\"", "tool_axis = \"x\"", "", "spindle.tool_axis", "gantry"},
+        {"[table]", "[rotary_table]", "", "rotary_table", "three axes"},
+    };
+    for (const Case& one : of_gantry) {
+        const std::string what = refused(replaced(gantry_cell(), one.from, one.to));
+        EXPECT_NE(what.find(one.key), std::string::npos) << one.to << " -> " << what;
+        EXPECT_NE(what.find(one.word), std::string::npos) << one.to << " -> " << what;
+    }
+}
+
+TEST(CellVersion2, AnOriginOfAValueThatIsNotGivenIsRefused) {
+    const std::string text =
+        replaced(robot_cell(), "shape = \"ball\"", "shape = \"ball\"\nsources = { corner_radius = \"measured\" }");
+    EXPECT_NE(refused(text).find("tool.sources.corner_radius: the table does not give this value"), std::string::npos)
+        << refused(text);
+}
+
+// Version 1 knows nothing of version 2, whether it says its number or not.
+TEST(CellVersion2, Version1IsWhatItWas) {
+    const std::string text = bytes_of(cells / "foam-1.toml");
+    const Cell cell = parse_cell(text, "cells/foam-1.toml");
+    EXPECT_FALSE(cell.machine);
+    EXPECT_EQ(parse_cell("version = 1\n" + text, "cells/foam-1.toml"), cell);
+    EXPECT_NE(refused(text + "source = \"measured\"\n").find("unknown key link.source"), std::string::npos);
+    EXPECT_NE(refused("max_tilt_deg = 60\n" + text).find("unknown key max_tilt_deg"), std::string::npos);
+    EXPECT_NE(refused(replaced(text, "material = \"pu_foam\"", "sawn = true")).find("unknown key stock.sawn"),
+              std::string::npos);
+    EXPECT_NE(refused("version = 2\n" + text).find("unknown key"), std::string::npos);
+    // Lengths up to 100 m, as before.
+    EXPECT_EQ(parse_cell(replaced(text, "1200.0, 1200.0, 1400.0", "99000.0, 1200.0, 1400.0"), "c").reach.max.x, 99000);
+}
+
+TEST(CellCheck, AReadyCellMayNotBeDispatched) {
+    const CellCheck check = check_cell(parse_cell(robot_cell(), "cell.toml"));
+    EXPECT_FALSE(check.may_be_dispatched());
+    const std::vector<std::string>& reasons = check.against_dispatch;
+    for (const char* reason : {"robot.min_deg is assumed: a joint limit", "robot.base.position is assumed: a frame",
+                               "tool 2: its length is not measured"}) {
+        EXPECT_NE(std::find(reasons.begin(), reasons.end(), reason), reasons.end()) << reason;
+    }
+    EXPECT_TRUE(check.missing.empty());
+}
+
+TEST(CellCheck, WhatIsMeasuredMayBeDispatched) {
+    for (std::string text : {robot_cell(), gantry_cell()}) {
+        for (const auto& [from, to] : {std::pair{"\"assumed\"", "\"measured\""},
+                                       std::pair{"length_measured = false", "length_measured = true"}}) {
+            while (text.find(from) != std::string::npos) text = replaced(text, from, to);
+        }
+        const CellCheck check = check_cell(parse_cell(text, "cell.toml"));
+        EXPECT_TRUE(check.may_be_dispatched());
+        EXPECT_TRUE(check.uncertain.empty());
+        // One value of unstated origin is enough, if it decides where the tool is.
+        const std::size_t table = text.find("table]");
+        const std::size_t at = text.find("source = \"measured\"\n", table);
+        std::string unstated = text;
+        unstated.erase(at, std::string("source = \"measured\"\n").size());
+        const CellCheck second = check_cell(parse_cell(unstated, "cell.toml"));
+        EXPECT_FALSE(second.may_be_dispatched());
+        EXPECT_EQ(second.uncertain.front().origin, Origin::unstated);
+    }
+}
+
+TEST(CellCheck, TellsWhatIsNotDescribed) {
+    std::string text = robot_cell();
+    const std::size_t at = text.find("[extraction]");
+    text.erase(at, text.find("# The box", at) - at);
+    text = replaced(text, "at_speed = { input = 1 }\n", "");
+    const CellCheck check = check_cell(parse_cell(text, "cell.toml"));
+    ASSERT_EQ(check.missing.size(), 3U);
+    EXPECT_EQ(check.missing[0], "spindle.at_speed: no signal tells that the spindle has its speed");
+    EXPECT_EQ(check.missing[1], "extraction.on: no signal switches the extraction on");
+    const CellCheck old = check_cell(read_cell(cells / "foam-1.toml"));
+    EXPECT_TRUE(old.may_be_dispatched());
+    EXPECT_EQ(old.missing.size(), 2U);
+}
+
+// Whatever the bytes: a possible cell or an InputError.
+TEST(CellVersion2, DamagedTextNeverEscapes) {
+    std::mt19937 random(12);
+    int refusals = 0;
+    for (int round = 0; round < 1500; ++round) {
+        std::string text = round % 2 == 0 ? robot_cell() : gantry_cell();
+        for (int k = 0; k < 1 + round % 4; ++k) {
+            const std::size_t at = random() % text.size();
+            if (round % 3 == 0) text[at] = static_cast<char>(random());
+            if (round % 3 == 1) text.erase(at, 1 + random() % 6);
+            if (round % 3 == 2) text.insert(at, 1, "[]{}=\"'\n.0e-"[random() % 12]);
+        }
+        try {
+            const Cell cell = parse_cell(text, "c.toml");
+            ASSERT_TRUE(cell.machine);
+            EXPECT_FALSE(cell.machine->tools.empty());
+            for (const CarvingTool& tool : cell.machine->tools) EXPECT_GE(tool.stick_out, tool.flute_length);
+            check_cell(cell);
+        } catch (const InputError& error) {
+            ++refusals;
+            EXPECT_EQ(error.fault, InputFault::config);
+        }
+    }
+    EXPECT_GT(refusals, 300);
+}
+
+}  // namespace
+}  // namespace qchopper
