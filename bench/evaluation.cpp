@@ -111,6 +111,22 @@ std::vector<Vec3> directions(int count) {
     return result;
 }
 
+// Wall time of reading so many bytes once, on the threads that are allowed now.
+double reading_s(double bytes, int runs) {
+    constexpr std::size_t at_once = 1 << 16;
+    const std::vector<double> numbers(static_cast<std::size_t>(bytes / sizeof(double)), 1.5);
+    std::vector<double> sums(numbers.size() / at_once + 1, 0);
+    return best_of(runs, wall_s, [&] {
+        parallel_for(0, sums.size(), [&](std::size_t part) {
+            const std::size_t end = std::min(numbers.size(), (part + 1) * at_once);
+            std::array<double, 4> sum{};
+            for (std::size_t i = part * at_once; i < end; ++i) sum[i % 4] += numbers[i];
+            sums[part] = sum[0] + sum[1] + sum[2] + sum[3];
+        });
+        return sums;
+    });
+}
+
 const Piece& most_faces(const Segmentation& s) {
     return *std::max_element(s.pieces.begin(), s.pieces.end(), [](const Piece& a, const Piece& b) {
         return a.mesh->triangles.size() < b.mesh->triangles.size();
@@ -208,20 +224,29 @@ void measure_many(const Measured& m, const Baseline& base, Figures& figures) {
     double cpu = 0;
     double one = 0;
     double two = 0;
+    double read_one = 0;
+    double read_two = 0;
+    const double touched = bytes_to_touch(prepare(m.piece, thesis_form()));
     {
         const ThreadLimit one_thread(1);
+        read_one = reading_s(touched, 20);
         const double started = wall_s();
         cpu = best_of(1, cpu_s, evaluation);
         one = wall_s() - started;
     }
     {
         const ThreadLimit two_threads(2);
+        read_two = reading_s(touched, 20);
         two = best_of(1, wall_s, evaluation);
     }
     const std::string what = std::to_string(candidates.size()) + " candidates of 132 normals, with preparation";
     figures.record(m.name, what, time_text(cpu) + "; wall " + time_text(one) + ", two threads " + time_text(two));
     figures.at_most(m.name, "that / evaluation 3 x 40", cpu / base.evaluation_s, 160);
     figures.at_least(m.name, "that, wall: one thread / two threads", one / two, 1.9);
+    figures.record(m.name, "reading the bytes of one normal, wall: one thread / two threads",
+                   number_text(read_one / read_two));
+    figures.at_least(m.name, "speed-up by two threads / that of the reading loop", (one / two) / (read_one / read_two),
+                     0.9);
 }
 
 }  // namespace qchopper::bench
