@@ -260,15 +260,61 @@ void RayScene::distances(Vec3 origin, std::span<const Vec3> directions, double f
 
 namespace {
 
+// The axes of space with that along which a ray is longest last, and the shear that turns the ray to it.
+struct RayShear {
+    explicit RayShear(Vec3 direction) {
+        const Vec3 size{std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)};
+        if (size.x >= size.y && size.x >= size.z) {
+            u = &Vec3::y;
+            v = &Vec3::z;
+            w = &Vec3::x;
+        } else if (size.y >= size.z) {
+            u = &Vec3::z;
+            v = &Vec3::x;
+            w = &Vec3::y;
+        }
+        scale = 1 / (direction.*w);
+        along_u = scale * (direction.*u);
+        along_v = scale * (direction.*v);
+    }
+    double Vec3::*u = &Vec3::x;
+    double Vec3::*v = &Vec3::y;
+    double Vec3::*w = &Vec3::z;
+    double along_u = 0;
+    double along_v = 0;
+    double scale = 0;
+};
+
+// The distance from the origin, along the ray with this shear, to a triangle whose corners count from it, or a negative
+// number.
+double distance_to(Vec3 a, Vec3 b, Vec3 c, const RayShear& shear) {
+    const auto u = [&](const Vec3& p) { return p.*shear.u - shear.along_u * (p.*shear.w); };
+    const auto v = [&](const Vec3& p) { return p.*shear.v - shear.along_v * (p.*shear.w); };
+    const double au = u(a);
+    const double av = v(a);
+    const double bu = u(b);
+    const double bv = v(b);
+    const double cu = u(c);
+    const double cv = v(c);
+    const double of_a = cu * bv - cv * bu;
+    const double of_b = au * cv - av * cu;
+    if ((of_a < 0 && of_b > 0) || (of_a > 0 && of_b < 0)) return -1;
+    const double of_c = bu * av - bv * au;
+    if ((of_a < 0 || of_b < 0) ? of_c > 0 : (of_a > 0 || of_b > 0) && of_c < 0) return -1;
+    const double sum = of_a + of_b + of_c;
+    if (sum == 0) return -1;
+    return shear.scale * (of_a * (a.*shear.w) + of_b * (b.*shear.w) + of_c * (c.*shear.w)) / sum;
+}
+
 // A ray of PreciseRays on its way through the tree.
 struct PreciseRay {
     RTCIntersectContext context;  // first: Embree hands its address back
     Vec3 origin;
-    Vec3 direction;
+    RayShear shear;
     RayFilter filter;
+    double slack = 0;  // mm: what the tree may be wrong by
     double distance = std::numeric_limits<double>::infinity();
     std::uint32_t triangle = 0;
-    double slack = 0;  // mm: what the tree may be wrong by
 };
 
 // The triangles [first, first + triangles_at_once) of a mesh.
@@ -296,18 +342,6 @@ void run_bounds(const RTCBoundsFunctionArguments* args) {
     args->bounds_o->upper_z = high(a.z, b.z, c.z, run.centre.z);
 }
 
-// The distance along a ray from the origin to a triangle, or a negative number.
-double distance_to(Vec3 a, Vec3 b, Vec3 c, Vec3 direction) {
-    const double u = dot(cross(c - a, c + a), direction);
-    const double v = dot(cross(a - b, a + b), direction);
-    if ((u < 0 && v > 0) || (u > 0 && v < 0)) return -1;
-    const double w = dot(cross(b - c, b + c), direction);
-    if ((u < 0 || v < 0) ? w > 0 : (u > 0 || v > 0) && w < 0) return -1;
-    const Vec3 normal = cross(b - a, c - a);
-    const double along = dot(normal, direction);
-    return along == 0 ? -1 : dot(normal, a) / along;
-}
-
 void meet_run(const RTCIntersectFunctionNArguments* args) {
     assert(args->N == 1);
     if (args->valid[0] == 0) return;
@@ -316,7 +350,7 @@ void meet_run(const RTCIntersectFunctionNArguments* args) {
     const std::size_t t = run.first + args->primID;
     if (!precise.filter.label.empty() && precise.filter.label[t] != precise.filter.wanted) return;
     const auto [a, b, c] = corners_of(*run.mesh, t);
-    const double distance = distance_to(a - precise.origin, b - precise.origin, c - precise.origin, precise.direction);
+    const double distance = distance_to(a - precise.origin, b - precise.origin, c - precise.origin, precise.shear);
     if (distance < 0 || distance > precise.distance || (distance == precise.distance && t > precise.triangle)) return;
     precise.distance = distance;
     precise.triangle = static_cast<std::uint32_t>(t);
@@ -357,7 +391,7 @@ PreciseRays::PreciseRays(std::span<const TriangleMesh* const> meshes, Instructio
             rtcSetGeometryIntersectFunction(geometry, meet_run);
             rtcCommitGeometry(geometry);
             EmbreeScene& scene = tree.scenes.emplace_back(rtcNewScene(trees_->device.get()));
-            rtcSetSceneFlags(scene.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT));
+            rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
             rtcAttachGeometry(scene.get(), geometry);
             rtcReleaseGeometry(geometry);
             rtcCommitScene(scene.get());
@@ -374,12 +408,8 @@ std::optional<RayHit> PreciseRays::first_hit(std::size_t mesh, Vec3 origin, Vec3
     assert(mesh < trees_->meshes.size());
     assert(std::abs(norm(direction) - 1) < 1e-6);
     const Trees::Mesh& tree = trees_->meshes[mesh];
-    PreciseRay precise;
+    PreciseRay precise{{}, origin, RayShear(direction), filter, tree.slack};
     rtcInitIntersectContext(&precise.context);
-    precise.origin = origin;
-    precise.direction = direction;
-    precise.filter = filter;
-    precise.slack = tree.slack;
     RTCRayHit ray{ray_from(origin - tree.centre, direction), {}};
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;

@@ -106,10 +106,11 @@ void update_row(const SampledScan& scan, const PieceRegion& region, const Surfac
         if (row[k] == open || row[k] == blocked_at_once) continue;
         const double along = dot(outward, scan.directions[k]);
         const double left = depth - static_cast<double>(row[k]) * along;  // the same of the hit
-        if (casts_all || std::abs(left) < flush * scan.diagonal_mm)
-            row[k] = cast(scan, region, sample, scan.directions[k]);
-        else if (along > 0 && left < 0)
+        const bool is_flush = std::abs(left) < flush * scan.diagonal_mm;
+        if (!is_flush && along > 0 && left < 0)
             row[k] = open;
+        else if (is_flush || casts_all)
+            row[k] = cast(scan, region, sample, scan.directions[k]);
     }
 }
 
@@ -185,9 +186,13 @@ std::vector<PieceAccessibility> cut_accessibility(const SampledScan& scan, const
         result[k].sample.push_back(piece.sample[row]);
         parent_row[k].push_back(row);
     }
-    const bool casts_all = result.size() > 2;
+    const auto made_above = std::count_if(result.begin(), result.end(),
+                                          [](const PieceAccessibility& p) { return p.half_spaces.back().above; });
+    const auto made_below = static_cast<std::ptrdiff_t>(result.size()) - made_above;
     for (std::uint32_t k = 0; k < result.size(); ++k) {
         PieceAccessibility& child = result[k];
+        // All that the parent has on this side is one solid, or there are others that must not block it.
+        const bool casts_all = (child.half_spaces.back().above ? made_above : made_below) > 1;
         const PieceRegion region{child.solid, child.half_spaces, {label[child.half_spaces.back().above ? 1 : 0], k}};
         child.distance.resize(child.sample.size() * directions);
         parallel_ranges(0, child.sample.size(), samples_at_once, [&](std::size_t first, std::size_t end) {

@@ -75,9 +75,9 @@ struct PieceAccessibility {
 std::vector<PieceAccessibility> uncut_accessibility(const SampledScan& scan);
 
 // Of the pieces that a cut made of `piece`, in their order; a fragment's is for the caller to drop. `made` is the
-// result of cut_piece() for the piece. Every blocked ray is cast again where the cut made more than two pieces,
-// otherwise those whose hit lies within 4e-6 of the scan's diagonal of the plane. O(samples x directions + triangles of
-// the solid).
+// result of cut_piece() for the piece. Rays that met the surface beyond the plane are open now. The other blocked ones
+// are cast again on a side of the plane where there are several solids; elsewhere only those whose hit lies within 4e-6
+// of the scan's diagonal of the plane. O(samples x directions + triangles of the solid).
 std::vector<PieceAccessibility> cut_accessibility(const SampledScan& scan, const PieceAccessibility& piece,
                                                   const CutPieces& made);
 

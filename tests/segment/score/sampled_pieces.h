@@ -50,15 +50,11 @@ inline std::vector<SampledPiece> uncut_pieces(const SampledScan& scan) {
     return pieces;
 }
 
-// Replaces pieces[which] by what a plane at this share of its extent makes of it. Returns how many pieces it makes; 0
-// if the plane misses.
-inline std::size_t cut_at(const SampledScan& scan, std::vector<SampledPiece>& pieces, std::size_t which, Vec3 normal,
-                          double share, std::int32_t number) {
+// Replaces pieces[which] by what a plane makes of it. Returns how many pieces it makes; 0 if the plane misses.
+inline std::size_t cut_along(const SampledScan& scan, std::vector<SampledPiece>& pieces, std::size_t which,
+                             const Plane& plane, std::int32_t number) {
     const SampledPiece parent = pieces[which];
-    const Extent range = extent(*parent.piece.mesh, normal);
-    const auto nudged = nudge(parent.piece, normal, std::array{range.low + share * range.size()});
-    if (!nudged[0]) return 0;
-    const auto made = cut_piece(parent.piece, {normal, nudged[0]->offset}, number);
+    const auto made = cut_piece(parent.piece, plane, number);
     if (!made) return 0;
     std::vector<PieceAccessibility> accessibility = cut_accessibility(scan, parent.accessibility, *made);
     pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(which));
@@ -66,6 +62,15 @@ inline std::size_t cut_at(const SampledScan& scan, std::vector<SampledPiece>& pi
         pieces.push_back({made->pieces[k], std::move(accessibility[k])});
     }
     return made->pieces.size();
+}
+
+// The same along a plane at this share of the piece's extent, nudged.
+inline std::size_t cut_at(const SampledScan& scan, std::vector<SampledPiece>& pieces, std::size_t which, Vec3 normal,
+                          double share, std::int32_t number) {
+    const Piece& parent = pieces[which].piece;
+    const Extent range = extent(*parent.mesh, normal);
+    const auto nudged = nudge(parent, normal, std::array{range.low + share * range.size()});
+    return nudged[0] ? cut_along(scan, pieces, which, {normal, nudged[0]->offset}, number) : 0;
 }
 
 inline Vec3 origin_of(const SampledScan& scan, const SurfaceSample& sample) {
