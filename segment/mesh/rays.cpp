@@ -22,7 +22,7 @@
 
 // The number of threads for Embree: all, but one under the thread sanitizer, which does not follow those of TBB.
 #ifndef QCHOPPER_EMBREE_CONFIG
-#define QCHOPPER_EMBREE_CONFIG nullptr
+#define QCHOPPER_EMBREE_CONFIG ""
 #endif
 
 namespace qchopper {
@@ -362,7 +362,8 @@ void meet_run(const RTCIntersectFunctionNArguments* args) {
 
 struct PreciseRays::Trees {
     explicit Trees(Instructions instructions)
-        : device(instructions == Instructions::sse ? Device(rtcNewDevice("isa=sse4.2")) : new_device()) {}
+        : device(instructions == Instructions::sse ? Device(rtcNewDevice("isa=sse4.2," QCHOPPER_EMBREE_CONFIG))
+                                                   : new_device()) {}
     struct Mesh {
         std::vector<std::unique_ptr<TriangleRun>> runs;  // their addresses are Embree's
         std::vector<EmbreeScene> scenes;                 // one per run

@@ -10,7 +10,7 @@
 // decompose-and-carve for subtractive manufacturing" (2020).
 //
 // Memory: 4 bytes per sample and direction, 21 MB for 20,000 x 264, shared out among the pieces; 4 bytes per triangle
-// of a piece; and the tree, about 100 bytes per triangle of the scan.
+// of a piece; and the trees, about 80 bytes per triangle of the scan.
 
 #pragma once
 

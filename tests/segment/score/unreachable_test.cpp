@@ -162,6 +162,38 @@ TEST(Unreachable, GrowingTheTiltNeverMakesItLarger) {
     }
 }
 
+TEST(Unreachable, TurningModelPlanesAndDirectionsTogetherChangesNothing) {
+    const Vec3 axis{1, 2, 3};
+    const auto turned = [&](Vec3 v) { return shapes::rotated({{v}, {}, {}}, axis, 0.7).points[0]; };
+    for (const TriangleMesh& mesh : {shapes::nested(), shapes::torus({0, 0, 0}, 40, 12), shapes::stairs()}) {
+        Whole upright(mesh, 2'000);
+        Whole other(shapes::rotated(mesh, axis, 0.7), 2'000);
+        other.scan.directions.clear();
+        for (const Vec3& d : upright.scan.directions) other.scan.directions.push_back(turned(d));
+        other.pieces = uncut_pieces(other.scan);
+        const Vec3 normal = canonical({normalized({0.3, -0.2, 1}), 0}).normal;
+        upright.cut(normal, 0.4);
+        // cut() makes the normal canonical: the share counts from the other end where that turns it round.
+        const bool is_turned_round = dot(canonical({turned(normal), 0}).normal, turned(normal)) < 0;
+        other.cut(turned(normal), is_turned_round ? 0.6 : 0.4);
+        ASSERT_EQ(upright.pieces.size(), other.pieces.size());
+        for (const double tilt : {0.0, 30.0, 60.0, 90.0}) {
+            double before = 0;
+            double after = 0;
+            for (const SampledPiece& piece : upright.pieces) {
+                if (piece.piece.half_spaces.empty()) continue;
+                before += area_of(upright.scan, piece, base_of(piece), tilt).total_mm2(90);
+            }
+            for (const SampledPiece& piece : other.pieces) {
+                if (piece.piece.half_spaces.empty()) continue;
+                after += area_of(other.scan, piece, base_of(piece), tilt).total_mm2(90);
+            }
+            EXPECT_TRUE(before > 0 || tilt > 0);
+            EXPECT_NEAR(after, before, 3 * upright.scan.samples.area_each_mm2) << tilt;
+        }
+    }
+}
+
 // The states of every sample, as the reference finds them, counted.
 TEST(Unreachable, EqualsTheReferenceOnReallyCutPieces) {
     std::mt19937 random(32);
