@@ -4,22 +4,31 @@
 
 #include <cassert>
 
-#include "segment/cut/cut.h"
 #include "segment/cut/half_solids.h"
 #include "segment/mesh/edges.h"
 
 namespace qchopper {
 namespace {
 
-void add_solids(CutPieces& result, const Piece& parent, const TriangleMesh& half, const HalfSolids& solids,
+void add_solids(CutPieces& result, const Piece& parent, const Half& half, const HalfSolids& solids,
                 const HalfSpace& half_space) {
-    for (TriangleMesh& solid : split_solids(half, solids.shells, solids.solids)) {
+    const std::size_t first = result.pieces.size();
+    for (TriangleMesh& solid : split_solids(half.mesh, solids.shells, solids.solids)) {
         assert(edges(solid).faults.is_closed());
         Piece piece;
         piece.mesh = std::make_shared<const TriangleMesh>(std::move(solid));
         piece.half_spaces = parent.half_spaces;
         piece.half_spaces.push_back(half_space);
         result.pieces.push_back(std::move(piece));
+    }
+    if (solids.solids.count == 1) {
+        result.parent.push_back(half.parent);
+        return;
+    }
+    result.parent.resize(result.pieces.size());
+    for (std::size_t t = 0; t < half.parent.size(); ++t) {
+        const std::uint32_t solid = solids.solids.solid_of_shell[solids.shells.shell_of[t]];
+        result.parent[first + solid].push_back(half.parent[t]);
     }
 }
 
@@ -37,8 +46,8 @@ std::optional<CutPieces> cut_piece(const Piece& piece, const Plane& plane, std::
                                   " place(s) of this cut: the pieces are closed, but their caps overlap there");
     }
     const SolidsOfHalves solids = solids_of_halves(*piece.mesh, plane, *halves);
-    add_solids(result, piece, halves->above.mesh, solids.above, {cut_number, plane, true});
-    add_solids(result, piece, halves->below.mesh, solids.below, {cut_number, plane, false});
+    add_solids(result, piece, halves->above, solids.above, {cut_number, plane, true});
+    add_solids(result, piece, halves->below, solids.below, {cut_number, plane, false});
     assert(result.pieces.size() >= 2);  // at least one on either side
     return result;
 }

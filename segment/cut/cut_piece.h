@@ -5,16 +5,20 @@
 
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "segment/cut/cut.h"
 #include "segment/cut/piece.h"
 
 namespace qchopper {
 
 struct CutPieces {
-    std::vector<Piece> pieces;          // two or more, without names; those above the plane first, then those below
+    std::vector<Piece> pieces;  // two or more, without names; those above the plane first, then those below
+    // One list per piece, one entry per triangle: the triangle of the cut piece of which it is a part; caps: no_parent.
+    std::vector<std::vector<std::uint32_t>> parent;
     double cap_area_mm2 = 0;            // as in CutHalves
     std::vector<std::string> warnings;  // one if the piece intersects itself at the plane
 };

@@ -1,5 +1,10 @@
 // By Embree: I. Wald, S. Woop, C. Benthin, G. Johnson and M. Ernst, "Embree: a kernel framework for efficient CPU ray
 // tracing" (2014). O(log triangles) per ray on average; moving a mesh of a RayScene is O(meshes).
+//
+// PreciseRays: the triangles are user geometry of Embree, whose boxes are widened by 1e-6 of the mesh's diagonal, more
+// than the rounding of a ray to single precision moves it within the box; a triangle is tested by the signs of the
+// three volumes of the ray with its edges, which are opposite to the last bit for the two triangles at an edge: S.
+// Woop, C. Benthin and I. Wald, "Watertight ray/triangle intersection" (2013).
 
 #include "segment/mesh/rays.h"
 
@@ -8,6 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -15,7 +22,7 @@
 
 // The number of threads for Embree: all, but one under the thread sanitizer, which does not follow those of TBB.
 #ifndef QCHOPPER_EMBREE_CONFIG
-#define QCHOPPER_EMBREE_CONFIG nullptr
+#define QCHOPPER_EMBREE_CONFIG ""
 #endif
 
 namespace qchopper {
@@ -249,6 +256,167 @@ void RayScene::distances(Vec3 origin, std::span<const Vec3> directions, double f
     }
     rtcIntersect8(is_valid.data(), trees_->all.get(), &context, &rays);
     std::copy_n(std::begin(rays.ray.tfar), result.size(), result.begin());
+}
+
+namespace {
+
+// The axes of space with that along which a ray is longest last, and the shear that turns the ray to it.
+struct RayShear {
+    explicit RayShear(Vec3 direction) {
+        const Vec3 size{std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)};
+        if (size.x >= size.y && size.x >= size.z) {
+            u = &Vec3::y;
+            v = &Vec3::z;
+            w = &Vec3::x;
+        } else if (size.y >= size.z) {
+            u = &Vec3::z;
+            v = &Vec3::x;
+            w = &Vec3::y;
+        }
+        scale = 1 / (direction.*w);
+        along_u = scale * (direction.*u);
+        along_v = scale * (direction.*v);
+    }
+    double Vec3::*u = &Vec3::x;
+    double Vec3::*v = &Vec3::y;
+    double Vec3::*w = &Vec3::z;
+    double along_u = 0;
+    double along_v = 0;
+    double scale = 0;
+};
+
+// The distance from the origin, along the ray with this shear, to a triangle whose corners count from it, or a negative
+// number.
+double distance_to(Vec3 a, Vec3 b, Vec3 c, const RayShear& shear) {
+    const auto u = [&](const Vec3& p) { return p.*shear.u - shear.along_u * (p.*shear.w); };
+    const auto v = [&](const Vec3& p) { return p.*shear.v - shear.along_v * (p.*shear.w); };
+    const double au = u(a);
+    const double av = v(a);
+    const double bu = u(b);
+    const double bv = v(b);
+    const double cu = u(c);
+    const double cv = v(c);
+    const double of_a = cu * bv - cv * bu;
+    const double of_b = au * cv - av * cu;
+    if ((of_a < 0 && of_b > 0) || (of_a > 0 && of_b < 0)) return -1;
+    const double of_c = bu * av - bv * au;
+    if ((of_a < 0 || of_b < 0) ? of_c > 0 : (of_a > 0 || of_b > 0) && of_c < 0) return -1;
+    const double sum = of_a + of_b + of_c;
+    if (sum == 0) return -1;
+    return shear.scale * (of_a * (a.*shear.w) + of_b * (b.*shear.w) + of_c * (c.*shear.w)) / sum;
+}
+
+// A ray of PreciseRays on its way through the tree.
+struct PreciseRay {
+    RTCIntersectContext context;  // first: Embree hands its address back
+    Vec3 origin;
+    RayShear shear;
+    RayFilter filter;
+    double slack = 0;  // mm: what the tree may be wrong by
+    double distance = std::numeric_limits<double>::infinity();
+    std::uint32_t triangle = 0;
+};
+
+// The triangles [first, first + triangles_at_once) of a mesh.
+struct TriangleRun {
+    const TriangleMesh* mesh = nullptr;
+    std::size_t first = 0;
+    Vec3 centre;
+    double slack = 0;  // mm
+};
+
+void run_bounds(const RTCBoundsFunctionArguments* args) {
+    const auto& run = *static_cast<const TriangleRun*>(args->geometryUserPtr);
+    const auto [a, b, c] = corners_of(*run.mesh, run.first + args->primID);
+    const auto low = [&](double u, double v, double w, double centre) {
+        return static_cast<float>(std::min({u, v, w}) - centre - run.slack);
+    };
+    const auto high = [&](double u, double v, double w, double centre) {
+        return static_cast<float>(std::max({u, v, w}) - centre + run.slack);
+    };
+    args->bounds_o->lower_x = low(a.x, b.x, c.x, run.centre.x);
+    args->bounds_o->lower_y = low(a.y, b.y, c.y, run.centre.y);
+    args->bounds_o->lower_z = low(a.z, b.z, c.z, run.centre.z);
+    args->bounds_o->upper_x = high(a.x, b.x, c.x, run.centre.x);
+    args->bounds_o->upper_y = high(a.y, b.y, c.y, run.centre.y);
+    args->bounds_o->upper_z = high(a.z, b.z, c.z, run.centre.z);
+}
+
+void meet_run(const RTCIntersectFunctionNArguments* args) {
+    assert(args->N == 1);
+    if (args->valid[0] == 0) return;
+    const auto& run = *static_cast<const TriangleRun*>(args->geometryUserPtr);
+    auto& precise = *reinterpret_cast<PreciseRay*>(args->context);
+    const std::size_t t = run.first + args->primID;
+    if (!precise.filter.label.empty() && precise.filter.label[t] != precise.filter.wanted) return;
+    const auto [a, b, c] = corners_of(*run.mesh, t);
+    const double distance = distance_to(a - precise.origin, b - precise.origin, c - precise.origin, precise.shear);
+    if (distance < 0 || distance > precise.distance || (distance == precise.distance && t > precise.triangle)) return;
+    precise.distance = distance;
+    precise.triangle = static_cast<std::uint32_t>(t);
+    // What is as near within the slack is tested as well.
+    reinterpret_cast<RTCRayHit*>(args->rayhit)->ray.tfar = static_cast<float>(distance + 2 * precise.slack);
+}
+
+}  // namespace
+
+struct PreciseRays::Trees {
+    explicit Trees(Instructions instructions)
+        : device(instructions == Instructions::sse ? Device(rtcNewDevice("isa=sse4.2," QCHOPPER_EMBREE_CONFIG))
+                                                   : new_device()) {}
+    struct Mesh {
+        std::vector<std::unique_ptr<TriangleRun>> runs;  // their addresses are Embree's
+        std::vector<EmbreeScene> scenes;                 // one per run
+        Vec3 centre;
+        double slack = 0;
+    };
+    Device device;
+    std::vector<Mesh> meshes;
+};
+
+PreciseRays::PreciseRays(std::span<const TriangleMesh* const> meshes, Instructions instructions)
+    : trees_(std::make_unique<Trees>(instructions)) {
+    for (const TriangleMesh* mesh : meshes) {
+        assert(is_consistent(*mesh));
+        Trees::Mesh& tree = trees_->meshes.emplace_back();
+        const Box box = bounds(*mesh);
+        tree.centre = box.centre();
+        tree.slack = 1e-6 * norm(box.size());
+        for (std::size_t first = 0; first < mesh->triangles.size(); first += triangles_at_once) {
+            tree.runs.push_back(std::make_unique<TriangleRun>(TriangleRun{mesh, first, tree.centre, tree.slack}));
+            RTCGeometry geometry = rtcNewGeometry(trees_->device.get(), RTC_GEOMETRY_TYPE_USER);
+            rtcSetGeometryUserPrimitiveCount(
+                geometry, static_cast<unsigned>(std::min(mesh->triangles.size() - first, triangles_at_once)));
+            rtcSetGeometryUserData(geometry, tree.runs.back().get());
+            rtcSetGeometryBoundsFunction(geometry, run_bounds, nullptr);
+            rtcSetGeometryIntersectFunction(geometry, meet_run);
+            rtcCommitGeometry(geometry);
+            EmbreeScene& scene = tree.scenes.emplace_back(rtcNewScene(trees_->device.get()));
+            rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+            rtcAttachGeometry(scene.get(), geometry);
+            rtcReleaseGeometry(geometry);
+            rtcCommitScene(scene.get());
+        }
+    }
+}
+
+PreciseRays::~PreciseRays() = default;
+PreciseRays::PreciseRays(PreciseRays&&) noexcept = default;
+PreciseRays& PreciseRays::operator=(PreciseRays&&) noexcept = default;
+
+std::optional<RayHit> PreciseRays::first_hit(std::size_t mesh, Vec3 origin, Vec3 direction,
+                                             const RayFilter& filter) const {
+    assert(mesh < trees_->meshes.size());
+    assert(std::abs(norm(direction) - 1) < 1e-6);
+    const Trees::Mesh& tree = trees_->meshes[mesh];
+    PreciseRay precise{{}, origin, RayShear(direction), filter, tree.slack};
+    rtcInitIntersectContext(&precise.context);
+    RTCRayHit ray{ray_from(origin - tree.centre, direction), {}};
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    for (const EmbreeScene& scene : tree.scenes) rtcIntersect1(scene.get(), &precise.context, &ray);
+    if (precise.distance == std::numeric_limits<double>::infinity()) return std::nullopt;
+    return RayHit{precise.distance, precise.triangle};
 }
 
 }  // namespace qchopper

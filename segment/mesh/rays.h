@@ -1,8 +1,9 @@
 // Casts rays at a mesh.
 //
-// mm. Rays are computed in single precision, about the centre of the mesh, so that the place of the mesh does not
-// matter (tests/segment/mesh/rays_test.cpp). first_hit may be called from many threads at once. The mesh need not be
-// kept.
+// mm. RayTree and RayScene compute in single precision, about the centre of the mesh, so that the place of the mesh
+// does not matter; the last bits of their answers follow the processor's instruction set, and the mesh need not be
+// kept. PreciseRays decides in double precision and gives the same bits everywhere (tests/segment/mesh/rays_test.cpp).
+// first_hit may be called from many threads at once.
 
 #pragma once
 
@@ -58,6 +59,36 @@ class RayScene {
     // Per unit direction the distance from the origin to the first surface, or `far` where none is nearer. Both spans
     // have the same size, at most most_rays.
     void distances(Vec3 origin, std::span<const Vec3> directions, double far, std::span<float> result) const;
+
+ private:
+    struct Trees;
+    std::unique_ptr<Trees> trees_;
+};
+
+// Which rays of PreciseRays pass through which triangles. Default: none.
+struct RayFilter {
+    std::span<const std::uint32_t> label;  // one per triangle, or empty: none is passed through
+    std::uint32_t wanted = 0;              // a ray meets only the triangles with this label
+};
+
+// First hits on several meshes, each asked on its own, in double precision. The tree only proposes triangles, by boxes
+// that are wider than the rounding errors of single precision; whether and where a ray meets a triangle is decided from
+// the corners. So an answer depends on neither the instruction set nor the shape of the tree, and a ray does not pass
+// between two triangles with a common edge.
+class PreciseRays {
+ public:
+    // `sse` takes the trees' code for SSE 4.2, for tests of this independence.
+    enum class Instructions { widest, sse };
+    // The meshes are not copied: they must outlive this.
+    explicit PreciseRays(std::span<const TriangleMesh* const> meshes, Instructions instructions = Instructions::widest);
+    ~PreciseRays();
+    PreciseRays(PreciseRays&&) noexcept;
+    PreciseRays& operator=(PreciseRays&&) noexcept;
+
+    // The nearest triangle of mesh number `mesh` that the ray meets, from either side; of several at one distance that
+    // with the lowest number. A triangle parallel to the ray is not met. Preconditions: the direction is a unit vector,
+    // and the origin is no farther from the mesh's box than a tenth of its diagonal.
+    std::optional<RayHit> first_hit(std::size_t mesh, Vec3 origin, Vec3 direction, const RayFilter& filter = {}) const;
 
  private:
     struct Trees;
