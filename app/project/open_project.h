@@ -34,9 +34,9 @@ std::string early_end(const std::string& sentence);
 
 class OpenProject {
  public:
-    // `import_project_scan` returns the scan of project.scan; it is called when the scan is needed, and again when it is
-    // needed after it was freed. Precondition of all functions that change something: the caller holds the lock of the folder
-    // (project_folder.h). What the context points to outlives this object.
+    // `import_project_scan` returns the scan of project.scan; it is called when the scan is needed, and again when it
+    // is needed after it was freed. Precondition of all functions that change something: the caller holds the lock of
+    // the folder (project_folder.h). What the context points to outlives this object.
     OpenProject(std::filesystem::path folder, Project project, std::function<TriangleMesh()> import_project_scan,
                 const Context& context = {});
 
