@@ -108,6 +108,7 @@ struct CellsListArguments {
 
 struct CellsShowArguments {
     std::filesystem::path file;
+    std::optional<std::filesystem::path> out;  // picture of the reach
 };
 
 struct CellsCheckArguments {

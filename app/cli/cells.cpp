@@ -1,11 +1,13 @@
-// Lists, shows and checks cell files. O(files).
+// Lists, shows and checks cell files. O(files), beside the picture of the reach.
 
 #include <algorithm>
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
 #include "app/report/cell_report.h"
+#include "app/report/reach_picture.h"
 #include "base/error.h"
+#include "base/file.h"
 
 namespace qchopper {
 namespace {
@@ -52,8 +54,16 @@ int run(const CellsListArguments& arguments, Terminal& terminal) {
 
 int run(const CellsShowArguments& arguments, Terminal& terminal) {
     terminal.set_unchanged("Nothing was changed.");
+    if (arguments.out && arguments.out->extension() != ".png") {
+        throw InputError(InputFault::use, arguments.out->string() + " does not end in .png", "name a .png file");
+    }
     const Cell cell = read_cell(arguments.file);
-    const ShownCell shown{arguments.file.string(), cell};
+    ShownCell shown{arguments.file.string(), cell, std::nullopt};
+    if (arguments.out) {
+        const ReachMap map = reach_map(cell, pictured_tilts());
+        write_file(*arguments.out, to_png(draw_reach(cell, map)));
+        shown.picture = ReachPicture{arguments.out->string(), map.section.y, map.section.step};
+    }
     terminal.show(lines(shown), document(shown));
     return exit_done;
 }

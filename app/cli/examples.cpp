@@ -48,7 +48,7 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
     {"export", R"(  qchopper export vertebra.qch --format 3mf
   qchopper export vertebra.qch --format stl --pose setup --simplify 0.05 -o models)"},
     {"cells", R"(  qchopper cells list
-  qchopper cells show cells/kr60-ha.toml
+  qchopper cells show cells/kr60-ha.toml -o reach.png
   qchopper cells check cells/kr60-ha.toml --json)"},
     {"dry-run", R"(  qchopper dry-run vertebra.qch
   qchopper dry-run vertebra.qch --piece B)"},

@@ -135,6 +135,8 @@ struct Parser {
         add_common(list, common, [this] { common.command = cells_list; });
         CLI::App* show = c->add_subcommand("show", "show what a cell file describes");
         show->add_option("CELL", cells_show.file, "the cell file, NAME.toml")->required();
+        show->add_option("-o,--out", cells_show.out,
+                         "a picture to write, .png: what the tool tip reaches at tilts of 0, 30, 60 and 90 degrees");
         add_common(show, common, [this] { common.command = cells_show; });
         CLI::App* check = c->add_subcommand(
             "check", "tell what is assumed or missing in a cell file, and whether its jobs may be dispatched");

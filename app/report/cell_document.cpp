@@ -158,22 +158,23 @@ std::string document(const std::vector<ListedCell>& cells) {
 
 std::string document(const ShownCell& shown) {
     const Cell& cell = shown.cell;
-    return text_of(
-        {{"schema", "qchopper-cell-1"},
-         {"file", shown.file},
-         {"version", version_of(cell)},
-         {"name", cell.name},
-         {"id", cell.id},
-         {"reach", box_json(cell.reach)},
-         {"table",
-          {{"centre", {cell.table.centre_x, cell.table.centre_y}},
-           {"size", {cell.table.size_x, cell.table.size_y}},
-           {"height", cell.table.height}}},
-         {"clearance", cell.clearance},
-         {"stock_margin", cell.stock_margin},
-         {"stock", list_json(cell.stock, stock_json)},
-         {"tool", {{"number", cell.tool.number}, {"name", cell.tool.name}, {"diameter", cell.tool.diameter}}},
-         {"machine", cell.machine ? machine_json(*cell.machine) : Json()}});
+    Json json = {{"schema", "qchopper-cell-1"},
+                 {"file", shown.file},
+                 {"version", version_of(cell)},
+                 {"name", cell.name},
+                 {"id", cell.id},
+                 {"reach", box_json(cell.reach)},
+                 {"table",
+                  {{"centre", {cell.table.centre_x, cell.table.centre_y}},
+                   {"size", {cell.table.size_x, cell.table.size_y}},
+                   {"height", cell.table.height}}},
+                 {"clearance", cell.clearance},
+                 {"stock_margin", cell.stock_margin},
+                 {"stock", list_json(cell.stock, stock_json)},
+                 {"tool", {{"number", cell.tool.number}, {"name", cell.tool.name}, {"diameter", cell.tool.diameter}}},
+                 {"machine", cell.machine ? machine_json(*cell.machine) : Json()}};
+    if (shown.picture) json["picture"] = shown.picture->file;
+    return text_of(json);
 }
 
 std::string document(const CheckedCell& checked) {

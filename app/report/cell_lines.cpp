@@ -120,6 +120,14 @@ void add_limits(std::vector<std::string>& text, const CellMachine& machine) {
                    (program.tool_change_call ? "calling " + *program.tool_change_call : "a stop"));
 }
 
+std::string picture_line(const Cell& cell, const ReachPicture& picture) {
+    const std::string start = "picture    " + picture.file + ", section x-z at y = " + number(picture.y) + ": ";
+    if (!cell.machine) return start + "table and reach box only, because no robot is described";
+    if (!cell.machine->robot) return start + "a gantry reaches its box straight from above, and nothing at a tilt";
+    return start + "reach of the tool tip at tilts of 0, 30, 60 and 90 degrees, points " + number(picture.step) +
+           " apart, no collision checked";
+}
+
 std::string with_table(const ValueOrigin& value) {
     return value.table.empty() ? std::string("outside of tables") : value.table;
 }
@@ -175,6 +183,7 @@ std::vector<std::string> lines(const ShownCell& shown) {
     add_stock(text, cell);
     text.push_back("link       to " + cell.link.to.value_or("no address") + ", drop folder " +
                    (cell.link.drop ? cell.link.drop->string() : "not given"));
+    if (shown.picture) text.push_back(picture_line(cell, *shown.picture));
     return text;
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,17 @@ struct ListedCell {
     std::string error;         // why
 };
 
+// A picture of the reach that was written.
+struct ReachPicture {
+    std::string file;
+    double y = 0;     // mm, of the section
+    double step = 0;  // mm, between its points
+};
+
 struct ShownCell {
     std::string file;
     const Cell& cell;  // outlives this object
+    std::optional<ReachPicture> picture;
 };
 
 struct CheckedCell {

@@ -69,6 +69,37 @@ TEST_F(Cells, ShowsWhatTheFileDescribes) {
     EXPECT_TRUE(json::parse(run({"cells", "show", "cells/foam-1.toml", "--json"}).out)["machine"].is_null());
 }
 
+TEST_F(Cells, DrawsTheReach) {
+    const std::string png = "\x89PNG\r\n\x1a\n";
+    program::put(folder.path / "reach.png", "an older file");
+    const program::Ended shown = run({"cells", "show", "cells/kr60-ha.toml", "-o", "reach.png"});
+    EXPECT_EQ(shown.code, 0) << shown.err;
+    EXPECT_NE(shown.out.find("picture    reach.png, section x-z at y = 0: reach"), std::string::npos) << shown.out;
+    const std::string bytes = program::bytes_in(folder.path / "reach.png");
+    EXPECT_EQ(bytes.substr(0, 8), png);
+    EXPECT_GT(bytes.size(), 10'000U);
+    const program::Arguments to_other{"cells", "show", "cells/kr60-ha.toml", "-o", "other.png", "--json"};
+    const json document = json::parse(run(to_other).out);
+    EXPECT_EQ(document["picture"], "other.png");
+    EXPECT_EQ(program::bytes_in(folder.path / "other.png"), bytes);
+    const json without = json::parse(run({"cells", "show", "cells/kr60-ha.toml", "--json"}).out);
+    EXPECT_FALSE(without.contains("picture"));
+    for (const char* name : {"foam-1", "gantry-3axis"}) {
+        const std::string file = std::string(name) + ".png";
+        const program::Ended drawn = run({"cells", "show", "cells/" + std::string(name) + ".toml", "-o", file});
+        EXPECT_EQ(drawn.code, 0) << drawn.err;
+        const char* words = name[0] == 'f' ? "because no robot is described" : "and nothing at a tilt";
+        EXPECT_NE(drawn.out.find(words), std::string::npos) << drawn.out;
+        EXPECT_EQ(program::bytes_in(folder.path / file).substr(0, 8), png);
+        fs::remove(folder.path / file);
+    }
+    fs::remove(folder.path / "reach.png");
+    fs::remove(folder.path / "other.png");
+    EXPECT_EQ(run({"cells", "show", "cells/kr60-ha.toml", "-o", "reach.svg"}).code, 64);
+    EXPECT_EQ(run({"cells", "show", "cells/kr60-ha.toml", "-o", "nowhere/reach.png"}).code, 73);
+    EXPECT_EQ(run({"cells", "show", "cells/none.toml", "-o", "reach.png"}).code, 66);
+}
+
 TEST_F(Cells, ChecksWhatIsAssumed) {
     const program::Ended checked = run({"cells", "check", "cells/kr60-ha.toml"});
     EXPECT_EQ(checked.code, 1) << checked.err;
