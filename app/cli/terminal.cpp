@@ -1,6 +1,6 @@
 // The signal handler sets atomics; the context's flag is one of them, so that long work polls it. It also wakes a
-// thread, which otherwise sleeps, or on a terminal draws the progress twice a second: a thread that wakes more often
-// costs the others a tenth of the time of a command that allocates much. Progress is drawn at most ten times a second.
+// thread, which otherwise sleeps, or on a terminal draws the progress twice a second. Progress is drawn at most ten
+// times a second.
 
 #include "app/cli/terminal.h"
 

@@ -217,9 +217,9 @@ SearchEnd OpenProject::search(const FitsCell& fits_cell, const std::function<voi
                               const Context& context, std::optional<double> time_limit_s) {
     remove_outputs(folder_, project_);
     Segmentation working = segmentation();
-    release_scan();
     const StageTimer stage(context, "search");
     BeamProgress progress = beam_progress(project_, working, [this]() -> const TriangleMesh& { return scan(); });
+    release_scan();
     const auto keep = [&](const Segmentation& best) {
         adopt(best, progress.saved());
         on_round(best);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cam/cell/cell_tables.h"
+#include "cam/cell/kuka_angles.h"
 
 namespace qchopper {
 namespace {
@@ -105,14 +106,8 @@ void check_start(const TomlReader& reader, const Joints& joints, const Robot& ro
 
 Pose read_pose(const TomlReader& reader) {
     const std::vector<double> abc = reader.numbers("abc_deg", 3, -360, 360);
-    const double ca = std::cos(abc[0] * degree), sa = std::sin(abc[0] * degree);
-    const double cb = std::cos(abc[1] * degree), sb = std::sin(abc[1] * degree);
-    const double cc = std::cos(abc[2] * degree), sc = std::sin(abc[2] * degree);
-    Pose pose;
-    pose.row = {Vec3{ca * cb, ca * sb * sc - sa * cc, ca * sb * cc + sa * sc},
-                Vec3{sa * cb, sa * sb * sc + ca * cc, sa * sb * cc - ca * sc}, Vec3{-sb, cb * sc, cb * cc}};
-    pose.shift = reader.vector("position", -farthest_2, farthest_2);
-    return pose;
+    const Vec3 position = reader.vector("position", -farthest_2, farthest_2);
+    return pose_of({abc[0] * degree, abc[1] * degree, abc[2] * degree}, position);
 }
 
 AngleRange read_angle_range(const TomlReader& reader, std::string_view key) {
