@@ -33,8 +33,7 @@ struct HeightMap {
 constexpr std::size_t most_map_cells = std::size_t{1} << 28;
 
 // Preconditions: the mesh is consistent and has a triangle with area, the direction is a unit vector, cell > 0. Throws
-// InputError (use) if the map would have more than most_map_cells cells. O(triangles + cells covered), 4 bytes a cell,
-// 12 a point and for each thread.
+// InputError (use) if the map would have more than most_map_cells cells. O(triangles + cells covered), 4 bytes a cell.
 HeightMap height_map(const TriangleMesh& mesh, Vec3 direction, double cell);
 
 // Per triangle the share of its area that is reached, 0 for a steep one or one that is turned away. A triangle is
