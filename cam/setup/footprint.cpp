@@ -1,8 +1,7 @@
 // Hull: monotone chains (A. M. Andrew, "Another efficient algorithm for convex hulls in two dimensions", 1979),
 // O(n log n). Rectangle: one side of it lies on an edge of the hull (H. Freeman and R. Shapira, "Determining the
 // minimum-area encasing rectangle for an arbitrary closed curve", 1975), so one turn around the hull with four contact
-// points suffices, O(hull). Projected area: triangles drawn into a grid of about 2^18 cells, O(triangles + cells
-// drawn), one byte per cell.
+// points suffices, O(hull).
 
 #include "cam/setup/footprint.h"
 
@@ -80,64 +79,6 @@ Rectangle turn_around(const std::vector<Point2>& hull) {
     return best;
 }
 
-// The cells of a rectangle whose middles lie in some triangle.
-class OccupancyGrid {
- public:
-    OccupancyGrid(Point2 min, Point2 size)
-        : OccupancyGrid(min, size, std::sqrt(size.x * size.y / static_cast<double>(1 << 18))) {}
-
-    void add(std::array<Point2, 3> corner) {
-        for (Point2& p : corner) p = {(p.x - min_.x) / columns_.step, (p.y - min_.y) / rows_.step};
-        const auto [low, high] = std::minmax({corner[0].y, corner[1].y, corner[2].y});
-        const std::size_t last = rows_.first_after(high);
-        for (std::size_t row = rows_.first_after(low); row < last; ++row) add_row(corner, row);
-    }
-
-    double area() const {
-        return static_cast<double>(std::count(covered_.begin(), covered_.end(), 1)) * columns_.step * rows_.step;
-    }
-
- private:
-    // Cells side by side along one axis.
-    struct Cells {
-        Cells(double size, double wanted_step)
-            : count(static_cast<std::size_t>(std::clamp(std::ceil(size / wanted_step), 1.0, 4096.0))),
-              step(size / static_cast<double>(count)) {}
-        // The first cell whose middle is not before `at`, which is counted in cells.
-        std::size_t first_after(double at) const {
-            return static_cast<std::size_t>(std::clamp(std::ceil(at - 0.5), 0.0, static_cast<double>(count)));
-        }
-        std::size_t count;
-        double step;  // mm
-    };
-
-    OccupancyGrid(Point2 min, Point2 size, double step)
-        : min_(min), columns_(size.x, step), rows_(size.y, step), covered_(columns_.count * rows_.count, 0) {}
-
-    void add_row(const std::array<Point2, 3>& corner, std::size_t row) {
-        const double y = static_cast<double>(row) + 0.5;
-        double from = std::numeric_limits<double>::infinity();
-        double to = -from;
-        for (int k = 0; k < 3; ++k) {
-            const Point2 a = corner[k];
-            const Point2 b = corner[(k + 1) % 3];
-            if ((a.y <= y) == (b.y <= y)) continue;
-            const double x = a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y);
-            from = std::min(from, x);
-            to = std::max(to, x);
-        }
-        if (from > to) return;
-        const auto begin = covered_.begin() + static_cast<std::ptrdiff_t>(row * columns_.count);
-        std::fill(begin + static_cast<std::ptrdiff_t>(columns_.first_after(from)),
-                  begin + static_cast<std::ptrdiff_t>(columns_.first_after(to)), char{1});
-    }
-
-    Point2 min_;
-    Cells columns_;
-    Cells rows_;
-    std::vector<char> covered_;  // row by row
-};
-
 // Removes points inside the polygon of the extreme points in eight directions: no corner of the hull lies there (S. G.
 // Akl and G. T. Toussaint, "A fast convex hull algorithm", 1978). Those within rounding of a side stay.
 void remove_inner_points(std::vector<Point2>& points) {
@@ -193,21 +134,6 @@ std::array<Vec3, 2> frame_under(Vec3 up) {
     const Vec3 aside = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
     const Vec3 first = normalized(aside - dot(aside, up) * up);
     return {first, cross(up, first)};
-}
-
-double projected_area_mm2(const TriangleMesh& mesh, Vec3 up) {
-    const auto [e1, e2] = frame_under(up);
-    std::vector<Point2> flat;
-    flat.reserve(mesh.points.size());
-    Rectangle2 box;
-    for (const Vec3& p : mesh.points) {
-        flat.push_back({dot(e1, p), dot(e2, p)});
-        box.include(flat.back());
-    }
-    if (!(box.max.x > box.min.x) || !(box.max.y > box.min.y)) return 0;
-    OccupancyGrid grid(box.min, minus(box.max, box.min));
-    for (const Triangle& t : mesh.triangles) grid.add({flat[t[0]], flat[t[1]], flat[t[2]]});
-    return grid.area();
 }
 
 }  // namespace qchopper

@@ -1,4 +1,4 @@
-// Measures the footprint of a piece, its vertical projection on the table: smallest rectangle and projected area.
+// Measures the footprint of a piece, its vertical projection on the table: smallest rectangle.
 //
 // Plane coordinates in mm. No direction gives a smaller rectangle (tests/cam/setup/footprint_test.cpp).
 
@@ -7,8 +7,8 @@
 #include <array>
 #include <vector>
 
+#include "base/vec3.h"
 #include "segment/mesh/polygon.h"
-#include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {
 
@@ -27,9 +27,5 @@ Rectangle smallest_rectangle(std::vector<Point2> points);
 
 // Two unit vectors that, with the unit vector `up` as the third, make a right-handed frame.
 std::array<Vec3, 2> frame_under(Vec3 up);
-
-// Area of the projection along the unit vector `up`, holes left out, measured on a grid: the error is about a hundredth
-// of the box around the projection. 0 if that box has no area.
-double projected_area_mm2(const TriangleMesh& mesh, Vec3 up);
 
 }  // namespace qchopper

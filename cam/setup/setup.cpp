@@ -12,6 +12,7 @@
 #include "cam/setup/footprint.h"
 #include "cam/setup/undercut.h"
 #include "segment/mesh/oriented_box.h"
+#include "segment/mesh/projected_area.h"
 #include "segment/mesh/rays.h"
 
 namespace qchopper {

@@ -1,0 +1,32 @@
+// Chooses the block for a piece as it lies: from the list of stock, whole or sawn down.
+//
+// mm. The block that is chosen holds the piece with its margins whenever one of the list does
+// (tests/cam/setup/block_test.cpp).
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "cam/cell/cell.h"
+
+namespace qchopper {
+
+// Foam around a piece; version 1 has one margin for the sides and above, and no spoil layer.
+Margins margins_of(const Cell& cell);
+
+struct CarvingBlock {
+    std::size_t stock = 0;      // index in Cell::stock
+    bool is_turned = false;     // by a quarter turn about z: the listed x lies along y; a sawn one is never turned
+    bool is_sawn = false;       // down to `size`
+    Vec3 size;                  // as it stands, spoil layer included
+    bool holds = true;          // false: no block of the list holds the piece with its margins; this one lacks least
+    std::vector<Vec3> offcuts;  // of a sawn block: sizes of what is left of it, largest first
+    bool operator==(const CarvingBlock&) const = default;
+};
+
+// For a piece of a size (x along its length): the block of least volume; of equal ones the first of the list, not sawn
+// before sawn. A sawn block is cut from the stock in whichever orientation leaves the largest offcut.
+CarvingBlock choose_block(const Cell& cell, Vec3 piece_size);
+
+}  // namespace qchopper

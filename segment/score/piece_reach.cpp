@@ -1,0 +1,116 @@
+// One set of rays per piece, along the directions that some base allows; then every base chooses its own among them.
+
+#include "segment/score/piece_reach.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <utility>
+
+#include "segment/mesh/oriented_box.h"
+#include "segment/mesh/projected_area.h"
+
+namespace qchopper {
+namespace {
+
+std::vector<PieceBase> sides_of(const Piece& piece) {
+    const OrientedBox box = oriented_box(piece.mesh->points);
+    std::vector<PieceBase> sides;
+    for (const int axis : {2, 1, 0}) {
+        for (const double sign : {1.0, -1.0}) {
+            PieceBase side;
+            side.number = static_cast<int>(sides.size()) + 1;
+            side.base.up = sign * box.axis[static_cast<std::size_t>(axis)];
+            side.projected_mm2 = projected_area_mm2(*piece.mesh, side.base.up);
+            sides.push_back(side);
+        }
+    }
+    return sides;
+}
+
+// The directions of the scan that some base allows, and the ups of all bases, so that no ray is cast twice for them.
+std::vector<Vec3> directions_for(std::span<const PieceBase> bases, const std::array<Vec3, 3>& axes, double tilt_deg) {
+    std::vector<Vec3> directions;
+    for (const Vec3& d : tool_directions(axes)) {
+        const auto allows = [&](const PieceBase& b) { return is_allowed(d, b.base.up, tilt_deg); };
+        if (std::any_of(bases.begin(), bases.end(), allows)) directions.push_back(d);
+    }
+    for (const PieceBase& b : bases) {
+        if (index_of(directions, b.base.up) == directions.size()) directions.push_back(b.base.up);
+    }
+    return directions;
+}
+
+std::vector<Vec3> those_held(const PieceBase& base, std::vector<Vec3> directions, const HeldDirections& held) {
+    if (!held) return directions;
+    const std::vector<std::uint8_t> is_held = held(base, directions);
+    std::vector<Vec3> kept;
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        if (is_held[i] != 0) kept.push_back(directions[i]);
+    }
+    return kept;
+}
+
+}  // namespace
+
+SampledPiece sampled_piece(const Piece& piece, std::vector<Vec3> directions, std::size_t samples) {
+    const Piece alone{piece.name, piece.mesh, {}};
+    SampledScanOptions options;
+    options.samples = samples;
+    options.is_left_out.emplace_back(piece.mesh->triangles.size());
+    for (std::size_t t = 0; t < piece.mesh->triangles.size(); ++t) {
+        options.is_left_out.front()[t] = cap_of(*piece.mesh, t) != no_cap;
+    }
+    SampledPiece result{sampled_scan({&alone, 1}, std::move(directions), options), {}, owned_caps(piece)};
+    result.accessibility = std::move(uncut_accessibility(result.scan).front());
+    return result;
+}
+
+const BaseReach& PieceReach::best() const {
+    assert(!bases.empty());
+    return *std::min_element(bases.begin(), bases.end(),
+                             [](const BaseReach& a, const BaseReach& b) { return a.share() < b.share(); });
+}
+
+PieceReach piece_reach(const Piece& piece, std::span<const PieceBase> bases, const PieceReachOptions& options,
+                       const HeldDirections& held) {
+    assert(!bases.empty());
+    const OrientedBox box = oriented_box(piece.mesh->points);
+    PieceReach result{sampled_piece(piece, directions_for(bases, box.axis, options.tilt_deg), options.samples), {}};
+    const JudgedPiece judged = result.samples.judged();
+    const std::vector<Vec3>& all = result.samples.scan.directions;
+    const std::vector<Vec3> dense = dense_directions();
+    for (const PieceBase& base : bases) {
+        std::vector<Vec3> allowed;
+        for (const std::uint32_t k : allowed_directions(all, base.base.up, options.tilt_deg)) allowed.push_back(all[k]);
+        std::vector<std::uint32_t> possible;
+        for (const Vec3& d : those_held(base, std::move(allowed), held)) {
+            possible.push_back(static_cast<std::uint32_t>(index_of(all, d)));
+        }
+        std::vector<Vec3> further;
+        for (const Vec3& d : dense) {
+            if (is_allowed(d, base.base.up, options.tilt_deg)) further.push_back(d);
+        }
+        BaseReach reach{base, choose_directions(judged, base.base, possible, those_held(base, std::move(further), held),
+                                                options.directions)};
+        reach.area_mm2 = judged.area_without_base_mm2(base.base);
+        reach.unreachable_mm2 = reach.directions.by_chosen.total_mm2(options.tilt_deg);
+        result.bases.push_back(std::move(reach));
+    }
+    return result;
+}
+
+std::vector<PieceBase> bases_of(const Piece& piece) {
+    std::vector<PieceBase> bases;
+    for (const OwnedCap& cap : owned_caps(piece)) {
+        PieceBase base;
+        base.number = cap.cut;
+        base.base = {-cap.outward, cap.cut};
+        base.base_mm2 = cap.area_mm2;
+        base.projected_mm2 = projected_area_mm2(*piece.mesh, base.base.up);
+        if (base.base_mm2 >= least_base_share * base.projected_mm2) bases.push_back(base);
+    }
+    return bases.empty() ? sides_of(piece) : bases;
+}
+
+}  // namespace qchopper
