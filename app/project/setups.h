@@ -57,7 +57,7 @@ class Setups {
 
  private:
     Carving carving_of(const Piece& piece) const {
-        Carving carving{choose_setup(piece, cell_), {}, piece.mesh};
+        Carving carving{choose_setup(piece, cell_).setups.front(), {}, piece.mesh};
         carving.envelope = check_envelope(carving.setup, cell_);
         return carving;
     }

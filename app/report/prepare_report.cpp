@@ -39,8 +39,8 @@ Json piece_json(const PieceReport& piece, const Cell& cell) {
             {"faces", piece.faces},
             {"volume_mm3", piece.volume_mm3},
             {"box_mm", json_of(s.box.size())},
-            {"block", cell.stock[s.stock].name},
-            {"block_mm", json_of(s.block)},
+            {"block", cell.stock[s.block.stock].name},
+            {"block_mm", json_of(s.block.size)},
             {"base_cut", s.base ? Json(*s.base) : Json()},
             {"base", s.base_description},
             {"undercut", s.undercut},
@@ -65,7 +65,7 @@ std::vector<std::string> table(const PreparedProject& prepared) {
     for (const PieceReport& p : prepared.pieces) {
         const Setup& s = p.carving.setup;
         rows.push_back({p.name, with_commas(p.faces), describe_volume(p.volume_mm3), lengths(s.box.size()),
-                        prepared.cell.stock[s.stock].name, s.base ? "cut " + std::to_string(*s.base) : "none",
+                        prepared.cell.stock[s.block.stock].name, s.base ? "cut " + std::to_string(*s.base) : "none",
                         fixed(s.undercut, 3), p.job.empty() ? "no" : "yes"});
     }
     std::vector<std::string> lines = columns(rows);

@@ -35,7 +35,7 @@ struct Table {
 // A block of the workshop's stock.
 struct Stock {
     std::string name;
-    Vec3 size;  // before a quarter turn (Setup::stock_turned)
+    Vec3 size;  // before a quarter turn (CarvingBlock::is_turned)
     Material material = Material::unspecified;
     bool is_sawn = false;  // may be sawn down to any smaller size
     double kerf = 0;       // width of foam that a saw cut takes

@@ -21,7 +21,7 @@ namespace qchopper {
 
 constexpr int job_schema_version = 2;
 
-// Precondition of all functions that take it: piece.mesh is not null, setup.stock is an index in cell.stock, and the
+// Precondition of all functions that take it: piece.mesh is not null, setup.block.stock is an index in cell.stock, and the
 // envelope has a margin.
 struct JobInput {
     Piece piece;                 // in piece coordinates

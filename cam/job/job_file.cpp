@@ -61,7 +61,7 @@ void check_ticket(const ReadJob& job, const std::string& source) {
     const std::int32_t base = job.setup.base.value_or(no_base_plane);
     const bool same = ticket.piece == job.piece && ticket.piece_no == job.piece_no &&
                       ticket.piece_count == job.piece_count && ticket.project_id == job.project_id &&
-                      ticket.box == job.setup.box && ticket.stock == job.setup.block && ticket.base_plane == base;
+                      ticket.box == job.setup.box && ticket.stock == job.setup.block.size && ticket.base_plane == base;
     if (!same) refuse(source, "ticket.json and manifest.json describe different jobs");
 }
 
@@ -77,7 +77,7 @@ std::string job_file_name(const std::string& piece) {
 }
 
 TicketTemplate ticket_template(const JobInput& input) {
-    const Vec3 block = input.setup.block;
+    const Vec3 block = input.setup.block.size;
     const Tool& tool = input.cell.tool;
     TicketTemplate about;
     about.piece = input.piece.name;
@@ -86,7 +86,7 @@ TicketTemplate ticket_template(const JobInput& input) {
     about.project_id = input.project_id;
     about.box = input.setup.box;
     about.stock = block;
-    about.material = input.cell.stock[input.setup.stock].material;
+    about.material = input.cell.stock[input.setup.block.stock].material;
     about.tool_no = tool.number;
     about.tool_diameter = tool.diameter;
     about.spindle_max_rpm = tool.spindle_max_rpm;

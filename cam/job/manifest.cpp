@@ -52,13 +52,13 @@ Json from_envelope(const EnvelopeReport& envelope) {
 }
 
 Json from_stock(const JobInput& input) {
-    const Stock& stock = input.cell.stock[input.setup.stock];
+    const Stock& stock = input.cell.stock[input.setup.block.stock];
     return {{"name", stock.name},
-            {"number", input.setup.stock},
+            {"number", input.setup.block.stock},
             {"material", to_word(stock.material)},
-            {"size", from_vector(input.setup.block)},
-            {"turned", input.setup.stock_turned},
-            {"holds", input.setup.stock_holds},
+            {"size", from_vector(input.setup.block.size)},
+            {"turned", input.setup.block.is_turned},
+            {"holds", input.setup.block.holds},
             {"margin", input.cell.stock_margin}};
 }
 
@@ -102,10 +102,10 @@ Setup to_setup(const Json& json, const Json& stock) {
     setup.projected_area_mm2 = real(json, "projected_area_mm2");
     setup.base_is_stable = truth(json, "base_is_stable");
     setup.warnings = texts(json, "warnings");
-    setup.stock = whole<std::uint16_t>(stock, "number");
-    setup.block = vector(stock, "size");
-    setup.stock_turned = truth(stock, "turned");
-    setup.stock_holds = truth(stock, "holds");
+    setup.block.stock = whole<std::uint16_t>(stock, "number");
+    setup.block.size = vector(stock, "size");
+    setup.block.is_turned = truth(stock, "turned");
+    setup.block.holds = truth(stock, "holds");
     return setup;
 }
 

@@ -21,8 +21,8 @@ std::string title(const JobInput& input) {
 }
 
 std::string block_step(const JobInput& input) {
-    const Stock& stock = input.cell.stock[input.setup.stock];
-    const Vec3 block = input.setup.block;
+    const Stock& stock = input.cell.stock[input.setup.block.stock];
+    const Vec3 block = input.setup.block.size;
     return "\n1. Block\n   Take block \"" + stock.name + "\" (" + to_word(stock.material) + "), " + fixed(block.x, 0) +
            " x " + fixed(block.y, 0) + " x " + fixed(block.z, 0) + " mm.\n   Stand it in the middle of the table, " +
            fixed(block.x, 0) + " mm along x, " + fixed(block.y, 0) + " mm along y, " + fixed(block.z, 0) +

@@ -25,29 +25,29 @@ std::string describe_size(Vec3 size) {
 }
 
 void add_piece_margins(const Setup& setup, const Cell& cell, std::vector<Margin>& margins) {
-    assert(setup.stock < cell.stock.size());
+    assert(setup.block.stock < cell.stock.size());
     const Vec3 piece = setup.box.size();
-    const Vec3 block = setup.block;
-    const std::string name = "block " + cell.stock[setup.stock].name + " (" + describe_size(block) + ")";
-    const double m = cell.stock_margin;
-    margins.push_back({"piece in block, length", "too long for " + name, block.x - piece.x - 2 * m});
-    margins.push_back({"piece in block, width", "too wide for " + name, block.y - piece.y - 2 * m});
-    margins.push_back({"piece in block, height", "too high for " + name, block.z - piece.z - m});
+    const Vec3 block = setup.block.size;
+    const std::string name = "block " + cell.stock[setup.block.stock].name + " (" + describe_size(block) + ")";
+    const Margins foam = margins_of(cell);
+    margins.push_back({"piece in block, length", "too long for " + name, block.x - piece.x - 2 * foam.sides});
+    margins.push_back({"piece in block, width", "too wide for " + name, block.y - piece.y - 2 * foam.sides});
+    margins.push_back({"piece in block, height", "too high for " + name, block.z - piece.z - foam.top - foam.spoil});
 }
 
 // The tool travels around the block, its axis half a diameter outside.
 void add_reach_margins(const Setup& setup, const Cell& cell, std::vector<Margin>& margins) {
     const Table& table = cell.table;
     const Box& reach = cell.reach;
-    const double half_x = setup.block.x / 2 + cell.tool.diameter / 2;
-    const double half_y = setup.block.y / 2 + cell.tool.diameter / 2;
+    const double half_x = setup.block.size.x / 2 + cell.tool.diameter / 2;
+    const double half_y = setup.block.size.y / 2 + cell.tool.diameter / 2;
     const std::string beyond = "of its block beyond the reach in ";
     margins.push_back({"block to reach, -x", beyond + "-x", table.centre_x - half_x - reach.min.x});
     margins.push_back({"block to reach, +x", beyond + "+x", reach.max.x - table.centre_x - half_x});
     margins.push_back({"block to reach, -y", beyond + "-y", table.centre_y - half_y - reach.min.y});
     margins.push_back({"block to reach, +y", beyond + "+y", reach.max.y - table.centre_y - half_y});
     margins.push_back({"block top to reach ceiling", "too high for the reach with block and clearance",
-                       reach.max.z - table.height - setup.block.z - cell.clearance});
+                       reach.max.z - table.height - setup.block.size.z - cell.clearance});
     margins.push_back({"table to reach floor", "of its underside below the reach", table.height - reach.min.z});
 }
 
@@ -68,9 +68,9 @@ EnvelopeReport check_envelope(const Setup& setup, const Cell& cell) {
     add_piece_margins(setup, cell, report.margins);
     add_reach_margins(setup, cell, report.margins);
     report.margins.push_back(
-        {"block on table, x", "of its block beyond the table in x", (cell.table.size_x - setup.block.x) / 2});
+        {"block on table, x", "of its block beyond the table in x", (cell.table.size_x - setup.block.size.x) / 2});
     report.margins.push_back(
-        {"block on table, y", "of its block beyond the table in y", (cell.table.size_y - setup.block.y) / 2});
+        {"block on table, y", "of its block beyond the table in y", (cell.table.size_y - setup.block.size.y) / 2});
     return report;
 }
 

@@ -27,7 +27,7 @@ struct EnvelopeReport {
     const Margin& worst() const;
 };
 
-// Always the same 11 conditions in the same order. Precondition: setup.stock is an index in cell.stock.
+// Always the same 11 conditions in the same order. Precondition: setup.block.stock is an index in cell.stock.
 EnvelopeReport check_envelope(const Setup& setup, const Cell& cell);
 
 // "piece B does not fit: 32 mm too high for block medium (600 x 400 x 400 mm), ..."; "piece B fits, ..." otherwise.

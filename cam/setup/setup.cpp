@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cam/setup/envelope.h"
 #include "cam/setup/footprint.h"
 #include "cam/setup/undercut.h"
 #include "segment/mesh/oriented_box.h"
@@ -19,7 +20,6 @@ namespace qchopper {
 namespace {
 
 constexpr double tie = 1e-9;                // undercuts and ratios that differ by no more are equal
-constexpr double rounding = 1e-6;           // mm
 constexpr double least_stable_share = 0.1;  // of the projected area
 
 std::string percent(double share) {
@@ -109,37 +109,6 @@ void place(const TriangleMesh& mesh, Setup& setup) {
     assert(std::abs(setup.box.min.z) < 1e-6);
 }
 
-// What the block lacks along the worst axis; not positive if it holds the size.
-double shortfall(Vec3 needed, Vec3 block) {
-    const Vec3 lack = needed - block;
-    return std::max({lack.x, lack.y, lack.z});
-}
-
-// The smallest block that holds the piece with its margin; without one, the block that lacks least.
-void choose_stock(const Cell& cell, Setup& setup) {
-    const double margin = cell.stock_margin;
-    const Vec3 needed = setup.box.size() + Vec3{2 * margin, 2 * margin, margin};
-    double least_lack = std::numeric_limits<double>::infinity();
-    double least_volume = least_lack;
-    for (std::size_t i = 0; i < cell.stock.size(); ++i) {
-        const Vec3 size = cell.stock[i].size;
-        for (const bool turned : {false, true}) {
-            const Vec3 block = turned ? Vec3{size.y, size.x, size.z} : size;
-            const double lack = shortfall(needed, block);
-            const double counted = lack <= rounding ? 0 : lack;  // among blocks that hold it, volume decides
-            const double volume = size.x * size.y * size.z;
-            if (counted > least_lack || (counted == least_lack && volume >= least_volume)) continue;
-            least_lack = counted;
-            least_volume = volume;
-            setup.stock = i;
-            setup.stock_turned = turned;
-            setup.block = block;
-        }
-    }
-    setup.stock_holds = least_lack == 0;
-    assert(setup.stock < cell.stock.size());
-}
-
 void describe(const BaseCandidate& chosen, Setup& setup) {
     if (!chosen.base) {
         setup.base_description = "no cap: the piece is bedded on the foam that is left under it";
@@ -154,7 +123,7 @@ void describe(const BaseCandidate& chosen, Setup& setup) {
 
 }  // namespace
 
-Setup choose_setup(const Piece& piece, const Cell& cell) {
+SetupChoice choose_setup(const Piece& piece, const Cell& cell, const SetupOptions&) {
     assert(piece.mesh && !piece.mesh->triangles.empty() && !cell.stock.empty());
     const RayTree rays(*piece.mesh);
     const std::vector<BaseCandidate> caps = caps_owned(piece);
@@ -170,8 +139,13 @@ Setup choose_setup(const Piece& piece, const Cell& cell) {
     setup.base_is_stable = chosen.is_stable;
     describe(chosen, setup);
     place(*piece.mesh, setup);
-    choose_stock(cell, setup);
-    return setup;
+    setup.spoil = margins_of(cell).spoil;
+    setup.block = choose_block(cell, setup.box.size());
+    return {{setup}, {}};
+}
+
+bool fits_cell(const Piece& piece, const Cell& cell) {
+    return check_envelope(choose_setup(piece, cell).setups.front(), cell).fits();
 }
 
 }  // namespace qchopper

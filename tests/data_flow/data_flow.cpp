@@ -100,7 +100,7 @@ std::vector<PieceJob> write_jobs(const Segmentation& segmentation, const Importe
     for (const Piece& piece : segmentation.pieces) {
         ++input.piece_no;
         input.piece = piece;
-        input.setup = choose_setup(piece, cell);
+        input.setup = choose_setup(piece, cell).setups.front();
         input.envelope = check_envelope(input.setup, cell);
         EXPECT_TRUE(input.envelope.fits()) << describe_envelope(piece.name, input.envelope);
         const Bytes bytes = job_file(input);

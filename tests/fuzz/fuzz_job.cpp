@@ -43,7 +43,7 @@ void try_job(const Bytes& bytes) {
             demand(job.files.at(entry.name).size() == entry.size);
             demand(sha256(job.files.at(entry.name)) == entry.sha256);
         }
-        demand(job.ticket.piece == job.piece && job.ticket.stock == job.setup.block);
+        demand(job.ticket.piece == job.piece && job.ticket.stock == job.setup.block.size);
         demand(!job.envelope.margins.empty());
         try {  // it was read from a text, so its own text must be readable
             demand(ticket_template_from_json(to_json(job.ticket), "fuzz") == job.ticket);

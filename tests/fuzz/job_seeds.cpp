@@ -28,7 +28,7 @@ JobInput some_job() {
     input.setup.base = 4;
     input.setup.base_description = "the cap of cut 4";
     input.setup.box = {{-10, -5, 0}, {10, 5, 8}};
-    input.setup.block = {100, 60, 50};
+    input.setup.block.size = {100, 60, 50};
     input.setup.warnings = {"a warning"};
     input.envelope.margins = {{"piece in block, height", "too high", 42}};
     input.warnings = {"scaled by 0.5 on request"};

@@ -77,7 +77,7 @@ TEST(Job, WhatIsReadIsWhatWasWritten) {
     EXPECT_EQ(job.setup, input.setup);
     EXPECT_EQ(job.half_spaces, input.piece.half_spaces);
     EXPECT_EQ(job.envelope, input.envelope);
-    EXPECT_EQ(job.block_name, input.cell.stock[input.setup.stock].name);
+    EXPECT_EQ(job.block_name, input.cell.stock[input.setup.block.stock].name);
     EXPECT_EQ(job.faces, input.piece.mesh->triangles.size());
     EXPECT_EQ(job.volume_mm3, volume_mm3(*input.piece.mesh));
     EXPECT_EQ(job.ticket, ticket_template(input));
@@ -115,12 +115,12 @@ TEST(Job, TicketSpeaksOfTheFile) {
     EXPECT_EQ(ticket.file_sha256, sha256(bytes));
     EXPECT_EQ(ticket.about, ticket_template(input));
     EXPECT_EQ(ticket.about.base_plane, 4);
-    EXPECT_EQ(ticket.about.stock, input.setup.block);
+    EXPECT_EQ(ticket.about.stock, input.setup.block.size);
 }
 
 TEST(Job, TheEstimateIsFoamOverRemovalRate) {
     const JobInput input = some_job();
-    const Vec3 block = input.setup.block;
+    const Vec3 block = input.setup.block.size;
     const double foam = block.x * block.y * block.z - volume_mm3(*input.piece.mesh);
     EXPECT_EQ(ticket_template(input).estimated_time_s, static_cast<std::uint32_t>(foam / 24000) + 1);
 }
@@ -282,7 +282,7 @@ TEST(Job, ACutNumberThatNoTicketHoldsIsRefused) {
 TEST(Job, APieceWithoutBaseSaysSo) {
     JobInput input = some_job();
     input.piece = uncut(shapes::ball({0, 0, 0}, 10, 6));
-    input.setup = choose_setup(input.piece, input.cell);
+    input.setup = choose_setup(input.piece, input.cell).setups.front();
     const ReadJob job = parse_job(job_file(input), "A.qjob");
     EXPECT_EQ(job.setup.base, std::nullopt);
     EXPECT_EQ(job.ticket.base_plane, no_base_plane);

@@ -20,7 +20,7 @@ inline JobInput some_job(int rings = 8) {
     for (std::size_t i = 0; i < 16; ++i) input.project_id[i] = static_cast<std::uint8_t>(17 * i);
     for (std::size_t i = 0; i < 32; ++i) input.scan_sha256.bytes[i] = static_cast<std::uint8_t>(255 - i);
     input.cell = cell();
-    input.setup = choose_setup(input.piece, input.cell);
+    input.setup = choose_setup(input.piece, input.cell).setups.front();
     input.envelope = check_envelope(input.setup, input.cell);
     input.warnings = {"scaled by 0.5 on request"};
     return input;

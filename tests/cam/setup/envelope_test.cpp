@@ -12,7 +12,7 @@ namespace {
 using namespace test_pieces;
 
 EnvelopeReport report_for(Vec3 size, const Cell& in) {
-    return check_envelope(choose_setup(standing_box({0, 0, 0}, size, 0), in), in);
+    return check_envelope(choose_setup(standing_box({0, 0, 0}, size, 0), in).setups.front(), in);
 }
 
 TEST(Envelope, EveryMarginIsThatOfTheDrawing) {

@@ -51,7 +51,7 @@ void expect_rotation(const Pose& pose) {
 
 TEST(Setup, EveryPieceLiesOnZeroInTheMiddleTurnedNotMirrored) {
     for (const Piece& piece : cut_shapes()) {
-        const qchopper::Setup setup = choose_setup(piece, cell());
+        const qchopper::Setup setup = choose_setup(piece, cell()).setups.front();
         const Pose& pose = setup.piece_in_setup;
         expect_rotation(pose);
         const double size = norm(setup.box.size());
@@ -73,7 +73,7 @@ TEST(Setup, EveryPieceLiesOnZeroInTheMiddleTurnedNotMirrored) {
 TEST(Setup, TheBaseIsTheCapWithTheLeastUndercutThatCarries) {
     int with_base = 0;
     for (const Piece& piece : cut_shapes()) {
-        const qchopper::Setup setup = choose_setup(piece, cell());
+        const qchopper::Setup setup = choose_setup(piece, cell()).setups.front();
         const bool any = std::any_of(piece.half_spaces.begin(), piece.half_spaces.end(),
                                      [&](const HalfSpace& half_space) { return owns(piece, half_space.cut); });
         ASSERT_EQ(setup.base.has_value(), any) << piece.name;
@@ -99,7 +99,7 @@ TEST(Setup, TheBaseIsTheCapWithTheLeastUndercutThatCarries) {
 
 TEST(Setup, TheBaseLiesFlatOnTheTable) {
     for (const Piece& piece : cut_shapes()) {
-        const qchopper::Setup setup = choose_setup(piece, cell());
+        const qchopper::Setup setup = choose_setup(piece, cell()).setups.front();
         if (!setup.base) continue;
         const TriangleMesh lying = apply(setup.piece_in_setup, *piece.mesh);
         for (std::size_t t = 0; t < lying.triangles.size(); ++t) {
@@ -114,14 +114,15 @@ TEST(Setup, TheBaseLiesFlatOnTheTable) {
 TEST(Setup, TurningPieceAndBoundsTogetherChangesNothing) {
     const Cell in = cell();
     for (const Piece& piece : cut_shapes()) {
-        const qchopper::Setup before = choose_setup(piece, in);
+        const qchopper::Setup before = choose_setup(piece, in).setups.front();
         if (!before.base) continue;  // the oriented box is a search, and may end elsewhere
-        const qchopper::Setup after = choose_setup(rotated(piece, {0.3, -0.5, 0.8}, 1.234, {17, -40, 5}), in);
+        const qchopper::Setup after =
+            choose_setup(rotated(piece, {0.3, -0.5, 0.8}, 1.234, {17, -40, 5}), in).setups.front();
         EXPECT_NEAR(after.undercut, before.undercut, 1e-9) << piece.name;
         EXPECT_NEAR(after.occluded_area_ratio, before.occluded_area_ratio, 0.02)
             << piece.name;  // rays are single precision
         EXPECT_EQ(after.base, before.base) << piece.name;
-        EXPECT_EQ(after.stock, before.stock) << piece.name;
+        EXPECT_EQ(after.block.stock, before.block.stock) << piece.name;
         const Vec3 change = after.box.size() - before.box.size();
         EXPECT_LT(norm(change), 1e-6 * norm(before.box.size())) << piece.name;
     }
@@ -129,7 +130,7 @@ TEST(Setup, TurningPieceAndBoundsTogetherChangesNothing) {
 
 TEST(Setup, ABoxOnItsCapHasNoUndercut) {
     const Piece piece = standing_box({10, 20, 30}, {40, 110, 45}, 3, 4);
-    const qchopper::Setup setup = choose_setup(piece, cell());
+    const qchopper::Setup setup = choose_setup(piece, cell()).setups.front();
     EXPECT_EQ(setup.base, 3);
     EXPECT_EQ(setup.undercut, 0);
     EXPECT_EQ(setup.occluded_area_ratio, 0);
@@ -140,8 +141,8 @@ TEST(Setup, ABoxOnItsCapHasNoUndercut) {
     EXPECT_NEAR(setup.box.max.x, 45, 1e-9) << "the long side lies along x";
     EXPECT_NEAR(setup.box.max.y, 15, 1e-9);
     EXPECT_NEAR(setup.box.max.z, 15, 1e-9);
-    EXPECT_EQ(setup.stock, 0U) << "90 + 10 by 30 + 10 by 15 + 5 is in 100 x 60 x 50";
-    EXPECT_FALSE(setup.stock_turned);
+    EXPECT_EQ(setup.block.stock, 0U) << "90 + 10 by 30 + 10 by 15 + 5 is in 100 x 60 x 50";
+    EXPECT_FALSE(setup.block.is_turned);
 }
 
 TEST(Setup, ATieGoesToTheLowerCut) {
@@ -153,13 +154,13 @@ TEST(Setup, ATieGoesToTheLowerCut) {
     const Piece piece{"A",
                       std::make_shared<TriangleMesh>(mesh),
                       {{5, {{0, 0, 1}, 0}, true}, {2, {{1, 0, 0}, 0}, true}, {9, {{0, 1, 0}, 0}, true}}};
-    EXPECT_EQ(choose_setup(piece, cell()).base, 2);
+    EXPECT_EQ(choose_setup(piece, cell()).setups.front().base, 2);
 }
 
 TEST(Setup, AHalfSpaceWhoseCapIsGoneIsNoBase) {
     Piece piece = standing_box({0, 0, 0}, {10, 10, 10}, 3);
     piece.half_spaces.insert(piece.half_spaces.begin(), HalfSpace{1, {{0, 0, 1}, -5}, true});
-    EXPECT_EQ(choose_setup(piece, cell()).base, 3);
+    EXPECT_EQ(choose_setup(piece, cell()).setups.front().base, 3);
 }
 
 // A pyramid standing on its cut tip has more undercut but the tip, were it the only cap, is what there is.
@@ -169,7 +170,7 @@ TEST(Setup, ABaseThatCannotCarryIsPassedOverOrTakenWithAWarning) {
     ASSERT_TRUE(halves && halves->pieces.size() == 2);
     const Piece& stump = halves->pieces[1];
     ASSERT_FALSE(stump.half_spaces[0].above);
-    const qchopper::Setup on_tip = choose_setup(stump, cell());
+    const qchopper::Setup on_tip = choose_setup(stump, cell()).setups.front();
     EXPECT_EQ(on_tip.base, 0);
     EXPECT_FALSE(on_tip.base_is_stable);
     ASSERT_EQ(on_tip.warnings.size(), 1U);
@@ -177,12 +178,12 @@ TEST(Setup, ABaseThatCannotCarryIsPassedOverOrTakenWithAWarning) {
 
     const auto again = cut_piece(stump, canonical({{1, 0.1, 0}, 20.77}), 1);
     ASSERT_TRUE(again && again->pieces.size() == 2);
-    for (const Piece& half : again->pieces) EXPECT_EQ(choose_setup(half, cell()).base, 1);
+    for (const Piece& half : again->pieces) EXPECT_EQ(choose_setup(half, cell()).setups.front().base, 1);
 }
 
 TEST(Setup, APieceWithoutCapsLiesOnASideOfItsBox) {
     const Piece piece = uncut(shapes::box({0, 0, 0}, {50, 20, 10}));
-    const qchopper::Setup setup = choose_setup(piece, cell());
+    const qchopper::Setup setup = choose_setup(piece, cell()).setups.front();
     EXPECT_EQ(setup.base, std::nullopt);
     EXPECT_FALSE(setup.base_is_stable);
     EXPECT_EQ(setup.warnings.size(), 1U);
@@ -193,23 +194,23 @@ TEST(Setup, APieceWithoutCapsLiesOnASideOfItsBox) {
 
 TEST(Setup, StockIsTheSmallestThatHoldsThePieceEitherWayRound) {
     const Cell in = cell();
-    const auto stock_for = [&](Vec3 size) { return choose_setup(standing_box({0, 0, 0}, size, 0), in); };
-    EXPECT_EQ(stock_for({90, 50, 45}).stock, 0U) << "exactly with its margin";
-    EXPECT_TRUE(stock_for({90, 50, 45}).stock_holds);
-    EXPECT_EQ(stock_for({90.1, 50, 45}).stock, 1U);
-    EXPECT_EQ(stock_for({50, 50, 100}).stock, 2U);
+    const auto stock_for = [&](Vec3 size) { return choose_setup(standing_box({0, 0, 0}, size, 0), in).setups.front(); };
+    EXPECT_EQ(stock_for({90, 50, 45}).block.stock, 0U) << "exactly with its margin";
+    EXPECT_TRUE(stock_for({90, 50, 45}).block.holds);
+    EXPECT_EQ(stock_for({90.1, 50, 45}).block.stock, 1U);
+    EXPECT_EQ(stock_for({50, 50, 100}).block.stock, 2U);
     Cell narrow = in;
     narrow.stock = {{"across", {60, 100, 50}, Material::eps}};
-    const qchopper::Setup turned = choose_setup(standing_box({0, 0, 0}, {90, 50, 45}, 0), narrow);
-    EXPECT_TRUE(turned.stock_turned);
-    EXPECT_EQ(turned.block, (Vec3{100, 60, 50}));
-    EXPECT_TRUE(turned.stock_holds);
+    const qchopper::Setup turned = choose_setup(standing_box({0, 0, 0}, {90, 50, 45}, 0), narrow).setups.front();
+    EXPECT_TRUE(turned.block.is_turned);
+    EXPECT_EQ(turned.block.size, (Vec3{100, 60, 50}));
+    EXPECT_TRUE(turned.block.holds);
 }
 
 TEST(Setup, WithoutAHoldingBlockTheOneThatLacksLeastIsNamed) {
-    const qchopper::Setup setup = choose_setup(standing_box({0, 0, 0}, {150, 150, 410}, 0), cell());
-    EXPECT_FALSE(setup.stock_holds);
-    EXPECT_EQ(setup.stock, 2U) << "15 mm too low; the others lack hundreds";
+    const qchopper::Setup setup = choose_setup(standing_box({0, 0, 0}, {150, 150, 410}, 0), cell()).setups.front();
+    EXPECT_FALSE(setup.block.holds);
+    EXPECT_EQ(setup.block.stock, 2U) << "15 mm too low; the others lack hundreds";
 }
 
 }  // namespace

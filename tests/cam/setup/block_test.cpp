@@ -1,0 +1,121 @@
+#include "cam/setup/block.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+namespace qchopper {
+namespace {
+
+double volume(Vec3 size) {
+    return size.x * size.y * size.z;
+}
+
+Cell cell_of(std::vector<Stock> stock) {
+    Cell cell;
+    cell.stock = std::move(stock);
+    cell.stock_margin = 5;
+    return cell;
+}
+
+// Version 2: 4 mm at the sides, 3 above, 10 of spoil layer.
+Cell machine_of(std::vector<Stock> stock) {
+    Cell cell = cell_of(std::move(stock));
+    cell.machine.emplace();
+    cell.machine->margins = {4, 3, 10};
+    return cell;
+}
+
+TEST(Block, OfVersion1KeepsOneMarginAtTheSidesAndAbove) {
+    const Cell cell = cell_of({{"one", {110, 60, 55}, Material::eps}});
+    EXPECT_TRUE(choose_block(cell, {100, 50, 50}).holds);
+    EXPECT_FALSE(choose_block(cell, {100, 50, 50.1}).holds);
+    EXPECT_FALSE(choose_block(cell, {100, 50.1, 50}).holds);
+}
+
+TEST(Block, OfVersion2KeepsSeparateMarginsAndASpoilLayer) {
+    const Cell cell = machine_of({{"one", {108, 58, 63}, Material::eps}});
+    EXPECT_TRUE(choose_block(cell, {100, 50, 50}).holds);
+    EXPECT_FALSE(choose_block(cell, {100, 50, 50.1}).holds);
+    EXPECT_FALSE(choose_block(cell, {100.1, 50, 50}).holds);
+}
+
+TEST(Block, SpoilLayerIsDeepEnoughForTheRoundestTool) {
+    Cell cell = machine_of({{"one", {108, 58, 63}, Material::eps}});
+    CarvingTool tool;
+    tool.shape = ToolShape::ball;
+    tool.diameter = 30;
+    tool.corner_radius = 15;
+    cell.machine->tools.push_back(tool);
+    EXPECT_EQ(margins_of(cell).spoil, 17);
+    EXPECT_FALSE(choose_block(cell, {100, 50, 50}).holds);
+    EXPECT_TRUE(choose_block(cell, {100, 50, 46}).holds);
+}
+
+TEST(Block, SawnIsAsSmallAsThePieceAllowsAndTheOffcutsAndKerfsAreTheRest) {
+    Cell cell = machine_of({{"sheet", {2000, 1000, 500}, Material::pu_foam, true, 4}});
+    const CarvingBlock block = choose_block(cell, {300.5, 100, 50});
+    EXPECT_TRUE(block.holds);
+    EXPECT_TRUE(block.is_sawn);
+    EXPECT_EQ(block.size, (Vec3{309, 108, 63}));
+    ASSERT_EQ(block.offcuts.size(), 3U);
+    double rest = volume({2000, 1000, 500}) - volume(block.size);
+    double kerfs = 0;
+    for (const Vec3 offcut : block.offcuts) rest -= volume(offcut);
+    // A saw cut is 4 mm wide, and as large as a side of one of the offcuts.
+    for (const Vec3 offcut : block.offcuts) {
+        kerfs += 4 * std::max({offcut.x * offcut.y, offcut.x * offcut.z, offcut.y * offcut.z});
+    }
+    EXPECT_GT(rest, 0);
+    EXPECT_LE(rest, kerfs);
+    EXPECT_TRUE(std::is_sorted(block.offcuts.begin(), block.offcuts.end(),
+                               [](Vec3 a, Vec3 b) { return volume(a) > volume(b); }));
+}
+
+TEST(Block, NothingIsSawnOffThatIsThinnerThanTheSawCut) {
+    const Cell cell = machine_of({{"sheet", {310, 110, 63}, Material::pu_foam, true, 4}});
+    const CarvingBlock block = choose_block(cell, {300, 100, 50});
+    EXPECT_EQ(block.size, (Vec3{310, 110, 63}));
+    EXPECT_TRUE(block.offcuts.empty());
+}
+
+TEST(Block, SawnStandsInAnyOrientationAWholeOneOnlyUpright) {
+    std::vector<Stock> list{{"plank", {60, 2000, 110}, Material::pu_foam}};
+    EXPECT_FALSE(choose_block(machine_of(list), {300, 100, 30}).holds);
+    list.front().is_sawn = true;
+    list.front().kerf = 3;
+    EXPECT_TRUE(choose_block(machine_of(list), {300, 100, 30}).holds);
+}
+
+// A plain statement of the rule beside the choice: no block of the list holds the piece if the choice does not.
+TEST(Block, HoldsThePieceWheneverOneOfTheListDoesAndNoneThatDoesIsSmaller) {
+    std::mt19937 random(3);
+    std::uniform_int_distribution<int> length(50, 600);
+    const auto size = [&] {
+        return Vec3{static_cast<double>(length(random)), static_cast<double>(length(random)),
+                    static_cast<double>(length(random))};
+    };
+    for (int round = 0; round < 300; ++round) {
+        std::vector<Stock> list;
+        for (int i = 0; i < 4; ++i) list.push_back({std::to_string(i), size(), Material::eps});
+        const Cell cell = machine_of(list);
+        const Vec3 piece = size();
+        const Vec3 needed = piece + Vec3{8, 8, 13};
+        const auto holds = [&](Vec3 s) { return s.x >= needed.x && s.y >= needed.y && s.z >= needed.z; };
+        double least = 0;
+        for (const Stock& stock : list) {
+            const Vec3 s = stock.size;
+            if (holds(s) || holds({s.y, s.x, s.z})) least = least == 0 ? volume(s) : std::min(least, volume(s));
+        }
+        const CarvingBlock chosen = choose_block(cell, piece);
+        EXPECT_EQ(chosen.holds, least > 0);
+        if (least > 0) {
+            EXPECT_EQ(volume(chosen.size), least);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace qchopper
