@@ -21,8 +21,8 @@ namespace qchopper {
 
 constexpr int job_schema_version = 2;
 
-// Precondition of all functions that take it: piece.mesh is not null, setup.block.stock is an index in cell.stock, and the
-// envelope has a margin.
+// Precondition of all functions that take it: piece.mesh is not null, setup.block.stock is an index in cell.stock, and
+// the envelope has a margin.
 struct JobInput {
     Piece piece;                 // in piece coordinates
     std::uint16_t piece_no = 1;  // 1..piece_count
@@ -33,6 +33,9 @@ struct JobInput {
     Cell cell;
     Setup setup;
     EnvelopeReport envelope;
+    std::vector<Setup> alternatives;    // the other ways to lay the piece, best first
+    std::vector<SurfaceState> states;   // per triangle of the piece; empty: not known
+    double max_unreachable = 0.02;      // share beyond which dispatch asks for the operator's word
     std::vector<std::string> warnings;  // of the project: "scaled by 0.5 on request"
 };
 

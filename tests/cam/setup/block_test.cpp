@@ -51,7 +51,7 @@ TEST(Block, SpoilLayerIsDeepEnoughForTheRoundestTool) {
     cell.machine->tools.push_back(tool);
     EXPECT_EQ(margins_of(cell).spoil, 17);
     EXPECT_FALSE(choose_block(cell, {100, 50, 50}).holds);
-    EXPECT_TRUE(choose_block(cell, {100, 50, 46}).holds);
+    EXPECT_TRUE(choose_block(cell, {100, 50, 43}).holds);
 }
 
 TEST(Block, SawnIsAsSmallAsThePieceAllowsAndTheOffcutsAndKerfsAreTheRest) {
