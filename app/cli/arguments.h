@@ -115,6 +115,14 @@ struct CellsCheckArguments {
     std::filesystem::path file;
 };
 
+struct SetupArguments {
+    std::filesystem::path project;
+    std::optional<std::string> piece;
+    std::optional<int> base;
+    std::optional<std::size_t> max_directions;
+    bool is_free = false;  // --auto
+};
+
 struct DryRunArguments {
     std::filesystem::path project;
     std::optional<std::string> piece;
@@ -144,7 +152,7 @@ struct Arguments {
     bool timings = false;
     std::variant<SampleArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
                  ExplainArguments, ExportArguments, CellsListArguments, CellsShowArguments, CellsCheckArguments,
-                 DryRunArguments, CellSimArguments, DispatchArguments>
+                 SetupArguments, DryRunArguments, CellSimArguments, DispatchArguments>
         command;
 };
 

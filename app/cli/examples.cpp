@@ -12,7 +12,7 @@ struct Examples {
     const char* lines;
 };
 
-constexpr std::array<Examples, 12> all_examples{{
+constexpr std::array<Examples, 13> all_examples{{
     {"", R"(  qchopper sample vertebra --faces 50000 -o vertebra.ply
   qchopper inspect vertebra.ply --units mm
   qchopper prepare vertebra.ply --units mm --cell cells/foam-1.toml --min-cuts 3 -o vertebra.qch
@@ -50,6 +50,9 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
     {"cells", R"(  qchopper cells list
   qchopper cells show cells/kr60-ha.toml -o reach.png
   qchopper cells check cells/kr60-ha.toml --json)"},
+    {"setup", R"(  qchopper setup vertebra.qch
+  qchopper setup vertebra.qch --piece B
+  qchopper setup vertebra.qch --piece B --base 2 --directions 3)"},
     {"dry-run", R"(  qchopper dry-run vertebra.qch
   qchopper dry-run vertebra.qch --piece B)"},
     {"cell-sim", R"(  qchopper cell-sim --listen 127.0.0.1:15020 --drop drop --consent ask)"},

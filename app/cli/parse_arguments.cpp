@@ -42,6 +42,7 @@ struct Parser {
     CellsListArguments cells_list;
     CellsShowArguments cells_show;
     CellsCheckArguments cells_check;
+    SetupArguments setup;
     DryRunArguments dry_run;
     CellSimArguments cell_sim;
     DispatchArguments dispatch;
@@ -58,6 +59,7 @@ struct Parser {
         add_explain();
         add_export();
         add_cells();
+        add_setup();
         add_dry_run();
         add_cell_sim();
         add_dispatch();
@@ -142,6 +144,25 @@ struct Parser {
             "check", "tell what is assumed or missing in a cell file, and whether its jobs may be dispatched");
         check->add_option("CELL", cells_check.file, "the cell file, NAME.toml")->required();
         add_common(check, common, [this] { common.command = cells_check; });
+    }
+
+    void add_setup() {
+        CLI::App* c =
+            app.add_subcommand("setup", "show how pieces lie and what the tool reaches, and choose otherwise");
+        c->add_option("PROJECT", setup.project, "the folder NAME.qch")->required();
+        CLI::Option* piece = c->add_option("--piece", setup.piece, "this piece, with all ways to lay it");
+        CLI::Option* base = c->add_option("--base", setup.base, "lay the piece on the base of this number")
+                                ->check(number_between(0, 1e6, "the number of a base"))
+                                ->needs(piece);
+        CLI::Option* directions =
+            c->add_option("--directions", setup.max_directions, "carve it from at most so many directions (8)")
+                ->check(number_between(1, 264, "a count of directions from 1 to 264"))
+                ->needs(piece);
+        c->add_flag("--auto", setup.is_free, "let the program choose again")
+            ->needs(piece)
+            ->excludes(base)
+            ->excludes(directions);
+        add_common(c, common, [this] { common.command = setup; });
     }
 
     void add_dry_run() {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <map>
 
 #include "base/text.h"
 #include "segment/search/rank.h"
@@ -20,6 +21,7 @@ std::string describe(const Decision& decision) {
         return "cut " + std::to_string(cut->number) + " on piece " + cut->piece;
     }
     if (const auto* discard = std::get_if<Discard>(&decision)) return "discard of piece " + discard->piece;
+    if (const auto* order = std::get_if<SetupOrder>(&decision)) return "setup of piece " + order->piece;
     return std::holds_alternative<WeightsChange>(decision) ? "change of weights" : "reset";
 }
 
@@ -74,6 +76,23 @@ Weights committed_weights(const History& history) {
         if (const auto* change = std::get_if<WeightsChange>(&history.decisions[i])) weights = change->weights;
     }
     return weights;
+}
+
+std::vector<SetupOrder> committed_setup_orders(const History& history) {
+    std::map<std::string, SetupOrder> orders;
+    for (std::size_t i = 0; i < history.committed; ++i) {
+        const Decision& decision = history.decisions[i];
+        if (std::holds_alternative<Reset>(decision)) orders.clear();
+        if (const Cut* cut = std::get_if<Cut>(&decision)) orders.erase(cut->piece);
+        if (const auto* discard = std::get_if<Discard>(&decision)) orders.erase(discard->piece);
+        const auto* order = std::get_if<SetupOrder>(&decision);
+        if (order == nullptr) continue;
+        orders.erase(order->piece);
+        if (order->base || order->max_directions) orders.emplace(order->piece, *order);
+    }
+    std::vector<SetupOrder> list;
+    for (auto& [piece, order] : orders) list.push_back(std::move(order));
+    return list;
 }
 
 void decide(History& history, Decision decision) {

@@ -1,5 +1,5 @@
-// The decisions of a project in order: cuts, discarded pieces, changes of weights, resets. Undo goes back in this list,
-// redo forward.
+// The decisions of a project in order: cuts, discarded pieces, setups, changes of weights, resets. Undo goes back in
+// this list, redo forward.
 //
 // The first `committed` decisions are in force; the others were undone and are kept until something new is decided.
 // Undo then redo is identity, and cuts, discards and weights depend only on the decisions in force
@@ -44,7 +44,15 @@ struct Discard {
     bool operator==(const Discard&) const = default;
 };
 
-using Decision = std::variant<Cut, WeightsChange, Reset, Discard>;
+// How a piece is laid and carved in place of what the program chooses. With neither it chooses again.
+struct SetupOrder {
+    std::string piece;                          // its name
+    std::optional<int> base;                    // number of the base (segment/score/piece_reach.h)
+    std::optional<std::size_t> max_directions;  // of the tool
+    bool operator==(const SetupOrder&) const = default;
+};
+
+using Decision = std::variant<Cut, WeightsChange, Reset, Discard, SetupOrder>;
 
 struct History {
     Weights weights_at_start;
@@ -53,7 +61,7 @@ struct History {
     bool operator==(const History&) const = default;
 };
 
-// "cut 3 on piece B", "discard of piece C", "change of weights", "reset".
+// "cut 3 on piece B", "discard of piece C", "setup of piece B", "change of weights", "reset".
 std::string describe(const Decision& decision);
 
 // "cut 2 on piece B: best of 120 planes, total 3.929 (...); makes D, E".
@@ -66,6 +74,8 @@ std::string makes(const Cut& cut);
 std::vector<Cut> committed_cuts(const History& history);
 std::vector<Discard> committed_discards(const History& history);
 Weights committed_weights(const History& history);
+// The last one of each piece that is neither cut nor discarded since, sorted by the names of the pieces.
+std::vector<SetupOrder> committed_setup_orders(const History& history);
 
 // Adds a decision after those in force and removes those that were undone.
 void decide(History& history, Decision decision);

@@ -103,7 +103,7 @@ std::vector<ExportedPiece> rows_of(OpenProject& open, const ExportRequest& reque
         ExportedPiece row{exported(pieces[i], i, open.project()), {}, {}};
         if (setups != nullptr) {
             const Carving& carving = setups->of(pieces[i]);
-            row.piece.pose = carving.setup.piece_in_setup;
+            row.piece.pose = carving.setup().piece_in_setup;
             row.piece.fits = carving.envelope.fits();
         }
         rows.push_back(std::move(row));

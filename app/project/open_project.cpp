@@ -76,7 +76,9 @@ EvaluationCache& OpenProject::cache() {
 Setups* OpenProject::setups() {
     const std::filesystem::path cell = folder_ / "cell.toml";
     if (!setups_ && std::filesystem::exists(cell)) setups_.emplace(read_cell(cell));
-    return setups_ ? &*setups_ : nullptr;
+    if (!setups_) return nullptr;
+    setups_->set_orders(committed_setup_orders(project_.history));
+    return &*setups_;
 }
 
 void OpenProject::check_cell() {
@@ -90,7 +92,7 @@ FitsCell OpenProject::fits_cell() {
     if (setups == nullptr) return {};
     return [setups, timings = context_.timings](const Piece& piece) {
         const StageTimer stage(timings, "setups chosen");
-        return setups->of(piece).envelope.fits();
+        return setups->fits(piece);
     };
 }
 
@@ -174,6 +176,29 @@ bool OpenProject::decide_reset() {
     return true;
 }
 
+// The other outputs do not depend on it: of a piece whose setup changes the job alone is removed.
+bool OpenProject::decide_setup(const SetupOrder& order) {
+    const auto current = [&](const std::string& piece) {
+        for (const SetupOrder& o : committed_setup_orders(project_.history)) {
+            if (o.piece == piece) return o;
+        }
+        return SetupOrder{piece, {}, {}};
+    };
+    if (!piece_named(segmentation(), order.piece) || current(order.piece) == order) return false;
+    decide(project_.history, order);
+    std::erase_if(project_.jobs, [&](const WrittenJob& job) { return job.piece == order.piece; });
+    project_.beam.reset();
+    save();
+    return true;
+}
+
+void OpenProject::write_job_again(std::size_t piece, const std::string& program_version) {
+    check_cell();
+    if (project_.stage != Stage::done) return;
+    write_job(folder_, project_, segmentation(), piece, *setups(), program_version);
+    save_project(folder_, project_);
+}
+
 std::optional<Decision> OpenProject::undo() {
     return change_committed(to_undo(project_.history), project_.history.committed - 1);
 }
@@ -247,7 +272,7 @@ PreparedProject OpenProject::prepare(const std::string& program_version, const C
     const bool is_out_of_time = end_ && end_->is_out_of_time();
     if (is_out_of_time) record_end(*end_);
     if (!end_ || is_out_of_time) write_current_pieces();
-    PreparedProject prepared{folder_, {}, setups()->cell(), {}};
+    PreparedProject prepared{folder_, {}, setups()->cell(), most_unreachable(project_, setups()->cell()), {}};
     static_cast<void>(segmentation());
     release_scan();
     prepared.pieces = write_jobs(folder_, project_, segmentation(), *setups(), program_version, context);

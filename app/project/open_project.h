@@ -25,6 +25,7 @@ struct PreparedProject {
     std::filesystem::path folder;
     Project project;
     Cell cell;
+    double max_unreachable = 0;       // share of a piece's surface that may stay out of reach
     std::vector<PieceReport> pieces;  // in the order of the project's
     bool all_fit() const;
 };
@@ -83,6 +84,7 @@ class OpenProject {
     bool decide_weights(const Weights& weights);    // they are the current ones
     bool decide_discard(const std::string& piece);  // there is no such piece, or it is the only one
     bool decide_reset();                            // no cut and no discarded piece is in force
+    bool decide_setup(const SetupOrder& order);     // it is in force already, or there is no such piece
     // The decision that was taken back or put in force again; nothing if there is none.
     std::optional<Decision> undo();
     std::optional<Decision> redo();
@@ -102,6 +104,10 @@ class OpenProject {
     // Writes pieces, jobs and pictures. Of a project whose last search ran out of time too; its stage stays
     // Stage::cutting, so that it can go on. Throws what check_cell throws, and Cancelled.
     PreparedProject prepare(const std::string& program_version, const Context& context);
+
+    // Writes the job of one piece again, if the jobs are written; `piece` is an index in segmentation().pieces. Throws
+    // what check_cell throws.
+    void write_job_again(std::size_t piece, const std::string& program_version);
 
     // Makes the newest cut or discarded piece of a segmentation that is extended by others (replay_plan.h) a decision.
     void adopt(const Segmentation& segmentation);

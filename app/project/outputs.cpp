@@ -2,6 +2,7 @@
 
 #include "app/project/outputs.h"
 
+#include <algorithm>
 #include <cassert>
 #include <set>
 
@@ -35,6 +36,12 @@ TriangleMesh together(const std::vector<Fragment>& fragments) {
     return all;
 }
 
+std::size_t place_of(const std::string& piece, const Segmentation& segmentation) {
+    const auto found = std::find_if(segmentation.pieces.begin(), segmentation.pieces.end(),
+                                    [&](const Piece& p) { return p.name == piece; });
+    return static_cast<std::size_t>(found - segmentation.pieces.begin());
+}
+
 // Removes the files of a folder that are not in `keep`; the folder may be missing.
 void remove_but(const fs::path& folder, const std::set<std::string>& keep) {
     std::error_code error;
@@ -65,6 +72,47 @@ void write_pieces(const fs::path& folder, const Segmentation& segmentation, Frag
     remove_but(folder / "pieces", written);
 }
 
+double most_unreachable(const Project&, const Cell& cell) {
+    constexpr double without_a_machine = 0.02;
+    return cell.machine ? cell.machine->max_unreachable : without_a_machine;
+}
+
+PieceReport write_job(const fs::path& folder, Project& project, const Segmentation& segmentation, std::size_t index,
+                      Setups& setups, const std::string& program_version) {
+    const Piece& piece = segmentation.pieces[index];
+    const Carving& carving = setups.of(piece);
+    PieceReport report{piece.name, piece.mesh->triangles.size(), volume_mm3(*piece.mesh), carving, {}};
+    report.carving.mesh.reset();
+    report.carving.choice.states.clear();
+    std::erase_if(project.jobs, [&](const WrittenJob& job) { return job.piece == piece.name; });
+    const fs::path file = folder / "jobs" / job_file_name(piece.name);
+    if (!carving.envelope.fits()) {
+        fs::remove(file);  // an earlier job of a piece that cannot be carved must not stay
+        return report;
+    }
+    JobInput input;
+    input.piece = piece;
+    input.piece_no = static_cast<std::uint16_t>(index + 1);
+    input.piece_count = static_cast<std::uint16_t>(segmentation.pieces.size());
+    input.program_version = program_version;
+    input.project_id = project_id(project);
+    input.scan_sha256 = project.scan.sha256;
+    input.cell = setups.cell();
+    input.setup = carving.setup();
+    input.envelope = carving.envelope;
+    input.alternatives.assign(carving.choice.setups.begin() + 1, carving.choice.setups.end());
+    input.states = carving.choice.states;
+    input.max_unreachable = most_unreachable(project, setups.cell());
+    input.warnings = project.warnings;
+    const Bytes bytes = job_file(input);
+    write_file(file, bytes);
+    const auto later = std::find_if(project.jobs.begin(), project.jobs.end(),
+                                    [&](const WrittenJob& job) { return place_of(job.piece, segmentation) > index; });
+    project.jobs.insert(later, written_job(piece.name, bytes, input.project_id));
+    report.job = file;
+    return report;
+}
+
 std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, const Segmentation& segmentation,
                                     Setups& setups, const std::string& program_version, const Context& context) {
     StageTimer stage(context, "setups chosen");
@@ -72,35 +120,11 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
     setups.compute(segmentation.pieces, context);
     stage.next("jobs written");
     project.jobs.clear();
-    JobInput input;
-    input.piece_no = 0;
-    input.piece_count = static_cast<std::uint16_t>(segmentation.pieces.size());
-    input.program_version = program_version;
-    input.project_id = project_id(project);
-    input.scan_sha256 = project.scan.sha256;
-    input.cell = setups.cell();
-    input.warnings = project.warnings;
     std::vector<PieceReport> reports;
-    for (const Piece& piece : segmentation.pieces) {
+    for (std::size_t i = 0; i < segmentation.pieces.size(); ++i) {
         context.check_cancelled();
-        context.progress("jobs written", input.piece_no, segmentation.pieces.size());
-        ++input.piece_no;
-        const Carving& carving = setups.of(piece);
-        PieceReport report{piece.name, piece.mesh->triangles.size(), volume_mm3(*piece.mesh), carving, {}};
-        report.carving.mesh.reset();
-        const fs::path file = folder / "jobs" / job_file_name(piece.name);
-        if (carving.envelope.fits()) {
-            input.piece = piece;
-            input.setup = carving.setup;
-            input.envelope = carving.envelope;
-            const Bytes bytes = job_file(input);
-            write_file(file, bytes);
-            project.jobs.push_back(written_job(piece.name, bytes, input.project_id));
-            report.job = file;
-        } else {
-            fs::remove(file);  // an earlier job of a piece that cannot be carved must not stay
-        }
-        reports.push_back(std::move(report));
+        context.progress("jobs written", i, segmentation.pieces.size());
+        reports.push_back(write_job(folder, project, segmentation, i, setups, program_version));
     }
     return reports;
 }

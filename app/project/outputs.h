@@ -21,6 +21,9 @@ namespace qchopper {
 void write_pieces(const std::filesystem::path& folder, const Segmentation& segmentation, FragmentChoice fragments,
                   const Context& context = {});
 
+// The share of a piece's surface that may stay out of reach: the operator's, or else the cell's.
+double most_unreachable(const Project& project, const Cell& cell);
+
 // The result of prepare for one piece.
 struct PieceReport {
     std::string name;
@@ -30,8 +33,12 @@ struct PieceReport {
     std::filesystem::path job;  // empty: it does not fit the cell and has no job
 };
 
-// Writes jobs/<name>.qjob of every piece that fits the cell, removes those of the others, and records the jobs in the
-// project, which is not saved. One report per piece. Throws Cancelled.
+// Writes jobs/<name>.qjob of one piece if it fits the cell, else removes it, and records it in the project, which is
+// not saved. `index` is that of the piece in the segmentation.
+PieceReport write_job(const std::filesystem::path& folder, Project& project, const Segmentation& segmentation,
+                      std::size_t index, Setups& setups, const std::string& program_version);
+
+// The same for all pieces; no other job stays recorded. One report per piece. Throws Cancelled.
 std::vector<PieceReport> write_jobs(const std::filesystem::path& folder, Project& project,
                                     const Segmentation& segmentation, Setups& setups,
                                     const std::string& program_version, const Context& context);

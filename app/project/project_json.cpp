@@ -91,6 +91,12 @@ Json json_of(const Decision& decision) {
     if (const auto* discard = std::get_if<Discard>(&decision)) {
         return {{"discard", {{"piece", discard->piece}, {"after", discard->after}}}};
     }
+    if (const auto* order = std::get_if<SetupOrder>(&decision)) {
+        Json setup{{"piece", order->piece}};
+        if (order->base) setup["base"] = *order->base;
+        if (order->max_directions) setup["max_directions"] = *order->max_directions;
+        return {{"setup", setup}};
+    }
     return {{"reset", true}};
 }
 
@@ -101,8 +107,16 @@ Decision decision_from(const Json& json) {
         const Json& discard = json.at("discard");
         return Discard{discard.at("piece").get<std::string>(), discard.at("after").get<std::size_t>()};
     }
+    if (json.contains("setup")) {
+        const Json& setup = json.at("setup");
+        SetupOrder order{setup.at("piece").get<std::string>(), {}, {}};
+        if (setup.contains("base")) order.base = setup.at("base").get<int>();
+        if (setup.contains("max_directions")) order.max_directions = setup.at("max_directions").get<std::size_t>();
+        return order;
+    }
     if (json.contains("reset")) return Reset{};
-    throw InputError(InputFault::config, "a decision is neither a cut nor a discarded piece nor weights nor a reset");
+    throw InputError(InputFault::config,
+                     "a decision is neither a cut nor a discarded piece nor a setup nor weights nor a reset");
 }
 
 Json json_of(const BeamState::Branch& branch) {

@@ -1,4 +1,4 @@
-// How pieces are carved in a cell. Each piece is computed once, for the stop rule and again for the jobs.
+// How pieces are carved in a cell. Each piece is computed once, for the stop rules and again for the jobs.
 //
 // Lengths in mm. Not for several threads at once.
 
@@ -6,12 +6,11 @@
 
 #include <map>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <vector>
 
+#include "app/project/decisions.h"
 #include "base/context.h"
-#include "base/parallel.h"
 #include "cam/cell/cell.h"
 #include "cam/setup/envelope.h"
 #include "cam/setup/setup.h"
@@ -20,9 +19,10 @@
 namespace qchopper {
 
 struct Carving {
-    Setup setup;
-    EnvelopeReport envelope;
+    SetupChoice choice;
+    EnvelopeReport envelope;                   // of the setup
     std::shared_ptr<const TriangleMesh> mesh;  // of the piece; while it is held, its address is not used again
+    const Setup& setup() const { return choice.setups.front(); }
 };
 
 class Setups {
@@ -31,38 +31,27 @@ class Setups {
 
     const Cell& cell() const { return cell_; }
 
-    // Computes those of all pieces, on several threads. Reports progress in pieces. Throws Cancelled.
-    void compute(std::span<const Piece> pieces, const Context& context) {
-        std::vector<const Piece*> missing;
-        for (const Piece& piece : pieces) {
-            if (!carvings_.contains(piece.mesh.get())) missing.push_back(&piece);
-        }
-        std::mutex changing;
-        std::size_t done = 0;
-        parallel_for(0, missing.size(), [&](std::size_t i) {
-            context.check_cancelled();
-            Carving carving = carving_of(*missing[i]);
-            const std::lock_guard lock(changing);
-            carvings_[missing[i]->mesh.get()] = std::move(carving);
-            context.progress("setups chosen", ++done, missing.size());
-        });
-    }
+    // What the operator decided, in place of what was decided before.
+    void set_orders(std::vector<SetupOrder> orders);
+    // Whether surface that is too narrow for the smallest tool counts as out of reach.
+    void set_count_narrow(bool count_narrow);
 
+    // Computes those of all pieces, on several threads. Reports progress in pieces. Throws Cancelled.
+    void compute(std::span<const Piece> pieces, const Context& context);
     // Valid while this object lives. Pieces are identified by their mesh.
-    const Carving& of(const Piece& piece) {
-        const auto [it, is_new] = carvings_.try_emplace(piece.mesh.get());
-        if (is_new) it->second = carving_of(piece);
-        return it->second;
-    }
+    const Carving& of(const Piece& piece);
+
+    // For the stop rules, cheaper than of(): by boxes, and on samples of the surface from the best base.
+    bool fits(const Piece& piece) const { return fits_cell(piece, cell_); }
+    UnreachableSurface unreachable(const Piece& piece);
 
  private:
-    Carving carving_of(const Piece& piece) const {
-        Carving carving{choose_setup(piece, cell_).setups.front(), {}, piece.mesh};
-        carving.envelope = check_envelope(carving.setup, cell_);
-        return carving;
-    }
+    SetupOptions options_for(const Piece& piece) const;
+    Carving carving_of(const Piece& piece) const;
 
     Cell cell_;
+    std::vector<SetupOrder> orders_;
+    bool count_narrow_ = false;
     std::map<const TriangleMesh*, Carving> carvings_;
 };
 

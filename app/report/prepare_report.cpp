@@ -10,6 +10,7 @@
 #include "app/project/value_json.h"
 #include "app/report/columns.h"
 #include "app/report/segment_report.h"
+#include "app/report/setup_report.h"
 #include "base/text.h"
 
 namespace qchopper {
@@ -32,7 +33,7 @@ Json cut_json(const Cut& cut) {
 }
 
 Json piece_json(const PieceReport& piece, const Cell& cell) {
-    const Setup& s = piece.carving.setup;
+    const Setup& s = piece.carving.setup();
     Json margins;
     for (const Margin& m : piece.carving.envelope.margins) margins[m.name] = m.mm;
     return {{"name", piece.name},
@@ -41,9 +42,11 @@ Json piece_json(const PieceReport& piece, const Cell& cell) {
             {"box_mm", json_of(s.box.size())},
             {"block", cell.stock[s.block.stock].name},
             {"block_mm", json_of(s.block.size)},
+            {"base_number", s.base_number},
             {"base_cut", s.base ? Json(*s.base) : Json()},
             {"base", s.base_description},
             {"undercut", s.undercut},
+            {"reach", reach_json(s.reach)},
             {"fits", piece.carving.envelope.fits()},
             {"margins_mm", margins},
             {"job", piece.job.empty() ? Json() : Json(piece.job.string())}};
@@ -54,21 +57,31 @@ Json piece_json(const PieceReport& piece, const Cell& cell) {
 std::vector<std::string> warnings(const PreparedProject& prepared) {
     std::vector<std::string> text;
     for (const PieceReport& p : prepared.pieces) {
-        if (p.job.empty()) text.push_back(describe_envelope(p.name, p.carving.envelope) + "; it gets no job");
+        const double share = p.carving.setup().reach.unreachable_share();
+        if (p.job.empty()) {
+            text.push_back(describe_envelope(p.name, p.carving.envelope) + "; it gets no job");
+        } else if (share > prepared.max_unreachable) {
+            text.push_back("piece " + p.name + ": " + share_word(share) +
+                           " of its surface is out of reach, more than " + share_word(prepared.max_unreachable) +
+                           "; see qchopper setup " + shell_word(prepared.folder) + " --piece " + p.name +
+                           ", cut it again, or dispatch it with --accept-unreachable");
+        }
     }
     return text;
 }
 
 std::vector<std::string> table(const PreparedProject& prepared) {
     std::vector<std::vector<std::string>> rows{
-        {"piece", "faces", "volume", "box mm", "block", "base", "undercut", "fits"}};
+        {"piece", "faces", "volume", "box mm", "block", "base", "directions", "unreachable", "fits"}};
     for (const PieceReport& p : prepared.pieces) {
-        const Setup& s = p.carving.setup;
+        const Setup& s = p.carving.setup();
         rows.push_back({p.name, with_commas(p.faces), describe_volume(p.volume_mm3), lengths(s.box.size()),
-                        prepared.cell.stock[s.block.stock].name, s.base ? "cut " + std::to_string(*s.base) : "none",
-                        fixed(s.undercut, 3), p.job.empty() ? "no" : "yes"});
+                        prepared.cell.stock[s.block.stock].name, base_word(s),
+                        std::to_string(s.reach.directions.size()), share_word(s.reach.unreachable_share()),
+                        p.job.empty() ? "no" : "yes"});
     }
     std::vector<std::string> lines = columns(rows);
+    if (const std::string note = arm_note(prepared.cell); !note.empty()) lines.push_back(note);
     const std::size_t fragments = prepared.project.fragment_list.size();
     if (fragments > 0) {
         double volume = 0;
@@ -97,7 +110,7 @@ std::string document(const PreparedProject& prepared) {
     for (const PieceReport& piece : prepared.pieces) pieces.push_back(piece_json(piece, prepared.cell));
     Json fragments = Json::array();
     for (const SolidRecord& fragment : p.fragment_list) fragments.push_back(json_of(fragment));
-    const Json json{{"schema", "qchopper-prepare-2"},
+    const Json json{{"schema", "qchopper-prepare-3"},
                     {"project", prepared.folder.string()},
                     {"scan",
                      {{"path", p.scan.path.string()},
@@ -109,6 +122,8 @@ std::string document(const PreparedProject& prepared) {
                     {"stop_rules_hold", p.do_rules_hold()},
                     {"ended_because", p.ended_because},
                     {"all_fit", prepared.all_fit()},
+                    {"max_unreachable", prepared.max_unreachable},
+                    {"arm_checked", prepared.cell.machine.has_value()},
                     {"cuts", cuts},
                     {"pieces", pieces},
                     {"fragments", fragments},

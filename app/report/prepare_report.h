@@ -9,11 +9,11 @@
 
 namespace qchopper {
 
-// One per piece that does not fit.
+// One per piece that does not fit, or of which more is out of reach than may be.
 std::vector<std::string> warnings(const PreparedProject& prepared);
 // A row per piece, then the fragments, the discarded pieces and the next command.
 std::vector<std::string> table(const PreparedProject& prepared);
-// The document qchopper-prepare-2 (tests/app/cli/json_test.cpp).
+// The document qchopper-prepare-3 (tests/app/cli/json_test.cpp).
 std::string document(const PreparedProject& prepared);
 
 }  // namespace qchopper

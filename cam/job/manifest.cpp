@@ -25,10 +25,8 @@ Json from_setup(const Setup& setup) {
             {"piece_in_setup", {{"rows", rows}, {"shift", from_vector(setup.piece_in_setup.shift)}}},
             {"box", from_box(setup.box)},
             {"undercut", setup.undercut},
-            {"occluded_area_ratio", setup.occluded_area_ratio},
             {"base_mm2", setup.base_mm2},
             {"projected_area_mm2", setup.projected_area_mm2},
-            {"base_is_stable", setup.base_is_stable},
             {"warnings", setup.warnings}};
 }
 
@@ -97,10 +95,8 @@ Setup to_setup(const Json& json, const Json& stock) {
     setup.piece_in_setup = to_pose(member(json, "piece_in_setup"));
     setup.box = box(json, "box");
     setup.undercut = real(json, "undercut");
-    setup.occluded_area_ratio = real(json, "occluded_area_ratio");
     setup.base_mm2 = real(json, "base_mm2");
     setup.projected_area_mm2 = real(json, "projected_area_mm2");
-    setup.base_is_stable = truth(json, "base_is_stable");
     setup.warnings = texts(json, "warnings");
     setup.block.stock = whole<std::uint16_t>(stock, "number");
     setup.block.size = vector(stock, "size");

@@ -39,11 +39,7 @@ std::string piece_step(const JobInput& input) {
     if (setup.base) text += ", " + fixed(setup.base_mm2 / 100, 1) + " cm2";
     text += ".\n   Up is (" + fixed(setup.up.x, 4) + ", " + fixed(setup.up.y, 4) + ", " + fixed(setup.up.z, 4) +
             ") of the scan.\n";
-    text += "   Undercut " + fixed(100 * setup.undercut, 1) + " %. ";
-    if (setup.occluded_area_ratio < 0.0005) return text + "The tool sees all of the surface.\n";
-    text += fixed(100 * setup.occluded_area_ratio, 1) +
-            " % of the surface is out of the tool's sight:\n   foam stays there, to be taken off by hand.\n";
-    return text;
+    return text + "   Undercut " + fixed(100 * setup.undercut, 1) + " %.\n";
 }
 
 std::string tool_step(const JobInput& input, std::uint32_t seconds) {

@@ -1,90 +1,31 @@
-// Evaluates every cap (undercut.h), or every side of the oriented box by a sample of the triangles, and keeps the best.
-// O(caps * triangles), a ray per triangle for the base that is chosen, and for a piece without caps six rays per
-// triangle of the sample.
+// Every base is laid out in its block and judged on samples with its own few directions; the best ones are judged again
+// by height maps. Rays of the samples (segment/score/piece_reach.h) and O(directions x triangles) for each base that is
+// mapped.
 
 #include "cam/setup/setup.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
+#include <numbers>
+#include <tuple>
 
 #include "cam/setup/envelope.h"
 #include "cam/setup/footprint.h"
+#include "cam/setup/held_directions.h"
+#include "cam/setup/mapped_reach.h"
+#include "cam/setup/paint_narrow.h"
 #include "cam/setup/undercut.h"
-#include "segment/mesh/oriented_box.h"
-#include "segment/mesh/projected_area.h"
-#include "segment/mesh/rays.h"
+#include "segment/score/piece_reach.h"
+#include "segment/score/tool_fit.h"
 
 namespace qchopper {
 namespace {
 
-constexpr double tie = 1e-9;                // undercuts and ratios that differ by no more are equal
-constexpr double least_stable_share = 0.1;  // of the projected area
+// Shares that differ by less are equal for the choice of a base: about the error of the samples.
+constexpr double equal_share = 0.001;
 
-std::string percent(double share) {
-    return std::to_string(std::lround(100 * share)) + " %";
-}
-
-// A way to lay the piece: on a cap, or without one on a side of its oriented box.
-struct BaseCandidate {
-    std::optional<std::int32_t> base;
-    Vec3 up;
-    Facing facing;
-    double projected_area_mm2 = 0;
-    bool is_stable = false;
-};
-
-// One candidate per half-space whose cap the piece still has.
-std::vector<BaseCandidate> caps_owned(const Piece& piece) {
-    std::vector<BaseCandidate> candidates;
-    for (const HalfSpace& half_space : piece.half_spaces) {
-        const Facing sums = facing(*piece.mesh, half_space.up(), half_space.cut);
-        if (sums.base_triangles == 0) continue;
-        BaseCandidate candidate{half_space.cut, half_space.up(), sums, projected_area_mm2(*piece.mesh, half_space.up()),
-                                false};
-        candidate.is_stable = sums.base >= least_stable_share * candidate.projected_area_mm2;
-        candidates.push_back(candidate);
-    }
-    return candidates;
-}
-
-// A comparison with a tolerance is no order, so the best is found first and the lowest cut among its equals second.
-BaseCandidate best_cap(const std::vector<BaseCandidate>& candidates) {
-    assert(!candidates.empty());
-    BaseCandidate best = candidates.front();
-    for (const BaseCandidate& other : candidates) {
-        const bool less = other.facing.undercut() < best.facing.undercut();
-        if (other.is_stable != best.is_stable ? other.is_stable : less) best = other;
-    }
-    BaseCandidate first = best;
-    for (const BaseCandidate& other : candidates) {
-        const bool equal = other.is_stable == best.is_stable && other.facing.undercut() - best.facing.undercut() <= tie;
-        if (equal && *other.base < *first.base) first = other;
-    }
-    return first;
-}
-
-// The side from which the least area of a sample is occluded. Shortest side first: of equal sides the piece lies on the
-// one that makes it lowest. Sides that differ by no more than the error of the sample are equal.
-BaseCandidate best_side(const Piece& piece, const RayTree& rays) {
-    constexpr std::size_t sample_size = 20'000;
-    constexpr double sampling_error = 0.005;
-    const OrientedBox box = oriented_box(piece.mesh->points);
-    const std::vector<std::uint32_t> sample = area_sample(*piece.mesh, sample_size);
-    Vec3 up = box.axis[2];
-    double least = std::numeric_limits<double>::infinity();
-    for (int axis = 2; axis >= 0 && !sample.empty(); --axis) {
-        for (const double sign : {1.0, -1.0}) {
-            const Vec3 direction = sign * box.axis[axis];
-            const double occluded = occluded_area_ratio(*piece.mesh, rays, direction, sample);
-            if (occluded >= least - sampling_error) continue;
-            least = occluded;
-            up = direction;
-        }
-    }
-    return {std::nullopt, up, facing(*piece.mesh, up, std::nullopt), projected_area_mm2(*piece.mesh, up), false};
-}
+constexpr double degree = std::numbers::pi / 180;
 
 // Precondition: the mesh has points.
 Box bounds_in(const Pose& piece_in_setup, const TriangleMesh& mesh) {
@@ -109,43 +50,194 @@ void place(const TriangleMesh& mesh, Setup& setup) {
     assert(std::abs(setup.box.min.z) < 1e-6);
 }
 
-void describe(const BaseCandidate& chosen, Setup& setup) {
-    if (!chosen.base) {
-        setup.base_description = "no cap: the piece is bedded on the foam that is left under it";
-        setup.warnings.push_back("the piece has no flat cap to lie on: keep it held from below");
+void describe(Setup& setup) {
+    if (setup.base) {
+        setup.base_description = "the cap of cut " + std::to_string(*setup.base);
         return;
     }
-    setup.base_description = "the cap of cut " + std::to_string(*chosen.base);
-    if (setup.base_is_stable) return;
-    setup.warnings.push_back("the base is only " + percent(chosen.facing.base / chosen.projected_area_mm2) +
-                             " of the piece's projected area: it may tip or break off");
+    setup.base_description =
+        "no cap: side " + std::to_string(setup.base_number) + " of its box, bedded on the foam that is left under it";
+    setup.warnings.push_back("the piece has no flat cap to lie on: keep it held from below");
 }
 
-}  // namespace
-
-SetupChoice choose_setup(const Piece& piece, const Cell& cell, const SetupOptions&) {
-    assert(piece.mesh && !piece.mesh->triangles.empty() && !cell.stock.empty());
-    const RayTree rays(*piece.mesh);
-    const std::vector<BaseCandidate> caps = caps_owned(piece);
-    const BaseCandidate chosen = caps.empty() ? best_side(piece, rays) : best_cap(caps);
-
+// The piece on one base in its block, before anything is asked of the tool.
+Setup laid_out(const Piece& piece, const PieceBase& base, const Cell& cell) {
     Setup setup;
-    setup.base = chosen.base;
-    setup.up = chosen.up;
-    setup.undercut = chosen.facing.undercut();
-    setup.occluded_area_ratio = occluded_area_ratio(*piece.mesh, rays, chosen.up, chosen.base);
-    setup.base_mm2 = chosen.facing.base;
-    setup.projected_area_mm2 = chosen.projected_area_mm2;
-    setup.base_is_stable = chosen.is_stable;
-    describe(chosen, setup);
+    setup.base_number = base.number;
+    setup.base = base.base.cut;
+    setup.up = base.base.up;
+    setup.base_mm2 = base.base_mm2;
+    setup.projected_area_mm2 = base.projected_mm2;
+    describe(setup);
     place(*piece.mesh, setup);
     setup.spoil = margins_of(cell).spoil;
     setup.block = choose_block(cell, setup.box.size());
-    return {{setup}, {}};
+    return setup;
+}
+
+Box block_box(const Setup& setup) {
+    const Vec3 size = setup.block.size;
+    return {{-size.x / 2, -size.y / 2, -setup.spoil}, {size.x / 2, size.y / 2, size.z - setup.spoil}};
+}
+
+double tilt_of(const Cell& cell, const SetupOptions& options) {
+    if (options.max_tilt_deg) return *options.max_tilt_deg;
+    return cell.machine ? cell.machine->max_tilt / degree : default_tilt_deg;
+}
+
+// Of the tools of the cell.
+double smallest_radius(const Cell& cell) {
+    if (!cell.machine) return cell.tool.diameter / 2;
+    double least = cell.machine->tools.front().diameter;
+    for (const CarvingTool& tool : cell.machine->tools) least = std::min(least, tool.diameter);
+    return least / 2;
+}
+
+std::optional<ToolBody> deepest_tool(const Cell& cell) {
+    if (!cell.machine) return std::nullopt;
+    const std::vector<CarvingTool>& tools = cell.machine->tools;
+    const auto longest = std::max_element(tools.begin(), tools.end(), [](const CarvingTool& a, const CarvingTool& b) {
+        return a.stick_out < b.stick_out;
+    });
+    return tool_body(*longest, cell.machine->spindle);
+}
+
+SetupDirection described(const ChosenDirection& chosen, const Setup& setup, double area_mm2) {
+    SetupDirection direction;
+    direction.out = chosen.direction;
+    direction.tilt_deg = std::acos(std::clamp(dot(chosen.direction, setup.up), -1.0, 1.0)) / degree;
+    direction.gained_share = area_mm2 > 0 ? chosen.gained_mm2 / area_mm2 : 0;
+    return direction;
+}
+
+double too_narrow_mm2(const ChosenDirections& directions, const std::vector<bool>& is_narrow, double area_each_mm2) {
+    std::size_t count = 0;
+    for (std::size_t row = 0; row < is_narrow.size(); ++row) {
+        if (is_narrow[row] && directions.samples[row] == SampleReach::reached) ++count;
+    }
+    return area_each_mm2 * static_cast<double>(count);
+}
+
+// One piece while its setup is chosen.
+class Choice {
+ public:
+    Choice(const Piece& piece, const Cell& cell, const SetupOptions& options)
+        : piece_(piece), cell_(cell), options_(options), bases_(bases_of(piece)) {
+        for (const PieceBase& base : bases_) setups_.push_back(laid_out(piece, base, cell));
+    }
+
+    SetupChoice run() {
+        judge_on_samples();
+        rank(setups_.begin(), setups_.end());
+        const auto mapped = std::min(options_.mapped, setups_.size());
+        std::vector<std::vector<SurfaceState>> states;
+        for (std::size_t i = 0; i < mapped; ++i) states.push_back(judge_by_maps(setups_[i]));
+        // The states follow their setup by its number.
+        std::vector<int> number;
+        for (std::size_t i = 0; i < mapped; ++i) number.push_back(setups_[i].base_number);
+        rank(setups_.begin(), setups_.begin() + static_cast<std::ptrdiff_t>(mapped));
+        SetupChoice result;
+        for (std::size_t i = 0; i < mapped; ++i) {
+            if (number[i] == setups_.front().base_number) result.states = std::move(states[i]);
+        }
+        if (!result.states.empty()) paint_narrow(*piece_.mesh, reach_->samples.scan.samples, is_narrow_, result.states);
+        result.setups = std::move(setups_);
+        return result;
+    }
+
+ private:
+    void judge_on_samples() {
+        const PieceReachOptions options{tilt_of(cell_, options_), {options_.max_directions}, options_.samples};
+        const auto held = [&](const PieceBase& base, std::span<const Vec3> directions) {
+            const Setup& setup = setups_[static_cast<std::size_t>(&base - bases_.data())];
+            std::vector<Vec3> in_setup;
+            for (const Vec3& d : directions) in_setup.push_back(rotate(setup.piece_in_setup, d));
+            return held_directions(cell_, setup.box, setup.spoil, in_setup);
+        };
+        reach_ = piece_reach(piece_, bases_, options, held);
+        const SampledScan& scan = reach_->samples.scan;
+        std::vector<bool> is_cap(piece_.mesh->triangles.size());
+        for (std::size_t t = 0; t < is_cap.size(); ++t) is_cap[t] = cap_of(*piece_.mesh, t) != no_cap;
+        is_narrow_ = too_narrow(*piece_.mesh, is_cap, scan.samples.sample, {smallest_radius(cell_), 0});
+        for (std::size_t i = 0; i < bases_.size(); ++i) fill(setups_[i], reach_->bases[i], options.tilt_deg);
+    }
+
+    void fill(Setup& setup, const BaseReach& of_base, double tilt_deg) const {
+        const ChosenDirections& directions = of_base.directions;
+        SurfaceReach& reach = setup.reach;
+        reach.area_mm2 = of_base.area_mm2;
+        for (const ChosenDirection& d : directions.chosen) {
+            reach.directions.push_back(described(d, setup, reach.area_mm2));
+        }
+        reach.hidden_mm2 = directions.by_chosen.hidden_mm2 + directions.by_chosen.caps_mm2;
+        reach.steep_mm2 = directions.by_chosen.steep_mm2;
+        reach.too_narrow_mm2 = too_narrow_mm2(directions, is_narrow_, reach_->samples.scan.samples.area_each_mm2);
+        reach.steep_counts = tilt_deg >= steep_counts_from_deg;
+        reach.narrow_counts = options_.count_narrow;
+        reach.all_directions_share = reach.area_mm2 > 0 ? directions.by_all.total_mm2(tilt_deg) / reach.area_mm2 : 0;
+        if (directions.further) reach.further = described(*directions.further, setup, reach.area_mm2);
+        reach.is_arm_checked = cell_.machine.has_value();
+        const Facing sums = facing(*piece_.mesh, setup.up, setup.base);
+        setup.undercut = sums.undercut();
+        setup.undercut_by_count = sums.undercut_by_count();
+    }
+
+    std::vector<SurfaceState> judge_by_maps(Setup& setup) const {
+        MappedSetup mapped;
+        mapped.mesh = piece_.mesh.get();
+        mapped.base = setup.base;
+        mapped.up = setup.up;
+        mapped.piece_in_setup = setup.piece_in_setup;
+        mapped.block = block_box(setup);
+        for (const SetupDirection& d : setup.reach.directions) mapped.directions.push_back(d.out);
+        mapped.tool = deepest_tool(cell_);
+        mapped.smallest_ball_radius = smallest_radius(cell_);
+        mapped.steep_counts = setup.reach.steep_counts;
+        MappedReach result = mapped_reach(mapped);
+        SurfaceReach& reach = result.reach;
+        reach.too_narrow_mm2 = setup.reach.too_narrow_mm2;
+        reach.narrow_counts = setup.reach.narrow_counts;
+        reach.all_directions_share = setup.reach.all_directions_share;
+        reach.further = setup.reach.further;
+        reach.is_arm_checked = setup.reach.is_arm_checked;
+        setup.reach = std::move(reach);
+        return std::move(result.states);
+    }
+
+    // Equal shares are compared as whole steps, because a comparison with a tolerance is no order.
+    template <class Iterator>
+    void rank(Iterator first, Iterator last) const {
+        const auto steps = [](double share) { return std::lround(share / equal_share); };
+        const auto key = [&](const Setup& s) {
+            const Vec3 size = s.block.size;
+            const double block_mm3 = size.x * size.y * size.z;
+            return std::tuple(options_.base != s.base_number, !check_envelope(s, cell_).fits(),
+                              steps(s.reach.unreachable_share()), steps(s.reach.foam_mm3 / block_mm3),
+                              steps(s.reach.residue_mm3 / block_mm3), block_mm3, s.base_number);
+        };
+        std::stable_sort(first, last, [&](const Setup& a, const Setup& b) { return key(a) < key(b); });
+    }
+
+    const Piece& piece_;
+    const Cell& cell_;
+    const SetupOptions& options_;
+    std::vector<PieceBase> bases_;
+    std::vector<Setup> setups_;  // one per base
+    std::optional<PieceReach> reach_;
+    std::vector<bool> is_narrow_;  // per sample
+};
+
+}  // namespace
+
+SetupChoice choose_setup(const Piece& piece, const Cell& cell, const SetupOptions& options) {
+    assert(piece.mesh && !piece.mesh->triangles.empty() && !cell.stock.empty());
+    return Choice(piece, cell, options).run();
 }
 
 bool fits_cell(const Piece& piece, const Cell& cell) {
-    return check_envelope(choose_setup(piece, cell).setups.front(), cell).fits();
+    const std::vector<PieceBase> bases = bases_of(piece);
+    return std::any_of(bases.begin(), bases.end(),
+                       [&](const PieceBase& base) { return check_envelope(laid_out(piece, base, cell), cell).fits(); });
 }
 
 }  // namespace qchopper

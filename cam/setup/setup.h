@@ -34,13 +34,11 @@ struct Setup {
     double spoil = 0;  // thickness of the layer under the piece that stays on the table; 0 in a cell of version 1
     CarvingBlock block;
 
-    SurfaceReach reach;              // what the tool reaches
-    double undercut = 0;             // share of the projected area that faces down, base left out
-    double undercut_by_count = 0;    // share of the triangles that face down, base left out
-    double occluded_area_ratio = 0;  // share of the area that no vertical ray reaches, base left out
-    double base_mm2 = 0;             // projected area of the base; 0 without one
-    double projected_area_mm2 = 0;   // of the piece, along up
-    bool base_is_stable = true;      // the base is at least a tenth of the projected area
+    SurfaceReach reach;             // what the tool reaches
+    double undercut = 0;            // share of the projected area that faces down, base left out
+    double undercut_by_count = 0;   // share of the triangles that face down, base left out
+    double base_mm2 = 0;            // projected area of the base; 0 without one
+    double projected_area_mm2 = 0;  // of the piece, along up
     std::vector<std::string> warnings;
     bool operator==(const Setup&) const = default;
 };

@@ -31,6 +31,11 @@ struct StopRules {
     bool is_any_set() const { return max_faces || min_cuts || max_obb || fits_cell; }
 };
 
+struct UnreachableSurface {
+    double mm2 = 0;
+    double share = 0;
+};
+
 // Whether a piece, as it would be carved, passes the check of the cell. Given by a module that sees cells.
 using FitsCell = std::function<bool(const Piece&)>;
 

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cam/setup/envelope.h"
 #include "cam/setup/undercut.h"
+#include "segment/mesh/measure.h"
+#include "segment/mesh/projected_area.h"
 #include "segment/mesh/transform.h"
 #include "tests/cam/setup/pieces.h"
 
@@ -70,31 +73,85 @@ TEST(Setup, EveryPieceLiesOnZeroInTheMiddleTurnedNotMirrored) {
     }
 }
 
-TEST(Setup, TheBaseIsTheCapWithTheLeastUndercutThatCarries) {
+bool can_carry(const Piece& piece, const HalfSpace& half_space) {
+    const double base_mm2 = facing(*piece.mesh, half_space.up(), half_space.cut).base;
+    return base_mm2 >= 0.1 * projected_area_mm2(*piece.mesh, half_space.up());
+}
+
+TEST(Setup, EveryCapThatCarriesIsRankedByWhatIsOutOfReach) {
     int with_base = 0;
     for (const Piece& piece : cut_shapes()) {
-        const qchopper::Setup setup = choose_setup(piece, cell()).setups.front();
-        const bool any = std::any_of(piece.half_spaces.begin(), piece.half_spaces.end(),
-                                     [&](const HalfSpace& half_space) { return owns(piece, half_space.cut); });
-        ASSERT_EQ(setup.base.has_value(), any) << piece.name;
-        if (!any) continue;
-        ++with_base;
+        const SetupChoice choice = choose_setup(piece, cell());
+        const qchopper::Setup& best = choice.setups.front();
+        std::size_t carrying = 0;
         for (const HalfSpace& half_space : piece.half_spaces) {
-            if (!owns(piece, half_space.cut)) continue;
-            const double by_hand = undercut_by_hand(piece, half_space);
-            if (half_space.cut == *setup.base) {
-                EXPECT_NEAR(setup.undercut, by_hand, 1e-12) << piece.name;
-                EXPECT_EQ(setup.up, half_space.up());
-            }
-            const double base_mm2 = facing(*piece.mesh, half_space.up(), half_space.cut).base;
-            if (setup.base_is_stable && base_mm2 > 0.5 * setup.projected_area_mm2) {
-                EXPECT_LE(setup.undercut, by_hand + 1e-9) << piece.name;
-            }
+            if (!owns(piece, half_space.cut) || !can_carry(piece, half_space)) continue;
+            ++carrying;
+            const auto setup = std::find_if(choice.setups.begin(), choice.setups.end(),
+                                            [&](const qchopper::Setup& s) { return s.base_number == half_space.cut; });
+            ASSERT_NE(setup, choice.setups.end()) << piece.name;
+            EXPECT_EQ(setup->up, half_space.up());
+            EXPECT_NEAR(setup->undercut, undercut_by_hand(piece, half_space), 1e-12) << piece.name;
         }
-        EXPECT_GE(setup.undercut, 0);
-        EXPECT_LT(setup.undercut, 0.5);
+        ASSERT_EQ(choice.setups.size(), carrying == 0 ? 6 : carrying) << piece.name;
+        ASSERT_EQ(best.base.has_value(), carrying > 0) << piece.name;
+        with_base += carrying > 0 ? 1 : 0;
+        EXPECT_EQ(best.reach.method, ReachMethod::mapped);
+        const bool any_fits = std::any_of(choice.setups.begin(), choice.setups.end(),
+                                          [](const qchopper::Setup& s) { return check_envelope(s, cell()).fits(); });
+        EXPECT_EQ(check_envelope(best, cell()).fits(), any_fits);
+        for (std::size_t i = 1; i < choice.setups.size(); ++i) {
+            const qchopper::Setup& other = choice.setups[i];
+            EXPECT_EQ(other.reach.method, i < 2 ? ReachMethod::mapped : ReachMethod::sampled);
+            if (i >= 2 || check_envelope(other, cell()).fits() != any_fits) continue;
+            EXPECT_LE(best.reach.unreachable_share(), other.reach.unreachable_share() + 0.001) << piece.name;
+        }
     }
     EXPECT_GT(with_base, 20);
+}
+
+TEST(Setup, MapsAndSamplesAgree) {
+    for (const Piece& piece : cut_shapes()) {
+        SetupOptions sampled;
+        sampled.mapped = 0;
+        const std::vector<qchopper::Setup> by_samples = choose_setup(piece, cell(), sampled).setups;
+        const qchopper::Setup by_map = choose_setup(piece, cell()).setups.front();
+        const auto same = std::find_if(by_samples.begin(), by_samples.end(),
+                                       [&](const qchopper::Setup& s) { return s.base_number == by_map.base_number; });
+        ASSERT_NE(same, by_samples.end());
+        EXPECT_NEAR(same->reach.unreachable_share(), by_map.reach.unreachable_share(), 0.03) << piece.name;
+    }
+}
+
+TEST(Setup, TheOperatorsBaseComesFirstAndFewerDirectionsReachLess) {
+    for (const Piece& piece : cut_shapes()) {
+        const SetupChoice free = choose_setup(piece, cell());
+        SetupOptions options;
+        options.base = free.setups.back().base_number;
+        const SetupChoice ordered = choose_setup(piece, cell(), options);
+        EXPECT_EQ(ordered.setups.front().base_number, *options.base) << piece.name;
+        EXPECT_EQ(ordered.setups.front().reach.method, ReachMethod::mapped);
+        options.max_directions = 1;
+        options.mapped = 0;
+        const SetupChoice single = choose_setup(piece, cell(), options);
+        EXPECT_EQ(single.setups.front().reach.directions.size(), 1U);
+        options.max_directions = 8;
+        const SetupChoice several = choose_setup(piece, cell(), options);
+        EXPECT_LE(several.setups.front().reach.unreachable_mm2(), single.setups.front().reach.unreachable_mm2());
+    }
+}
+
+TEST(Setup, StatesBelongToTheSetupThatIsFirst) {
+    for (const Piece& piece : cut_shapes()) {
+        const SetupChoice choice = choose_setup(piece, cell());
+        ASSERT_EQ(choice.states.size(), piece.mesh->triangles.size());
+        double hidden = 0;
+        for (std::size_t t = 0; t < choice.states.size(); ++t) {
+            if (choice.states[t] == SurfaceState::hidden) hidden += norm(area_vector(*piece.mesh, t));
+        }
+        const SurfaceReach& reach = choice.setups.front().reach;
+        EXPECT_NEAR(hidden / reach.area_mm2, reach.hidden_mm2 / reach.area_mm2, 0.05) << piece.name;
+    }
 }
 
 TEST(Setup, TheBaseLiesFlatOnTheTable) {
@@ -119,8 +176,6 @@ TEST(Setup, TurningPieceAndBoundsTogetherChangesNothing) {
         const qchopper::Setup after =
             choose_setup(rotated(piece, {0.3, -0.5, 0.8}, 1.234, {17, -40, 5}), in).setups.front();
         EXPECT_NEAR(after.undercut, before.undercut, 1e-9) << piece.name;
-        EXPECT_NEAR(after.occluded_area_ratio, before.occluded_area_ratio, 0.02)
-            << piece.name;  // rays are single precision
         EXPECT_EQ(after.base, before.base) << piece.name;
         EXPECT_EQ(after.block.stock, before.block.stock) << piece.name;
         const Vec3 change = after.box.size() - before.box.size();
@@ -133,10 +188,9 @@ TEST(Setup, ABoxOnItsCapHasNoUndercut) {
     const qchopper::Setup setup = choose_setup(piece, cell()).setups.front();
     EXPECT_EQ(setup.base, 3);
     EXPECT_EQ(setup.undercut, 0);
-    EXPECT_EQ(setup.occluded_area_ratio, 0);
+    EXPECT_NEAR(setup.reach.unreachable_share(), 0, 1e-6);
     EXPECT_NEAR(setup.base_mm2, 30 * 90, 1e-9);
     EXPECT_NEAR(setup.projected_area_mm2, 30 * 90, 27);
-    EXPECT_TRUE(setup.base_is_stable);
     EXPECT_TRUE(setup.warnings.empty());
     EXPECT_NEAR(setup.box.max.x, 45, 1e-9) << "the long side lies along x";
     EXPECT_NEAR(setup.box.max.y, 15, 1e-9);
@@ -163,18 +217,13 @@ TEST(Setup, AHalfSpaceWhoseCapIsGoneIsNoBase) {
     EXPECT_EQ(choose_setup(piece, cell()).setups.front().base, 3);
 }
 
-// A pyramid standing on its cut tip has more undercut but the tip, were it the only cap, is what there is.
-TEST(Setup, ABaseThatCannotCarryIsPassedOverOrTakenWithAWarning) {
+TEST(Setup, ACapThatCannotCarryIsNoBase) {
     const Piece whole = uncut(shapes::pyramid({0, 0, 0}, 40, 60));
     const auto halves = cut_piece(whole, {{0, 0, 1}, 54.321}, 0);
     ASSERT_TRUE(halves && halves->pieces.size() == 2);
     const Piece& stump = halves->pieces[1];
     ASSERT_FALSE(stump.half_spaces[0].above);
-    const qchopper::Setup on_tip = choose_setup(stump, cell()).setups.front();
-    EXPECT_EQ(on_tip.base, 0);
-    EXPECT_FALSE(on_tip.base_is_stable);
-    ASSERT_EQ(on_tip.warnings.size(), 1U);
-    EXPECT_NE(on_tip.warnings[0].find("1 % of the piece's projected area"), std::string::npos) << on_tip.warnings[0];
+    EXPECT_EQ(choose_setup(stump, cell()).setups.front().base, std::nullopt) << "its cap is 1 % of its projection";
 
     const auto again = cut_piece(stump, canonical({{1, 0.1, 0}, 20.77}), 1);
     ASSERT_TRUE(again && again->pieces.size() == 2);
@@ -185,10 +234,9 @@ TEST(Setup, APieceWithoutCapsLiesOnASideOfItsBox) {
     const Piece piece = uncut(shapes::box({0, 0, 0}, {50, 20, 10}));
     const qchopper::Setup setup = choose_setup(piece, cell()).setups.front();
     EXPECT_EQ(setup.base, std::nullopt);
-    EXPECT_FALSE(setup.base_is_stable);
     EXPECT_EQ(setup.warnings.size(), 1U);
     // Six sides hide 10 x 20, 10 x 50 or 20 x 50 of 3400: the smallest is the one below.
-    EXPECT_NEAR(setup.occluded_area_ratio, 200.0 / 3400, 1e-6);
+    EXPECT_NEAR(setup.reach.unreachable_share(), 200.0 / 3400, 0.002);
     EXPECT_NEAR(setup.box.size().z, 50, 1e-6);
 }
 

@@ -1,0 +1,18 @@
+// Shows the setups of a project, or makes one of them the operator's choice.
+
+#include "app/cli/commands.h"
+#include "app/cli/exit_code.h"
+#include "app/cli/version.h"
+#include "app/project/project_folder.h"
+#include "app/report/setup_report.h"
+
+namespace qchopper {
+
+int run(const SetupArguments& a, Terminal& terminal) {
+    const SetupRequest request{a.piece, a.base, a.max_directions, a.is_free};
+    const SetupAnswer answer = setup_project(without_slash(a.project), request, version, terminal.context());
+    terminal.show(lines(answer), document(answer));
+    return exit_done;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,71 @@
+// The cost is that of choose_setup() for each piece that is new.
+
+#include "app/project/setups.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include "base/parallel.h"
+
+namespace qchopper {
+
+void Setups::set_orders(std::vector<SetupOrder> orders) {
+    if (orders == orders_) return;
+    orders_ = std::move(orders);
+    carvings_.clear();
+}
+
+void Setups::set_count_narrow(bool count_narrow) {
+    if (count_narrow == count_narrow_) return;
+    count_narrow_ = count_narrow;
+    carvings_.clear();
+}
+
+void Setups::compute(std::span<const Piece> pieces, const Context& context) {
+    std::vector<const Piece*> missing;
+    for (const Piece& piece : pieces) {
+        if (!carvings_.contains(piece.mesh.get())) missing.push_back(&piece);
+    }
+    std::mutex changing;
+    std::size_t done = 0;
+    parallel_for(0, missing.size(), [&](std::size_t i) {
+        context.check_cancelled();
+        Carving carving = carving_of(*missing[i]);
+        const std::lock_guard lock(changing);
+        carvings_[missing[i]->mesh.get()] = std::move(carving);
+        context.progress("setups chosen", ++done, missing.size());
+    });
+}
+
+const Carving& Setups::of(const Piece& piece) {
+    const auto [it, is_new] = carvings_.try_emplace(piece.mesh.get());
+    if (is_new) it->second = carving_of(piece);
+    return it->second;
+}
+
+UnreachableSurface Setups::unreachable(const Piece& piece) {
+    SetupOptions options = options_for(piece);
+    options.mapped = 0;
+    const SetupChoice choice = choose_setup(piece, cell_, options);
+    const SurfaceReach& reach = choice.setups.front().reach;
+    return {reach.unreachable_mm2(), reach.unreachable_share()};
+}
+
+SetupOptions Setups::options_for(const Piece& piece) const {
+    SetupOptions options;
+    options.count_narrow = count_narrow_;
+    const auto order =
+        std::find_if(orders_.begin(), orders_.end(), [&](const SetupOrder& o) { return o.piece == piece.name; });
+    if (order == orders_.end()) return options;
+    options.base = order->base;
+    options.max_directions = order->max_directions.value_or(options.max_directions);
+    return options;
+}
+
+Carving Setups::carving_of(const Piece& piece) const {
+    Carving carving{choose_setup(piece, cell_, options_for(piece)), {}, piece.mesh};
+    carving.envelope = check_envelope(carving.setup(), cell_);
+    return carving;
+}
+
+}  // namespace qchopper

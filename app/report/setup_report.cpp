@@ -1,0 +1,195 @@
+// Text and JSON from a value; nothing is computed but shares.
+
+#include "app/report/setup_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "app/project/shell_word.h"
+#include "app/project/value_json.h"
+#include "app/report/columns.h"
+#include "base/text.h"
+
+namespace qchopper {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string of_area(double mm2, const SurfaceReach& reach) {
+    return reach.area_mm2 > 0 ? share_word(mm2 / reach.area_mm2) : "-";
+}
+
+std::string size_word(Vec3 v) {
+    return fixed(v.x, 0) + " x " + fixed(v.y, 0) + " x " + fixed(v.z, 0);
+}
+
+const std::vector<std::string> setup_columns{"base", "unreachable", "hidden",  "steep",      "holder",   "too narrow",
+                                             "foam", "depth mm",    "residue", "directions", "block mm", "fits"};
+
+std::vector<std::string> row_of(const Setup& setup, const Cell& cell) {
+    const SurfaceReach& r = setup.reach;
+    const bool is_mapped = r.method == ReachMethod::mapped;
+    const std::string mark = is_mapped ? "" : "~";
+    return {base_word(setup),
+            mark + share_word(r.unreachable_share()),
+            of_area(r.hidden_mm2, r),
+            of_area(r.steep_mm2, r),
+            of_area(r.holder_mm2, r),
+            of_area(r.too_narrow_mm2, r),
+            is_mapped ? describe_volume(r.foam_mm3) : "-",
+            is_mapped ? fixed(r.foam_depth_mm, 0) : "-",
+            is_mapped ? describe_volume(r.residue_mm3) : "-",
+            std::to_string(r.directions.size()),
+            size_word(setup.block.size),
+            check_envelope(setup, cell).fits() ? "yes" : "no"};
+}
+
+// Degrees from x towards y of the setup, of the way the tool comes out.
+double azimuth_deg(const Setup& setup, Vec3 out) {
+    const Vec3 d = rotate(setup.piece_in_setup, out);
+    return std::atan2(d.y, d.x) * 180 / std::numbers::pi;
+}
+
+std::string direction_line(const Setup& setup, const SetupDirection& d) {
+    return "tilt " + fixed(d.tilt_deg, 0) + ", azimuth " + fixed(azimuth_deg(setup, d.out), 0) + " degrees";
+}
+
+void add_directions(const Setup& setup, std::vector<std::string>& lines) {
+    std::vector<std::vector<std::string>> rows{{"direction", "tilt", "azimuth", "reaches more", "depth mm"}};
+    for (std::size_t i = 0; i < setup.reach.directions.size(); ++i) {
+        const SetupDirection& d = setup.reach.directions[i];
+        rows.push_back({std::to_string(i + 1), fixed(d.tilt_deg, 0), i == 0 ? "-" : fixed(azimuth_deg(setup, d.out), 0),
+                        share_word(d.gained_share), fixed(d.depth_mm, 0)});
+    }
+    for (const std::string& line : columns(rows)) lines.push_back(line);
+}
+
+void add_piece(const PieceSetups& p, const SetupAnswer& answer, std::vector<std::string>& lines) {
+    const Setup& chosen = p.carving.setup();
+    lines.push_back("Piece " + p.piece + " lies on " + base_word(chosen) +
+                    (p.order && p.order->base ? " by decision" : "") + "; all ways to lay it, the one in force first:");
+    std::vector<std::vector<std::string>> rows{setup_columns};
+    for (const Setup& setup : p.carving.choice.setups) rows.push_back(row_of(setup, answer.cell));
+    for (const std::string& line : columns(rows)) lines.push_back(line);
+    lines.emplace_back("Shares are of the area without the base; ~ marks those judged on samples alone.");
+    lines.emplace_back("Directions of the setup in force, in degrees:");
+    add_directions(chosen, lines);
+    const SurfaceReach& reach = chosen.reach;
+    lines.push_back("With all directions that can be held " + share_word(reach.all_directions_share) +
+                    " stays out of reach.");
+    if (reach.further) {
+        lines.push_back("One more direction (" + direction_line(chosen, *reach.further) + ") would reach " +
+                        share_word(reach.further->gained_share) + " more.");
+    }
+    for (const std::string& warning : chosen.warnings) lines.push_back("Note: " + warning + ".");
+    if (!p.carving.envelope.fits()) lines.push_back(describe_envelope(p.piece, p.carving.envelope) + ".");
+}
+
+Json setup_json(const Setup& setup, const Cell& cell) {
+    Json offcuts = Json::array();
+    for (const Vec3 size : setup.block.offcuts) offcuts.push_back(json_of(size));
+    return {{"base_number", setup.base_number},
+            {"base_cut", setup.base ? Json(*setup.base) : Json()},
+            {"base", setup.base_description},
+            {"fits", check_envelope(setup, cell).fits()},
+            {"block", cell.stock[setup.block.stock].name},
+            {"block_mm", json_of(setup.block.size)},
+            {"sawn", setup.block.is_sawn},
+            {"offcuts_mm", offcuts},
+            {"undercut", setup.undercut},
+            {"undercut_by_count", setup.undercut_by_count},
+            {"reach", reach_json(setup.reach)}};
+}
+
+Json direction_json(const SetupDirection& d) {
+    return {
+        {"out", json_of(d.out)}, {"tilt_deg", d.tilt_deg}, {"gained_share", d.gained_share}, {"depth_mm", d.depth_mm}};
+}
+
+}  // namespace
+
+std::string base_word(const Setup& setup) {
+    return (setup.base ? "cut " : "side ") + std::to_string(setup.base_number);
+}
+
+std::string share_word(double share) {
+    return fixed(100 * share, 1) + " %";
+}
+
+std::string arm_note(const Cell& cell) {
+    if (cell.machine) return {};
+    return "Arm not checked: the cell file describes none (version 1); a tilt of up to 60 degrees is taken for "
+           "possible.";
+}
+
+nlohmann::ordered_json reach_json(const SurfaceReach& r) {
+    Json directions = Json::array();
+    for (const SetupDirection& d : r.directions) directions.push_back(direction_json(d));
+    return {{"method", r.method == ReachMethod::mapped ? "mapped" : "sampled"},
+            {"unreachable_share", r.unreachable_share()},
+            {"area_mm2", r.area_mm2},
+            {"hidden_mm2", r.hidden_mm2},
+            {"steep_mm2", r.steep_mm2},
+            {"steep_counts", r.steep_counts},
+            {"holder_mm2", r.holder_mm2},
+            {"too_narrow_mm2", r.too_narrow_mm2},
+            {"narrow_counts", r.narrow_counts},
+            {"all_directions_share", r.all_directions_share},
+            {"foam_mm3", r.foam_mm3},
+            {"foam_depth_mm", r.foam_depth_mm},
+            {"residue_mm3", r.residue_mm3},
+            {"arm_checked", r.is_arm_checked},
+            {"directions", directions},
+            {"further", r.further ? direction_json(*r.further) : Json()}};
+}
+
+std::vector<std::string> lines(const SetupAnswer& answer) {
+    std::vector<std::string> text;
+    if (!answer.done.empty()) text.push_back(answer.done);
+    if (answer.pieces.size() == 1) {
+        add_piece(answer.pieces.front(), answer, text);
+    } else {
+        std::vector<std::vector<std::string>> rows{setup_columns};
+        rows.front().insert(rows.front().begin(), "piece");
+        for (const PieceSetups& p : answer.pieces) {
+            std::vector<std::string> row = row_of(p.carving.setup(), answer.cell);
+            row.insert(row.begin(), p.piece);
+            rows.push_back(std::move(row));
+        }
+        for (const std::string& line : columns(rows)) text.push_back(line);
+        text.emplace_back("Shares are of the area without the base.");
+    }
+    if (const std::string note = arm_note(answer.cell); !note.empty()) text.push_back(note);
+    const std::string word = shell_word(answer.folder);
+    if (answer.is_job_written) text.push_back("The job of the piece is written again.");
+    const std::string piece = answer.pieces.empty() ? "A" : answer.pieces.front().piece;
+    text.push_back(answer.pieces.size() == 1
+                       ? "Choose: qchopper setup " + word + " --piece " + piece + " --base N --directions N   or --auto"
+                       : "One piece: qchopper setup " + word + " --piece " + piece);
+    return text;
+}
+
+std::string document(const SetupAnswer& answer) {
+    Json pieces = Json::array();
+    for (const PieceSetups& p : answer.pieces) {
+        Json setups = Json::array();
+        for (const Setup& setup : p.carving.choice.setups) setups.push_back(setup_json(setup, answer.cell));
+        Json ordered;
+        if (p.order) {
+            ordered = Json{{"base", p.order->base ? Json(*p.order->base) : Json()},
+                           {"max_directions", p.order->max_directions ? Json(*p.order->max_directions) : Json()}};
+        }
+        pieces.push_back({{"name", p.piece}, {"ordered", ordered}, {"setups", setups}});
+    }
+    return text_of(Json{{"schema", "qchopper-setup-1"},
+                        {"project", answer.folder.string()},
+                        {"cell", answer.cell.name},
+                        {"max_unreachable", answer.max_unreachable},
+                        {"done", answer.done},
+                        {"job_written", answer.is_job_written},
+                        {"pieces", pieces}});
+}
+
+}  // namespace qchopper

@@ -1,0 +1,28 @@
+// The answer of setup: tables for people, one JSON document for programs. Lengths in mm, shares of a piece's area
+// without its base.
+
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "app/project/setup_project.h"
+
+namespace qchopper {
+
+// "cut 2", or "side 3" of a piece that has no cap that can carry it.
+std::string base_word(const Setup& setup);
+// "3.1 %"
+std::string share_word(double share);
+// Said of a cell that describes no arm; empty for any other.
+std::string arm_note(const Cell& cell);
+
+// With the keys of the manifest's reach (docs/job-folder.md), the directions in piece coordinates.
+nlohmann::ordered_json reach_json(const SurfaceReach& reach);
+
+std::vector<std::string> lines(const SetupAnswer& answer);
+// The document qchopper-setup-1 (tests/app/cli/setup_test.cpp).
+std::string document(const SetupAnswer& answer);
+
+}  // namespace qchopper
