@@ -209,7 +209,11 @@ std::optional<Decision> OpenProject::redo() {
 
 std::optional<Decision> OpenProject::change_committed(const Decision* changed, std::size_t committed) {
     if (changed == nullptr) return std::nullopt;
-    if (!std::holds_alternative<WeightsChange>(*changed)) remove_outputs(folder_, project_);
+    if (const auto* order = std::get_if<SetupOrder>(changed)) {
+        std::erase_if(project_.jobs, [&](const WrittenJob& job) { return job.piece == order->piece; });
+    } else if (!std::holds_alternative<WeightsChange>(*changed)) {
+        remove_outputs(folder_, project_);
+    }
     commit_first(committed);
     return *changed;  // the list of decisions stays as it is
 }

@@ -18,6 +18,27 @@ TEST(Decisions, AreDescribed) {
     EXPECT_EQ(describe(Reset{}), "reset");
 }
 
+TEST(Decisions, TheLastSetupOfAPieceIsInForceUntilThePieceIsGone) {
+    using Orders = std::vector<SetupOrder>;
+    History h;
+    decide(h, SetupOrder{"B", 2, {}});
+    decide(h, SetupOrder{"A", {}, 3});
+    decide(h, SetupOrder{"B", 1, 4});
+    EXPECT_EQ(describe(*to_undo(h)), "setup of piece B");
+    EXPECT_EQ(committed_setup_orders(h), (Orders{{"A", {}, 3}, {"B", 1, 4}}));
+    h.committed = 2;
+    EXPECT_EQ(committed_setup_orders(h), (Orders{{"A", {}, 3}, {"B", 2, {}}}));
+    h.committed = 3;
+    decide(h, SetupOrder{"A", {}, {}});
+    EXPECT_EQ(committed_setup_orders(h), (Orders{{"B", 1, 4}})) << "the program chooses again";
+    decide(h, cut(1, "B"));
+    EXPECT_EQ(committed_setup_orders(h), Orders{});
+    EXPECT_EQ(committed_cuts(h).size(), 1U);
+    h.committed = 4;
+    decide(h, Reset{});
+    EXPECT_EQ(committed_setup_orders(h), Orders{});
+}
+
 TEST(Decisions, WhatStandsFollowsFromThoseInForce) {
     History h;
     h.weights_at_start = {1, 1, 1, 1};

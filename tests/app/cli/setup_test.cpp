@@ -1,0 +1,107 @@
+// qchopper setup: shows how pieces lie, and keeps what the operator chooses.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/cli/program.h"
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct SetupCommand : ::testing::Test {
+    program::Folder folder;
+    void SetUp() override {
+        fs::copy(program::prepared() / "scan.qch", folder.path / "p.qch", fs::copy_options::recursive);
+    }
+    program::Ended run(program::Arguments arguments) const { return program::run(arguments, {folder.path}); }
+    json document_of(program::Arguments arguments) const {
+        arguments.emplace_back("--json");
+        const program::Ended ended = run(arguments);
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        return json::parse(ended.out, nullptr, false);
+    }
+    json project() const { return json::parse(std::ifstream(folder.path / "p.qch" / "project.json")); }
+};
+
+TEST_F(SetupCommand, ShowsEveryPieceAndAllWaysToLayOne) {
+    const json all = document_of({"setup", "p.qch"});
+    EXPECT_EQ(all["schema"], "qchopper-setup-1");
+    ASSERT_EQ(all["pieces"].size(), project()["pieces"].size());
+    for (const json& piece : all["pieces"]) {
+        const json one = document_of({"setup", "p.qch", "--piece", piece["name"]});
+        ASSERT_EQ(one["pieces"].size(), 1U);
+        EXPECT_EQ(one["pieces"][0], piece) << "alone and among all";
+        EXPECT_GE(piece["setups"].size(), 1U);
+        EXPECT_EQ(piece["setups"][0]["reach"]["method"], "mapped");
+        EXPECT_EQ(piece["setups"][0]["reach"]["directions"][0]["tilt_deg"], 0.0) << "the first one is straight up";
+    }
+    const program::Ended shown = run({"setup", "p.qch"});
+    EXPECT_NE(shown.out.find("Arm not checked"), std::string::npos) << shown.out;
+}
+
+TEST_F(SetupCommand, KeepsTheOperatorsChoiceAndWritesTheJobAgain) {
+    const json before = document_of({"setup", "p.qch"});
+    const auto has_choice = [](const json& piece) { return piece["setups"].size() > 1; };
+    const auto piece = std::find_if(before["pieces"].begin(), before["pieces"].end(), has_choice);
+    ASSERT_NE(piece, before["pieces"].end());
+    const std::string name = (*piece)["name"];
+    const int other = (*piece)["setups"][1]["base_number"];
+    const json jobs = project()["jobs"];
+
+    const json changed =
+        document_of({"setup", "p.qch", "--piece", name, "--base", std::to_string(other), "--directions", "1"});
+    EXPECT_EQ(changed["job_written"], true);
+    const json chosen = changed["pieces"][0]["setups"][0];
+    EXPECT_EQ(chosen["base_number"], other);
+    EXPECT_EQ(chosen["reach"]["directions"].size(), 1U);
+    EXPECT_EQ(changed["pieces"][0]["ordered"]["base"], other);
+    ASSERT_EQ(project()["jobs"].size(), jobs.size());
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        EXPECT_EQ(project()["jobs"][i]["piece"], jobs[i]["piece"]) << "the order of the pieces";
+        EXPECT_EQ(project()["jobs"][i] == jobs[i], jobs[i]["piece"] != name) << "only the job of this piece is new";
+    }
+    EXPECT_EQ(document_of({"setup", "p.qch", "--piece", name}), [&] {
+        json same = changed;
+        same["done"] = "";
+        same["job_written"] = false;
+        return same;
+    }());
+
+    const json free = document_of({"setup", "p.qch", "--piece", name, "--auto"});
+    EXPECT_EQ(free["pieces"][0], *piece);
+    EXPECT_EQ(project()["jobs"], jobs) << "byte for byte the first job";
+}
+
+TEST_F(SetupCommand, UndoTakesTheChoiceBack) {
+    const json before = document_of({"setup", "p.qch"});
+    const std::string name = before["pieces"][0]["name"];
+    ASSERT_EQ(run({"setup", "p.qch", "--piece", name, "--directions", "1"}).code, 0);
+    const program::Ended undone = run({"segment", "p.qch", "--undo"});
+    EXPECT_EQ(undone.code, 0) << undone.err;
+    EXPECT_NE(undone.out.find("Undo setup of piece " + name), std::string::npos) << undone.out;
+    EXPECT_EQ(document_of({"setup", "p.qch"}), before);
+    ASSERT_EQ(run({"segment", "p.qch", "--redo"}).code, 0);
+    EXPECT_EQ(document_of({"setup", "p.qch", "--piece", name})["pieces"][0]["ordered"]["max_directions"], 1);
+}
+
+TEST_F(SetupCommand, WhatDoesNotExistIsRefused) {
+    const std::string before = project().dump();
+    const program::Ended piece = run({"setup", "p.qch", "--piece", "NONE"});
+    EXPECT_EQ(piece.code, 64);
+    EXPECT_NE(piece.err.find("no piece NONE"), std::string::npos) << piece.err;
+    const std::string name = project()["pieces"][0]["name"];
+    const program::Ended base = run({"setup", "p.qch", "--piece", name, "--base", "77"});
+    EXPECT_EQ(base.code, 64);
+    EXPECT_NE(base.err.find("has no base 77"), std::string::npos) << base.err;
+    EXPECT_EQ(run({"setup", "p.qch", "--base", "1"}).code, 64) << "of which piece?";
+    EXPECT_EQ(run({"setup", "p.qch", "--piece", name, "--base", "1", "--auto"}).code, 64);
+    EXPECT_EQ(project().dump(), before);
+}
+
+}  // namespace
+}  // namespace qchopper
