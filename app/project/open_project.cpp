@@ -4,18 +4,23 @@
 #include "app/project/open_project.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "app/project/evaluation_store.h"
 #include "app/project/project_folder.h"
 #include "app/project/project_scan.h"
 #include "app/project/replay.h"
 #include "app/project/shell_word.h"
+#include "app/project/unreachable_of.h"
 #include "base/error.h"
 #include "base/timings.h"
 #include "segment/cut/nudge.h"
+#include "segment/score/tool_directions.h"
 
 namespace qchopper {
 namespace {
+
+constexpr double degrees_per_radian = 180 / std::numbers::pi;
 
 std::optional<Candidate> nudged_off(const Piece& piece, const Plane& plane) {
     const Plane wanted = canonical(plane);
@@ -85,18 +90,27 @@ void OpenProject::check_cell() {
                      "pass --cell FILE, for example cells/foam-1.toml");
 }
 
-FitsCell OpenProject::fits_cell() {
+PieceChecks OpenProject::checks() {
+    PieceChecks checks;
     Setups* setups = this->setups();
-    if (setups == nullptr) return {};
-    return [setups, timings = context_.timings](const Piece& piece) {
+    const Cell* cell = setups == nullptr ? nullptr : &setups->cell();
+    const double tilt =
+        cell != nullptr && cell->machine ? cell->machine->max_tilt * degrees_per_radian : default_tilt_deg;
+    checks.unreachable = [reach = unreachable_of(tilt), timings = context_.timings](const Piece& piece) {
+        const StageTimer stage(timings, "surface out of reach");
+        return reach(piece);
+    };
+    if (setups == nullptr) return checks;
+    checks.fits_cell = [setups, timings = context_.timings](const Piece& piece) {
         const StageTimer stage(timings, "setups chosen");
         return setups->of(piece).envelope.fits();
     };
+    return checks;
 }
 
-OpenProject::Next OpenProject::next(const FitsCell& fits_cell) {
+OpenProject::Next OpenProject::next(const PieceChecks& checks) {
     const StopRules& rules = project_.settings.stop;
-    StopJudge judge(rules, fits_cell, [this](const Piece& p) { return cache().box(p).size(); });
+    StopJudge judge(rules, checks, [this](const Piece& p) { return cache().box(p).size(); });
     const std::vector<Piece>& pieces = segmentation().pieces;
     const NextPiece by_rules = judge.next(segmentation(), {});
     Next next{by_rules.piece, by_rules.is_finished && rules.is_any_set()};
@@ -213,7 +227,7 @@ void OpenProject::set_search(const StopRules& stop, std::size_t beam) {
     save();
 }
 
-SearchEnd OpenProject::search(const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
+SearchEnd OpenProject::search(const PieceChecks& checks, const std::function<void(const Segmentation&)>& on_round,
                               const Context& context, std::optional<double> time_limit_s) {
     remove_outputs(folder_, project_);
     Segmentation working = segmentation();
@@ -225,7 +239,7 @@ SearchEnd OpenProject::search(const FitsCell& fits_cell, const std::function<voi
         on_round(best);
     };
     SearchEnd end =
-        qchopper::search(working, project_.settings, cache(), fits_cell, keep, context, time_limit_s, &progress);
+        qchopper::search(working, project_.settings, cache(), checks, keep, context, time_limit_s, &progress);
     adopt(working, end.is_out_of_time() ? progress.saved() : std::nullopt);
     end_ = end;
     if (end.is_out_of_time()) return end;
