@@ -61,6 +61,9 @@ struct ProjectArguments : RepairChoiceArguments {
     std::optional<std::size_t> max_faces;
     std::optional<std::string> max_obb;  // option_values.h reads it
     bool fits_cell = false;
+    std::optional<double> max_unreachable;  // 0..1
+    bool count_narrow = false;
+    std::optional<int> max_cuts;
     std::optional<std::string> stop;       // any | all
     std::optional<std::string> fragility;  // thinness | thesis
     std::optional<std::string> weights;    // option_values.h reads it

@@ -99,8 +99,8 @@ void check_project(const SegmentArguments& a) {
     if (is_second_cell(a)) {
         refuse(input + " is a project that has a cell already", "leave --cell out, or make a new project of the scan");
     }
-    if ((given_rules(a) || a.stop || a.beam) && !a.goes_on) {
-        refuse("stop rules and --beam are options of the search", "use them with --auto");
+    if ((given_rules(a) || a.stop || a.max_cuts || a.beam) && !a.goes_on) {
+        refuse("stop rules, --max-cuts and --beam are options of the search", "use them with --auto");
     }
 }
 
@@ -123,7 +123,8 @@ void check_arguments(const PrepareArguments& a) {
         if (!a.out) refuse("no project folder is named", "pass -o NAME.qch");
         return;
     }
-    if (!new_project_option(a).empty() || given_rules(a) || a.stop || a.weights || a.beam || is_second_cell(a)) {
+    if (!new_project_option(a).empty() || given_rules(a) || a.stop || a.max_cuts || a.weights || a.beam ||
+        is_second_cell(a)) {
         refuse(a.input.string() + " is a project: its settings were fixed when it was made",
                "leave the options out to go on with it, or prepare the scan again");
     }

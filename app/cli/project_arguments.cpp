@@ -22,6 +22,8 @@ SearchSettings settings_of(const ProjectArguments& a) {
     SearchSettings settings = a.preset ? *preset(*a.preset) : SearchSettings{};
     settings.stop = given_rules(a).value_or(settings.stop);
     settings.stop.combine = combine_of(a).value_or(settings.stop.combine);
+    settings.stop.count_narrow = a.count_narrow;
+    settings.stop.max_cuts = a.max_cuts.value_or(settings.stop.max_cuts);
     if (a.fragility) {
         settings.objectives.fragility_form = *a.fragility == "thesis" ? FragilityForm::thesis : FragilityForm::thinness;
     }
@@ -46,12 +48,14 @@ constexpr std::pair<const char*, bool RepairOptions::*> skippable_steps[] = {
 }  // namespace
 
 std::optional<StopRules> given_rules(const ProjectArguments& a) {
-    if (!a.min_cuts && !a.max_faces && !a.max_obb && !a.fits_cell) return std::nullopt;
+    if (!a.min_cuts && !a.max_faces && !a.max_obb && !a.fits_cell && !a.max_unreachable) return std::nullopt;
     StopRules rules;
     rules.min_cuts = a.min_cuts;
     rules.max_faces = a.max_faces;
     if (a.max_obb) rules.max_obb = lengths_from(*a.max_obb);
     rules.fits_cell = a.fits_cell;
+    rules.max_unreachable = a.max_unreachable;
+    rules.count_narrow = a.count_narrow;
     rules.combine = combine_of(a).value_or(rules.combine);
     return rules;
 }
@@ -87,7 +91,7 @@ ProjectRequest request_of(const SegmentArguments& a) {
     request.redo = a.redo;
     request.reset = a.reset;
     if (a.goes_on) {
-        request.search = SearchRequest{given_rules(a), combine_of(a), {}, a.time_limit_s};
+        request.search = SearchRequest{given_rules(a), combine_of(a), a.max_cuts, {}, a.time_limit_s};
         if (a.beam) request.search->beam = static_cast<std::size_t>(*a.beam);
     }
     request.plan = a.plan;

@@ -12,7 +12,7 @@
 
 namespace qchopper {
 
-// The stop rules that are given, which replace all earlier ones; nothing if none is given.
+// The stop rules that are given, which replace all earlier ones but max_cuts; nothing if none is given.
 std::optional<StopRules> given_rules(const ProjectArguments& arguments);
 
 // Of a new project, without a plan.

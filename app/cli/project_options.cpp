@@ -55,6 +55,13 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
     c->add_option("--max-obb", a.max_obb, "stop rule: every piece fits in a box of X,Y,Z mm, in some orientation")
         ->check(read_by(lengths_from, "not X,Y,Z in mm"));
     c->add_flag("--fits-cell", a.fits_cell, "stop rule: every piece fits the cell (the default if no other is set)");
+    c->add_option("--max-unreachable", a.max_unreachable,
+                  "stop rule: of no piece a larger share of the surface, 0 to 1, is out of reach of the tool (off)")
+        ->check(number_between(0, 1, "a share from 0 to 1"));
+    c->add_flag("--count-narrow", a.count_narrow,
+                "surface too narrow for the smallest tool counts as out of reach (it is only reported)");
+    c->add_option("--max-cuts", a.max_cuts, "end the search at N cuts, whatever the stop rules (500)")
+        ->check(number_between(0, 1e6, "a count of cuts"));
     c->add_option("--stop", a.stop, "stop when any or all of the rules hold (all)")->check(one_of({"any", "all"}));
     c->add_option("--fragility", a.fragility, "form of that objective: thinness or thesis (thinness)")
         ->check(one_of({"thinness", "thesis"}));

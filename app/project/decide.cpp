@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 class RequestHandler {
  public:
     RequestHandler(OpenProject& project, const ProjectRequest& request, const ProjectContext& context)
-        : project_(project), request_(request), fits_cell_(project.fits_cell()), context_(context) {}
+        : project_(project), request_(request), checks_(project.checks()), context_(context) {}
 
     SegmentAnswer answer() {
         if (request_.weights) change_weights();
@@ -84,7 +84,7 @@ class RequestHandler {
 
     std::size_t piece() {
         if (request_.piece) return index_of(*request_.piece);
-        const OpenProject::Next next = project_.next(fits_cell_);
+        const OpenProject::Next next = project_.next(checks_);
         if (!next.piece) {
             throw InputError(InputFault::mesh, "the scan holds nothing but fragments",
                              "check the scan, or make the project again with a smaller --fragment-volume");
@@ -196,12 +196,13 @@ class RequestHandler {
     StopRules rules_of(const SearchRequest& request) const {
         StopRules rules = request.rules.value_or(project_.project().settings.stop);
         rules.combine = request.combine.value_or(rules.combine);
-        if (!rules.is_any_set() && fits_cell_) rules.fits_cell = true;
+        rules.max_cuts = request.max_cuts.value_or(project_.project().settings.stop.max_cuts);
+        if (!rules.is_any_set() && checks_.fits_cell) rules.fits_cell = true;
         if (!rules.is_any_set()) {
             throw InputError(InputFault::use, "no stop rule is set, so the search would never end",
-                             "pass --min-cuts N, --max-faces N or --max-obb X,Y,Z");
+                             "pass --min-cuts N, --max-faces N, --max-obb X,Y,Z or --max-unreachable SHARE");
         }
-        if (rules.fits_cell && !fits_cell_) {
+        if (rules.fits_cell && !checks_.fits_cell) {
             throw InputError(InputFault::use, "the project has no cell, so fits-cell cannot be a stop rule",
                              "name the cell: --cell FILE");
         }
@@ -215,11 +216,15 @@ class RequestHandler {
             context_.saved(kept_cuts(cuts, project_.folder(), is_beam) + "; go on by --auto.");
         };
         report_kept(project_.project().cuts.size());
+        std::size_t told = project_.project().cuts.size();
         const auto on_round = [&](const Segmentation& best) {
             report_kept(best.cuts.size());
-            context_.message((is_beam ? "best so far: " : "") + cut_line(best.cuts.back()));
+            for (const std::string& line : round_lines(best.cuts, told, is_beam)) {
+                context_.message((is_beam ? "best so far: " : "") + line);
+            }
+            told = best.cuts.size();
         };
-        const SearchEnd end = project_.search(fits_cell_, on_round, context_, request.time_limit_s);
+        const SearchEnd end = project_.search(checks_, on_round, context_, request.time_limit_s);
         answer_.warnings = project_.segmentation().warnings;
         answer_.done = "The search ended: " + end.sentence + "; cost " + fixed(end.cost, 4) + ".";
         if (!end.is_finished()) refuse("The stop rules do not hold.");
@@ -228,7 +233,7 @@ class RequestHandler {
 
     OpenProject& project_;
     const ProjectRequest& request_;
-    const FitsCell fits_cell_;
+    const PieceChecks checks_;
     const ProjectContext& context_;
     SegmentAnswer answer_;
     bool rules_hold_ = false;

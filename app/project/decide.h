@@ -21,6 +21,7 @@ namespace qchopper {
 struct SearchRequest {
     std::optional<StopRules> rules;
     std::optional<Stop> combine;
+    std::optional<int> max_cuts;  // those of `rules` do not count
     std::optional<std::size_t> beam;
     std::optional<double> time_limit_s;
 };

@@ -10,9 +10,11 @@
 #include "app/project/project_scan.h"
 #include "app/project/replay.h"
 #include "app/project/shell_word.h"
+#include "app/project/unreachable_of.h"
 #include "base/error.h"
 #include "base/timings.h"
 #include "segment/cut/nudge.h"
+#include "segment/score/tool_directions.h"
 
 namespace qchopper {
 namespace {
@@ -78,6 +80,7 @@ Setups* OpenProject::setups() {
     if (!setups_ && std::filesystem::exists(cell)) setups_.emplace(read_cell(cell));
     if (!setups_) return nullptr;
     setups_->set_orders(committed_setup_orders(project_.history));
+    setups_->set_count_narrow(project_.settings.stop.count_narrow);
     return &*setups_;
 }
 
@@ -87,18 +90,25 @@ void OpenProject::check_cell() {
                      "pass --cell FILE, for example cells/foam-1.toml");
 }
 
-FitsCell OpenProject::fits_cell() {
+PieceChecks OpenProject::checks() {
     Setups* setups = this->setups();
-    if (setups == nullptr) return {};
-    return [setups, timings = context_.timings](const Piece& piece) {
-        const StageTimer stage(timings, "setups chosen");
+    PieceChecks checks;
+    checks.unreachable = unreachable_of(default_tilt_deg);
+    if (setups == nullptr) return checks;
+    checks.unreachable = [setups, timings = context_.timings](const Piece& piece) {
+        const StageTimer stage(timings, "surface out of reach");
+        return setups->unreachable(piece);
+    };
+    checks.fits_cell = [setups, timings = context_.timings](const Piece& piece) {
+        const StageTimer stage(timings, "blocks chosen");
         return setups->fits(piece);
     };
+    return checks;
 }
 
-OpenProject::Next OpenProject::next(const FitsCell& fits_cell) {
+OpenProject::Next OpenProject::next(const PieceChecks& checks) {
     const StopRules& rules = project_.settings.stop;
-    StopJudge judge(rules, fits_cell, [this](const Piece& p) { return cache().box(p).size(); });
+    StopJudge judge(rules, checks, [this](const Piece& p) { return cache().box(p).size(); });
     const std::vector<Piece>& pieces = segmentation().pieces;
     const NextPiece by_rules = judge.next(segmentation(), {});
     Next next{by_rules.piece, by_rules.is_finished && rules.is_any_set()};
@@ -242,7 +252,7 @@ void OpenProject::set_search(const StopRules& stop, std::size_t beam) {
     save();
 }
 
-SearchEnd OpenProject::search(const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
+SearchEnd OpenProject::search(const PieceChecks& checks, const std::function<void(const Segmentation&)>& on_round,
                               const Context& context, std::optional<double> time_limit_s) {
     remove_outputs(folder_, project_);
     Segmentation working = segmentation();
@@ -254,7 +264,7 @@ SearchEnd OpenProject::search(const FitsCell& fits_cell, const std::function<voi
         on_round(best);
     };
     SearchEnd end =
-        qchopper::search(working, project_.settings, cache(), fits_cell, keep, context, time_limit_s, &progress);
+        qchopper::search(working, project_.settings, cache(), checks, keep, context, time_limit_s, &progress);
     adopt(working, end.is_out_of_time() ? progress.saved() : std::nullopt);
     end_ = end;
     if (end.is_out_of_time()) return end;

@@ -59,15 +59,16 @@ class OpenProject {
     Setups* setups();
     // Throws InputError (use) for a project without a cell.
     void check_cell();
-    // For the stop rule of that name; empty without a cell. Valid while this object lives.
-    FitsCell fits_cell();
+    // What the stop rules ask: whether a piece fits the cell (empty without a cell), and what of it is out of reach of
+    // the cell's tools, or of any tool (unreachable_of.h). Valid while this object lives.
+    PieceChecks checks();
 
     // The piece to be cut next: by the rules, or the one with most faces if they hold already or none is set.
     struct Next {
         std::optional<std::size_t> piece;  // an index; nothing: there is no piece
         bool rules_hold = false;           // rules are set, and they hold
     };
-    Next next(const FitsCell& fits_cell);
+    Next next(const PieceChecks& checks);
 
     // In the following, `piece` is an index in segmentation().pieces. All candidates of the piece, best first.
     // Evaluates those that are not evaluated yet; changes nothing but the cache.
@@ -98,7 +99,7 @@ class OpenProject {
 
     // Runs the search to the stop rules, saves the best segmentation of every round, then calls `on_round` with it, and
     // writes the pieces at its end, unless time ran out. Throws Cancelled; the last round stays saved.
-    SearchEnd search(const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
+    SearchEnd search(const PieceChecks& checks, const std::function<void(const Segmentation&)>& on_round,
                      const Context& context, std::optional<double> time_limit_s);
 
     // Writes pieces, jobs and pictures. Of a project whose last search ran out of time too; its stage stays

@@ -72,8 +72,9 @@ void write_pieces(const fs::path& folder, const Segmentation& segmentation, Frag
     remove_but(folder / "pieces", written);
 }
 
-double most_unreachable(const Project&, const Cell& cell) {
+double most_unreachable(const Project& project, const Cell& cell) {
     constexpr double without_a_machine = 0.02;
+    if (project.settings.stop.max_unreachable) return *project.settings.stop.max_unreachable;
     return cell.machine ? cell.machine->max_unreachable : without_a_machine;
 }
 

@@ -20,11 +20,14 @@ PreparedProject finish(OpenProject& project, const PrepareOptions& options, cons
                          "check the scan");
     }
     if (project.project().stage == Stage::cutting) {
+        const bool is_beam = project.project().settings.beam > 1;
+        std::size_t told = project.project().cuts.size();
         const auto on_round = [&](const Segmentation& s) {
             report_kept(s);
-            context.message(cut_line(s.cuts.back()));
+            for (const std::string& line : round_lines(s.cuts, told, is_beam)) context.message(line);
+            told = s.cuts.size();
         };
-        const SearchEnd end = project.search(project.fits_cell(), on_round, context, options.time_limit_s);
+        const SearchEnd end = project.search(project.checks(), on_round, context, options.time_limit_s);
         context.warn(project.segmentation().warnings);
         if (!end.is_finished()) context.warn({early_end(end.sentence)});
     }
@@ -51,7 +54,7 @@ PreparedProject prepare_project(const std::filesystem::path& folder,
     open.project.scan();
     const Project& project = open.project.project();
     context.message(folder.string() + ": goes on after " + std::to_string(project.cuts.size()) + " cuts");
-    if (project.beam) {
+    if (project.beam && project.settings.beam > 1) {
         context.message("The beam of " + std::to_string(project.beam->branches.size()) + " goes on.");
     }
     return finish(open.project, options, context);

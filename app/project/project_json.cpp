@@ -119,8 +119,28 @@ Decision decision_from(const Json& json) {
                      "a decision is neither a cut nor a discarded piece nor a setup nor weights nor a reset");
 }
 
+Json json_of(const RevertedTrial& trial) {
+    return {{"piece", trial.piece},
+            {"cuts", trial.cuts},
+            {"before_mm2", trial.before_mm2},
+            {"after_mm2", trial.after_mm2},
+            {"is_cut_short", trial.is_cut_short}};
+}
+
+std::vector<RevertedTrial> reverted_from(const Json& json) {
+    std::vector<RevertedTrial> reverted;
+    for (const Json& trial : json) {
+        reverted.push_back({trial.at("piece").get<std::string>(), trial.at("cuts").get<int>(),
+                            trial.at("before_mm2").get<double>(), trial.at("after_mm2").get<double>(),
+                            trial.at("is_cut_short").get<bool>()});
+    }
+    return reverted;
+}
+
 Json json_of(const BeamState::Branch& branch) {
-    return {{"last", branch.last}, {"passed_over", branch.passed_over}};
+    Json json{{"last", branch.last}, {"passed_over", branch.passed_over}};
+    for (const RevertedTrial& trial : branch.reverted) json["reverted"].push_back(json_of(trial));
+    return json;
 }
 
 // 0 for the root, else the number of a cut. Throws InputError (config) for a cut that is not there.
@@ -131,7 +151,9 @@ std::size_t place_from(const Json& json, std::size_t cuts) {
 }
 
 BeamState::Branch branch_from(const Json& json, std::size_t cuts) {
-    return {place_from(json.at("last"), cuts), json.at("passed_over").get<std::vector<std::string>>()};
+    BeamState::Branch branch{place_from(json.at("last"), cuts), json.at("passed_over").get<std::vector<std::string>>()};
+    if (json.contains("reverted")) branch.reverted = reverted_from(json.at("reverted"));
+    return branch;
 }
 
 // Whether a search may go on with the beam: after its root nothing but cuts was decided, and they are those of its

@@ -2,6 +2,8 @@
 
 #include "app/project/project_lines.h"
 
+#include <algorithm>
+
 #include "base/text.h"
 
 namespace qchopper {
@@ -22,6 +24,16 @@ std::vector<std::string> discarded_lines(const Project& project) {
 std::string kept_cuts(std::size_t cuts, const std::filesystem::path& folder, bool is_beam) {
     return "The " + std::to_string(cuts) + " cuts " + (is_beam ? "of the best segmentation so far" : "made so far") +
            " are kept in " + folder.string();
+}
+
+std::vector<std::string> round_lines(const std::vector<Cut>& cuts, std::size_t told, bool is_beam) {
+    std::vector<std::string> lines;
+    if (cuts.empty()) return lines;
+    const std::size_t first = is_beam ? cuts.size() - 1 : std::min(told, cuts.size());
+    for (std::size_t i = first; i < cuts.size(); ++i) {
+        lines.push_back(cut_line(cuts[i]));
+    }
+    return lines;
 }
 
 }  // namespace qchopper

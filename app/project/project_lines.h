@@ -18,4 +18,8 @@ std::vector<std::string> discarded_lines(const Project& project);
 // "The 3 cuts made so far are kept in NAME.qch", without a full stop.
 std::string kept_cuts(std::size_t cuts, const std::filesystem::path& folder, bool is_beam = false);
 
+// The lines of the cuts that a round of the search has made, of which `told` were told before: several after cuts on
+// trial. Of a beam, whose cuts may all have changed, the last cut alone.
+std::vector<std::string> round_lines(const std::vector<Cut>& cuts, std::size_t told, bool is_beam);
+
 }  // namespace qchopper

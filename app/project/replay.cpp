@@ -85,7 +85,7 @@ std::optional<std::size_t> piece_named(const Segmentation& segmentation, const s
 BeamProgress beam_progress(const Project& project, const Segmentation& committed,
                            const std::function<const TriangleMesh&()>& scan) {
     BeamProgress progress;
-    if (!project.beam || project.settings.beam <= 1) return progress;
+    if (!project.beam || !project.settings.has_state()) return progress;
     progress.state = *project.beam;
     const bool has_root = progress.state.from == committed.cuts.size();
     progress.root = has_root ? committed : replay(project, scan(), progress.state.from);

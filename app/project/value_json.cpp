@@ -73,6 +73,8 @@ Json json_of(const SearchSettings& s) {
     if (s.stop.max_faces) stop["max_faces"] = *s.stop.max_faces;
     if (s.stop.min_cuts) stop["min_cuts"] = *s.stop.min_cuts;
     if (s.stop.max_obb) stop["max_obb_mm"] = json_of(*s.stop.max_obb);
+    if (s.stop.max_unreachable) stop["max_unreachable"] = *s.stop.max_unreachable;
+    if (s.stop.count_narrow) stop["count_narrow"] = true;
     return {{"weights", json_of(o.weights)},
             {"face_ratio_threshold", o.face_ratio_threshold},
             {"fragility_form", name_of_value(fragility_names, o.fragility_form)},
@@ -105,6 +107,8 @@ SearchSettings settings_from(const Json& json) {
     if (stop.contains("max_faces")) s.stop.max_faces = stop.at("max_faces").get<std::size_t>();
     if (stop.contains("min_cuts")) s.stop.min_cuts = stop.at("min_cuts").get<int>();
     if (stop.contains("max_obb_mm")) s.stop.max_obb = vec3_from(stop.at("max_obb_mm"));
+    if (stop.contains("max_unreachable")) s.stop.max_unreachable = stop.at("max_unreachable").get<double>();
+    if (stop.contains("count_narrow")) s.stop.count_narrow = stop.at("count_narrow").get<bool>();
     return s;
 }
 

@@ -156,9 +156,12 @@ class Choice {
         };
         reach_ = piece_reach(piece_, bases_, options, held);
         const SampledScan& scan = reach_->samples.scan;
-        std::vector<bool> is_cap(piece_.mesh->triangles.size());
-        for (std::size_t t = 0; t < is_cap.size(); ++t) is_cap[t] = cap_of(*piece_.mesh, t) != no_cap;
-        is_narrow_ = too_narrow(*piece_.mesh, is_cap, scan.samples.sample, {smallest_radius(cell_), 0});
+        is_narrow_.assign(scan.samples.sample.size(), false);
+        if (options_.mapped > 0 || options_.count_narrow) {
+            std::vector<bool> is_cap(piece_.mesh->triangles.size());
+            for (std::size_t t = 0; t < is_cap.size(); ++t) is_cap[t] = cap_of(*piece_.mesh, t) != no_cap;
+            is_narrow_ = too_narrow(*piece_.mesh, is_cap, scan.samples.sample, {smallest_radius(cell_), 0});
+        }
         for (std::size_t i = 0; i < bases_.size(); ++i) fill(setups_[i], reach_->bases[i], options.tilt_deg);
     }
 

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "segment/search/trial.h"
 
 namespace qchopper {
 namespace {
@@ -56,27 +57,54 @@ Head head(const std::vector<Bsp>& beam, std::size_t i, std::size_t child) {
     return {i, child, beam[i].of_cuts + r.terms.total, r.normal_index, r.offset_index};
 }
 
+// A cut differs from its evaluation, and may fail, only where the scan intersects itself.
+std::optional<Segmentation> cut_once(const Segmentation& segmentation, const Cut& cut, double fragment_volume_mm3) {
+    Segmentation child = segmentation;
+    if (!apply(child, cut, fragment_volume_mm3)) return std::nullopt;
+    return child;
+}
+
+// The trials of one BSP in one round.
+struct Trials {
+    std::size_t count = 0;
+    std::optional<RevertedTrial> nearest;  // the one that left least out of reach; the first of several
+};
+
+std::optional<Segmentation> better_by_trial(const Segmentation& segmentation, const Cut& first, Trials& trials,
+                                            const SearchSettings& settings, StopJudge& judge, EvaluationCache& cache,
+                                            const Context& context) {
+    std::optional<Trial> trial = try_cuts(segmentation, first, settings, judge, cache, context);
+    if (!trial) return std::nullopt;
+    ++trials.count;
+    if (trial->better) return std::move(trial->better);
+    if (!trials.nearest || trial->reverted.after_mm2 < trials.nearest->after_mm2) trials.nearest = trial->reverted;
+    return std::nullopt;
+}
+
 }  // namespace
 
 double cost(const Segmentation& segmentation, const Objectives& objectives, EvaluationCache& cache) {
     return of_cuts(segmentation, objectives.weights) + of_pieces(segmentation, objectives, cache);
 }
 
-Bsp bsp(Segmentation segmentation, std::vector<std::string> passed_over, const Objectives& objectives,
-        EvaluationCache& cache) {
+Bsp bsp(Segmentation segmentation, std::vector<std::string> passed_over, std::vector<RevertedTrial> reverted,
+        const Objectives& objectives, EvaluationCache& cache) {
     Bsp b;
     b.segmentation = std::move(segmentation);
     b.passed_over = std::move(passed_over);
+    b.reverted = std::move(reverted);
     b.of_cuts = of_cuts(b.segmentation, objectives.weights);
     b.cost = b.of_cuts + of_pieces(b.segmentation, objectives, cache);
     return b;
 }
 
-std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& settings, EvaluationCache& cache) {
+std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& settings, StopJudge& judge,
+                            EvaluationCache& cache, const Context& context) {
     std::vector<Head> heads;
     for (std::size_t i = 0; i < beam.size(); ++i) heads.push_back(head(beam, i, 0));
     std::vector<Bsp> kept;
     std::vector<bool> has_child(beam.size(), false);
+    std::vector<Trials> trials(beam.size());
     while (kept.size() < settings.beam && !heads.empty()) {
         const auto best = std::min_element(heads.begin(), heads.end(), is_before);
         const Head taken = *best;
@@ -86,23 +114,30 @@ std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& setting
             kept.push_back(std::move(parent));
             continue;
         }
-        Segmentation child = parent.segmentation;
-        const Cut cut =
-            cut_by(child, *parent.next.piece, parent.ranked, parent.children[taken.child], settings.runners_up);
-        // A cut differs from its evaluation only where the scan intersects itself.
-        if (apply(child, cut, settings.objectives.fragment_volume_mm3)) {
-            kept.push_back(bsp(std::move(child), parent.passed_over, settings.objectives, cache));
+        const Cut cut = cut_by(parent.segmentation, *parent.next.piece, parent.ranked, parent.children[taken.child],
+                               settings.runners_up);
+        std::optional<Segmentation> child =
+            parent.next.is_trial
+                ? better_by_trial(parent.segmentation, cut, trials[taken.bsp], settings, judge, cache, context)
+                : cut_once(parent.segmentation, cut, settings.objectives.fragment_volume_mm3);
+        if (child) {
+            kept.push_back(bsp(std::move(*child), parent.passed_over, parent.reverted, settings.objectives, cache));
             has_child[taken.bsp] = true;
         }
-        if (taken.child + 1 < parent.children.size()) {
+        if (taken.child + 1 < parent.children.size() && trials[taken.bsp].count < settings.beam) {
             *best = head(beam, taken.bsp, taken.child + 1);
             continue;
         }
         heads.erase(best);
         if (has_child[taken.bsp]) continue;
         parent.passed_over.push_back(parent.segmentation.pieces[*parent.next.piece].name);
+        if (trials[taken.bsp].nearest) parent.reverted.push_back(*trials[taken.bsp].nearest);
         parent.ranked.clear();
         kept.push_back(std::move(parent));
+    }
+    // The cost of a trial's child is known only when its last cut is made.
+    if (std::any_of(trials.begin(), trials.end(), [](const Trials& t) { return t.count > 0; })) {
+        std::stable_sort(kept.begin(), kept.end(), [](const Bsp& a, const Bsp& b) { return a.cost < b.cost; });
     }
     return kept;
 }

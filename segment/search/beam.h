@@ -11,6 +11,7 @@
 #include "segment/search/evaluation_cache.h"
 #include "segment/search/rank.h"
 #include "segment/search/settings.h"
+#include "segment/search/stop_rules.h"
 
 namespace qchopper {
 
@@ -20,7 +21,8 @@ double cost(const Segmentation& segmentation, const Objectives& objectives, Eval
 // One BSP of a beam.
 struct Bsp {
     Segmentation segmentation;
-    std::vector<std::string> passed_over;  // names of pieces that no candidate cuts
+    std::vector<std::string> passed_over;  // names of pieces that no candidate cuts or no trial makes better
+    std::vector<RevertedTrial> reverted;   // of those for which cuts were on trial
     double of_cuts = 0;                    // the part of its cost that later cuts do not change
     NextPiece next;
     std::vector<Ranked> ranked;         // the candidates of its next piece, best first
@@ -31,13 +33,15 @@ struct Bsp {
 };
 
 // A BSP with its costs. `next`, `ranked` and `children` are left empty.
-Bsp bsp(Segmentation segmentation, std::vector<std::string> passed_over, const Objectives& objectives,
-        EvaluationCache& cache);
+Bsp bsp(Segmentation segmentation, std::vector<std::string> passed_over, std::vector<RevertedTrial> reverted,
+        const Objectives& objectives, EvaluationCache& cache);
 
 // The next round: the cheapest of the ended BSPs and of all children, `settings.beam` at most, cheapest first. A BSP
-// none of whose children could be cut stays, with its next piece added to `passed_over`. Precondition: every BSP that
-// is live has children.
-std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& settings, EvaluationCache& cache);
+// none of whose children could be cut stays, with its next piece added to `passed_over`. Where the next piece is on
+// trial, a child is a whole trial that begins with its cut (trial.h); no more than `settings.beam` are made of a BSP.
+// Precondition: every BSP that is live has children. Throws Cancelled.
+std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& settings, StopJudge& judge,
+                            EvaluationCache& cache, const Context& context);
 
 // The segmentation after each of state.cuts, made from that of the root. Throws InputError (config) if a cut does not
 // apply.

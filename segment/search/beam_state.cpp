@@ -7,8 +7,8 @@
 namespace qchopper {
 
 BeamState::Branch branch_for(BeamState& state, const std::vector<Cut>& cuts,
-                             const std::vector<std::string>& passed_over) {
-    BeamState::Branch branch{0, passed_over};
+                             const std::vector<std::string>& passed_over, const std::vector<RevertedTrial>& reverted) {
+    BeamState::Branch branch{0, passed_over, reverted};
     for (std::size_t i = state.from; i < cuts.size(); ++i) {
         const auto known = std::find_if(state.cuts.begin(), state.cuts.end(), [&](const BeamState::Node& node) {
             return node.after == branch.last && node.cut == cuts[i];

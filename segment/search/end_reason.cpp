@@ -14,10 +14,11 @@ struct Sentence {
     const char* before;
     const char* after;
 };
-constexpr std::array<Sentence, 5> sentences{{
+constexpr std::array<Sentence, 6> sentences{{
     {EndReason::rules_hold, "the stop rules hold", ""},
     {EndReason::no_rule, "no stop rule is set", ""},
     {EndReason::no_plane, "no plane parts any of the unfinished pieces", ""},
+    {EndReason::passed_over, "every unfinished piece is passed over: ", ""},
     {EndReason::max_cuts, "the safety stop of ", " cuts is reached"},
     {EndReason::time_limit, "the time limit of ", " s is reached"},
 }};

@@ -10,11 +10,12 @@
 namespace qchopper {
 
 enum class EndReason {
-    rules_hold,  // the stop rules
-    no_rule,     // none is set
-    no_plane,    // none of the pieces that break a rule has a candidate
-    max_cuts,    // the safety stop
-    time_limit,  // the search could go on
+    rules_hold,   // the stop rules
+    no_rule,      // none is set
+    no_plane,     // none of the pieces that break a rule has a candidate
+    passed_over,  // the same with max_unreachable set: no candidate, or none that makes the piece better
+    max_cuts,     // the safety stop
+    time_limit,   // the search could go on
 };
 
 // Whether no cut is missing.
@@ -22,8 +23,8 @@ constexpr bool is_finished(EndReason reason) {
     return reason == EndReason::rules_hold || reason == EndReason::no_rule;
 }
 
-// The sentence of a reason, such as "the safety stop of 500 cuts is reached". `figure`: the number in it, if it has
-// one.
+// The sentence of a reason, such as "the safety stop of 500 cuts is reached". `figure`: the number in it, or the list
+// of pieces, if it has one.
 std::string describe(EndReason reason, const std::string& figure = {});
 
 // The reason of a sentence, with any figure and with text after it. Nothing if no sentence of describe() begins so.

@@ -5,6 +5,11 @@
 // b = 1 is the greedy search, decision by decision. The cost of a child follows from the evaluation of its candidate;
 // only a BSP that is kept is cut. A wider beam does not always end cheaper; one as wide as all candidates finds the
 // cheapest two cuts (tests/segment/search/beam_test.cpp). On beam search over BSPs: Luo et al. 2012.
+//
+// With the rule max_unreachable, a piece that breaks no other rule is cut on trial: up to three cuts of it and of what
+// they leave are kept if they make it better, else reverted, and the piece is passed over (trial.h). A whole trial is
+// one decision of one round: no state within it is reported or saved, and a time limit that passes in it ends the
+// search after it. With b > 1 every branch has trials of its own, one for each of its b best first cuts.
 
 #pragma once
 
@@ -31,9 +36,10 @@ struct SearchEnd {
     bool is_out_of_time() const { return reason == EndReason::time_limit; }
 };
 
-// The progress of a search with b > 1. If `state` has branches the search resumes from it, and `root` is the
-// segmentation that the branches start from. After every round `state` is the present beam. At b = 1 the segmentation
-// is enough.
+// The progress of a search that has a state beside its segmentation (SearchSettings::has_state). If `state` has
+// branches the search resumes from it, and `root` is the segmentation that the branches start from. After every round
+// `state` is the present beam. At b = 1 its one branch has no cuts but those of the root, which is the segmentation
+// itself; it carries the pieces that are passed over. Otherwise the segmentation is enough, and `state` stays as it is.
 struct BeamProgress {
     BeamState state;
     Segmentation root;
@@ -45,10 +51,10 @@ struct BeamProgress {
 // after every round that changes it, so that it can be saved: at b = 1 after every decision. The search ends with the
 // round in which `time_limit_s` passes; at least one round is made unless the limit is 0. Throws Cancelled if the
 // context is cancelled; `segmentation` is then the best of the last round. A search that is interrupted anywhere and
-// resumed from `progress` ends as if it had not been interrupted (tests/app/project/open_project_test.cpp). `fits_cell`
-// may be empty, `progress` null.
+// resumed from `progress` ends as if it had not been interrupted (tests/app/project/open_project_test.cpp). `progress`
+// may be null.
 SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, EvaluationCache& cache,
-                 const FitsCell& fits_cell, const std::function<void(const Segmentation&)>& on_round,
+                 const PieceChecks& checks, const std::function<void(const Segmentation&)>& on_round,
                  const Context& context, std::optional<double> time_limit_s = std::nullopt,
                  BeamProgress* progress = nullptr);
 

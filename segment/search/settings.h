@@ -19,6 +19,9 @@ struct SearchSettings {
     double near = 0.06;          // of two candidates of one parent with one normal and offsets nearer than this share
                                  // of the piece's extent, the worse is culled; of no effect at b = 1
     bool operator==(const SearchSettings&) const = default;
+
+    // Whether a search must save more than its segmentation to go on as if it had not been interrupted.
+    bool has_state() const { return beam > 1 || stop.max_unreachable; }
 };
 
 }  // namespace qchopper

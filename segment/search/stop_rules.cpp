@@ -6,6 +6,7 @@
 #include <array>
 #include <cassert>
 
+#include "base/text.h"
 #include "segment/mesh/oriented_box.h"
 
 namespace qchopper {
@@ -17,6 +18,18 @@ std::array<double, 3> sorted(Vec3 a) {
     return s;
 }
 
+std::string lengths(Vec3 v) {
+    return fixed(v.x, 1) + " x " + fixed(v.y, 1) + " x " + fixed(v.z, 1);
+}
+
+// "7.4 % of its surface is out of reach (2 % may be)", with as many digits as tell the two apart.
+std::string out_of_reach(double share, double limit) {
+    int digits = 3;
+    while (digits < 9 && significant(100 * share, digits) == significant(100 * limit, digits)) ++digits;
+    return significant(100 * share, digits) + " % of its surface is out of reach (" + significant(100 * limit, digits) +
+           " % may be)";
+}
+
 }  // namespace
 
 bool fits_in(Vec3 size, Vec3 limit) {
@@ -25,41 +38,77 @@ bool fits_in(Vec3 size, Vec3 limit) {
     return a[0] <= b[0] && a[1] <= b[1] && a[2] <= b[2];
 }
 
-StopJudge::StopJudge(StopRules rules, FitsCell fits_cell, std::function<Vec3(const Piece&)> box_size) : rules_(rules) {
+StopJudge::StopJudge(StopRules rules, PieceChecks checks, std::function<Vec3(const Piece&)> box_size)
+    : rules_(rules), checks_(std::move(checks)) {
     if (rules.max_faces) {
-        piece_rules_.emplace_back(
-            [most = *rules.max_faces](const Piece& p) { return p.mesh->triangles.size() < most; });
+        piece_rules_.push_back({[most = *rules.max_faces](const Piece& p) { return p.mesh->triangles.size() < most; },
+                                [most = *rules.max_faces](const Piece& p) {
+                                    return with_commas(p.mesh->triangles.size()) + " faces (fewer than " +
+                                           with_commas(most) + " are wanted)";
+                                }});
     }
     if (rules.max_obb) {
-        piece_rules_.emplace_back(
-            [limit = *rules.max_obb, size = std::move(box_size)](const Piece& p) { return fits_in(size(p), limit); });
+        piece_rules_.push_back(
+            {[limit = *rules.max_obb, size = box_size](const Piece& p) { return fits_in(size(p), limit); },
+             [limit = *rules.max_obb, size = box_size](const Piece& p) {
+                 return "a box of " + lengths(size(p)) + " mm (" + lengths(limit) + " mm may be)";
+             }});
     }
-    if (rules.fits_cell && fits_cell) piece_rules_.push_back(std::move(fits_cell));
+    if (rules.fits_cell && checks_.fits_cell) {
+        piece_rules_.push_back({checks_.fits_cell, [](const Piece&) { return "it does not fit the cell"; }});
+    }
 }
 
-const std::vector<bool>& StopJudge::verdict(const Piece& piece) {
+StopJudge::Verdict& StopJudge::verdict(const Piece& piece) {
     Verdict& v = verdicts_[piece.mesh.get()];
     if (v.mesh.expired()) {
-        v.mesh = piece.mesh;
-        v.holds.clear();
-        for (const auto& rule : piece_rules_) v.holds.push_back(rule(piece));
+        v = {piece.mesh, {}, {}};
+        for (const PieceRule& rule : piece_rules_) v.holds.push_back(rule.holds(piece));
     }
     assert(v.holds.size() == piece_rules_.size());
-    return v.holds;
+    return v;
+}
+
+const UnreachableSurface& StopJudge::unreachable(const Piece& piece) {
+    assert(is_reach_limited());
+    std::optional<UnreachableSurface>& surface = verdict(piece).unreachable;
+    if (!surface) surface = checks_.unreachable(piece);
+    return *surface;
+}
+
+std::string StopJudge::why(const Piece& piece) {
+    std::string faults;
+    const auto add = [&](const std::string& fault) { faults += (faults.empty() ? "" : ", ") + fault; };
+    const std::vector<bool>& holds = verdict(piece).holds;
+    for (std::size_t r = 0; r < holds.size(); ++r) {
+        if (!holds[r]) add(piece_rules_[r].fault(piece));
+    }
+    const bool is_asked = is_reach_limited() && (rules_.combine == Stop::any || faults.empty());
+    if (is_asked && is_out_of_reach(piece)) add(out_of_reach(unreachable(piece).share, *rules_.max_unreachable));
+    return faults;
 }
 
 NextPiece StopJudge::next(const Segmentation& segmentation, const std::vector<std::string>& passed_over) {
     const int cuts = static_cast<int>(segmentation.cuts.size());
     const bool has_cuts = rules_.min_cuts && cuts >= *rules_.min_cuts;
-    std::vector<bool> failing(segmentation.pieces.size(), false);  // per piece: it breaks a rule
-    std::vector<bool> broken(piece_rules_.size(), false);          // per rule: some piece breaks it
-    for (std::size_t p = 0; p < segmentation.pieces.size(); ++p) {
-        const std::vector<bool>& holds = verdict(segmentation.pieces[p]);
+    const std::size_t count = segmentation.pieces.size();
+    std::vector<bool> failing(count, false);           // per piece: it breaks a rule
+    std::vector<bool> only_unreachable(count, false);  // per piece: of its rules it breaks max_unreachable only
+    // Per rule: some piece breaks it. The last one is max_unreachable.
+    std::vector<bool> broken(piece_rules_.size() + (is_reach_limited() ? 1 : 0), false);
+    for (std::size_t p = 0; p < count; ++p) {
+        const Piece& piece = segmentation.pieces[p];
+        const std::vector<bool>& holds = verdict(piece).holds;
         for (std::size_t r = 0; r < holds.size(); ++r) {
             if (holds[r]) continue;
             failing[p] = true;
             broken[r] = true;
         }
+        const bool is_asked = is_reach_limited() && (rules_.combine == Stop::any || !failing[p]);
+        if (!is_asked || !is_out_of_reach(piece)) continue;
+        only_unreachable[p] = !failing[p];
+        failing[p] = true;
+        broken.back() = true;
     }
     const bool all_hold = std::count(broken.begin(), broken.end(), true) == 0 && (!rules_.min_cuts || has_cuts);
     const bool one_holds = has_cuts || std::count(broken.begin(), broken.end(), false) > 0;
@@ -78,6 +127,7 @@ NextPiece StopJudge::next(const Segmentation& segmentation, const std::vector<st
     });
     if (next.waiting.empty()) return next;
     next.piece = next.waiting.front();
+    next.is_trial = only_unreachable[*next.piece] && (!rules_.min_cuts || has_cuts);
     if (any_piece) {
         const auto missing = static_cast<std::size_t>(std::max(rules_.min_cuts.value_or(0) - cuts, 1));
         next.waiting.resize(std::min(next.waiting.size(), missing));
@@ -85,10 +135,10 @@ NextPiece StopJudge::next(const Segmentation& segmentation, const std::vector<st
     return next;
 }
 
-NextPiece next_piece(const Segmentation& segmentation, const StopRules& rules, const FitsCell& fits_cell,
+NextPiece next_piece(const Segmentation& segmentation, const StopRules& rules, const PieceChecks& checks,
                      const std::vector<std::string>& passed_over) {
     const auto size = [](const Piece& p) { return oriented_box(p.mesh->points).size(); };
-    return StopJudge(rules, fits_cell, size).next(segmentation, passed_over);
+    return StopJudge(rules, checks, size).next(segmentation, passed_over);
 }
 
 }  // namespace qchopper

@@ -1,5 +1,5 @@
-// Decides whether a segmentation is finished, and which piece is cut next (Nicholson 2016, section 4.3; fits_cell and
-// max_cuts are additions).
+// Decides whether a segmentation is finished, and which piece is cut next (Nicholson 2016, section 4.3; fits_cell,
+// max_unreachable and max_cuts are additions).
 //
 // Tests: tests/segment/search/stop_rules_test.cpp.
 
@@ -20,24 +20,35 @@ namespace qchopper {
 enum class Stop { any, all };  // of the rules that are set
 
 struct StopRules {
-    std::optional<std::size_t> max_faces;  // every piece has fewer
-    std::optional<int> min_cuts;           // at least so many were made
-    std::optional<Vec3> max_obb;           // every piece's oriented box fits in this box (mm), in some axis order
-    bool fits_cell = false;                // every piece passes the check of the cell
+    std::optional<std::size_t> max_faces;   // every piece has fewer
+    std::optional<int> min_cuts;            // at least so many were made
+    std::optional<Vec3> max_obb;            // every piece's oriented box fits in this box (mm), in some axis order
+    bool fits_cell = false;                 // every piece passes the check of the cell
+    std::optional<double> max_unreachable;  // of no piece a larger share of the surface is out of reach; 0..1
+    bool count_narrow = false;              // surface too narrow for the smallest tool counts as out of reach
     Stop combine = Stop::all;
     int max_cuts = 500;  // a safety stop, whatever the rules
     bool operator==(const StopRules&) const = default;
 
-    bool is_any_set() const { return max_faces || min_cuts || max_obb || fits_cell; }
-};
-
-struct UnreachableSurface {
-    double mm2 = 0;
-    double share = 0;
+    bool is_any_set() const { return max_faces || min_cuts || max_obb || fits_cell || max_unreachable; }
 };
 
 // Whether a piece, as it would be carved, passes the check of the cell. Given by a module that sees cells.
 using FitsCell = std::function<bool(const Piece&)>;
+
+// The surface of a piece, its caps left out, that no tool reaches, and its share of the piece's surface. Given by a
+// module that knows the tools. The same piece must give the same values.
+struct UnreachableSurface {
+    double mm2 = 0;
+    double share = 0;
+};
+using UnreachableOf = std::function<UnreachableSurface(const Piece&)>;
+
+// What the rules ask of other modules. The rule of a function that is empty is left out.
+struct PieceChecks {
+    FitsCell fits_cell;
+    UnreachableOf unreachable;
+};
 
 // Whether the segmentation is finished, and if not, the piece that is cut next: of those that do not satisfy the rules
 // the one with the most faces; of several, the earlier in the list.
@@ -45,32 +56,49 @@ struct NextPiece {
     bool is_finished = false;
     std::optional<std::size_t> piece;  // index; nothing and not finished: no piece is left, or max_cuts is reached
     std::vector<std::size_t> waiting;  // indices of those that will be cut as far as is decided now, the next one first
+    bool is_trial = false;  // the next piece breaks max_unreachable and no other rule is left to hold: trial.h
 };
 
 // Checks the rules and keeps the results per mesh: every piece is checked once, in any number of calls.
 class StopJudge {
  public:
-    // `box_size` returns the size of a piece's oriented box; called only if max_obb is set. `fits_cell` may be empty:
-    // the rule of that name is then left out.
-    StopJudge(StopRules rules, FitsCell fits_cell, std::function<Vec3(const Piece&)> box_size);
+    // `box_size` returns the size of a piece's oriented box; called only if max_obb is set.
+    StopJudge(StopRules rules, PieceChecks checks, std::function<Vec3(const Piece&)> box_size);
 
-    // `passed_over`: names of pieces for which no candidate was found.
+    // `passed_over`: names of pieces for which no candidate was found, or no cuts that make them better. Where all
+    // rules must hold, a piece that breaks another rule is not asked what of it is out of reach.
     NextPiece next(const Segmentation& segmentation, const std::vector<std::string>& passed_over);
+
+    // Whether the piece breaks a rule on single pieces.
+    bool breaks_a_rule(const Piece& piece) { return !why(piece).empty(); }
+    // The rules on single pieces that it breaks, with its figures: "5,300 faces (fewer than 5,000 are wanted)". Empty:
+    // none.
+    std::string why(const Piece& piece);
+    // Precondition: max_unreachable is set, and its function is not empty.
+    const UnreachableSurface& unreachable(const Piece& piece);
 
  private:
     struct Verdict {
         std::weak_ptr<const TriangleMesh> mesh;  // expired: the address may be that of another mesh
         std::vector<bool> holds;                 // per rule
+        std::optional<UnreachableSurface> unreachable;
     };
-    const std::vector<bool>& verdict(const Piece& piece);
+    struct PieceRule {
+        std::function<bool(const Piece&)> holds;
+        std::function<std::string(const Piece&)> fault;  // of a piece that breaks it
+    };
+    Verdict& verdict(const Piece& piece);
+    bool is_reach_limited() const { return rules_.max_unreachable && checks_.unreachable; }
+    bool is_out_of_reach(const Piece& piece) { return unreachable(piece).share > *rules_.max_unreachable; }
 
     StopRules rules_;
-    std::vector<std::function<bool(const Piece&)>> piece_rules_;  // the rules on single pieces
+    PieceChecks checks_;
+    std::vector<PieceRule> piece_rules_;  // the rules on single pieces without max_unreachable, which is asked last
     std::map<const TriangleMesh*, Verdict> verdicts_;
 };
 
 // The same for a single call.
-NextPiece next_piece(const Segmentation& segmentation, const StopRules& rules, const FitsCell& fits_cell,
+NextPiece next_piece(const Segmentation& segmentation, const StopRules& rules, const PieceChecks& checks,
                      const std::vector<std::string>& passed_over);
 
 // Whether a box of one size fits in a box of another, in some order of its axes.

@@ -24,6 +24,7 @@ Project some_project() {
     project.settings.stop.min_cuts = 3;
     project.settings.stop.max_faces = 200;
     project.settings.stop.max_obb = Vec3{1, 2, 3};
+    project.settings.stop.max_unreachable = 0.02;
     project.history.weights_at_start = project.settings.objectives.weights;
     Cut cut;
     cut.number = 1;
@@ -39,6 +40,7 @@ Project some_project() {
     project.pieces = {{"B", 1, 8, 600, {0, 0, 1}}, {"C", 1, 8, 399, {0, 0, -1}}};
     project.fragment_list = {{"", 1, 4, 1, {0, 0, 0}}};
     project.warnings = {"scaled"};
+    project.beam = BeamState{1, {}, {{0, {"B"}, {{"B", 3, 812, 790.5, false}}}}, {}};
     return project;
 }
 

@@ -57,6 +57,11 @@ TEST_F(ProjectFolder, WhatIsSavedIsLoadedToTheLastBit) {
     decided.settings.near = 1.0 / 3;
     save_project(folder, decided);
     EXPECT_EQ(load_project(folder), decided);
+    EXPECT_EQ(to_json(decided).find("max_unreachable"), std::string::npos) << "no key of a rule that is not set";
+    decided.settings.stop.max_unreachable = 1.0 / 3;
+    decided.beam = BeamState{decided.cuts.size(), {}, {{0, {"A", "C"}, {{"C", 3, 81200.1, 79000.5, true}}}}, {}};
+    save_project(folder, decided);
+    EXPECT_EQ(load_project(folder), decided);
 }
 
 TEST_F(ProjectFolder, ReplayGivesTheSamePiecesBitForBit) {

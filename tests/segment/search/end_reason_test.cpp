@@ -6,8 +6,8 @@ namespace qchopper {
 namespace {
 
 TEST(EndReason, IsFoundAgainInItsSentence) {
-    for (const EndReason reason :
-         {EndReason::rules_hold, EndReason::no_rule, EndReason::no_plane, EndReason::max_cuts, EndReason::time_limit}) {
+    for (const EndReason reason : {EndReason::rules_hold, EndReason::no_rule, EndReason::no_plane,
+                                   EndReason::passed_over, EndReason::max_cuts, EndReason::time_limit}) {
         EXPECT_EQ(end_reason_of(describe(reason, "12")), reason) << describe(reason, "12");
         EXPECT_EQ(end_reason_of(describe(reason) + "; " + describe(EndReason::time_limit, "3")), reason);
     }

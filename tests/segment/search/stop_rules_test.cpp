@@ -29,7 +29,7 @@ TEST(StopRules, EachRuleNamesThePieceThatBreaksIt) {
     EXPECT_EQ(next_piece(s, rules, {}, {}).piece, 1U);
     rules = {};
     rules.fits_cell = true;
-    EXPECT_EQ(next_piece(s, rules, [](const Piece& p) { return p.name == "B"; }, {}).piece, 0U);
+    EXPECT_EQ(next_piece(s, rules, {[](const Piece& p) { return p.name == "B"; }, {}}, {}).piece, 0U);
     rules = {};
     rules.min_cuts = 1;
     EXPECT_EQ(next_piece(s, rules, {}, {}).piece, 1U);
@@ -73,16 +73,16 @@ TEST(StopRules, AJudgeChecksEveryPieceOnce) {
     rules.fits_cell = true;
     int boxes = 0;
     int checks = 0;
-    StopJudge judge(
-        rules,
-        [&](const Piece&) {
-            ++checks;
-            return true;
-        },
-        [&](const Piece& p) {
-            ++boxes;
-            return oriented_box(p.mesh->points).size();
-        });
+    StopJudge judge(rules,
+                    {[&](const Piece&) {
+                         ++checks;
+                         return true;
+                     },
+                     {}},
+                    [&](const Piece& p) {
+                        ++boxes;
+                        return oriented_box(p.mesh->points).size();
+                    });
     for (int again = 0; again < 3; ++again) EXPECT_EQ(judge.next(s, {}).piece, 1U);
     EXPECT_EQ(boxes, 2);
     EXPECT_EQ(checks, 2);
@@ -92,6 +92,36 @@ TEST(StopRules, AJudgeChecksEveryPieceOnce) {
     ASSERT_TRUE(apply(s, cut, 0));
     EXPECT_TRUE(judge.next(s, {}).is_finished);
     EXPECT_EQ(boxes, 4) << "only the new pieces are checked";
+}
+
+TEST(StopRules, WhatIsOutOfReachIsAskedOncePerPieceAndOnlyWhereItDecides) {
+    const Segmentation s = two_boxes();  // A: 48 faces, B: 192 faces
+    StopRules rules;
+    rules.max_faces = 100;
+    rules.max_unreachable = 0.02;
+    std::string asked;
+    const PieceChecks checks{{}, [&](const Piece& p) {
+                                 asked += p.name;
+                                 return UnreachableSurface{5, p.name == "A" ? 0.020001 : 0.02};
+                             }};
+    StopJudge judge(rules, checks, [](const Piece&) { return Vec3{}; });
+    EXPECT_EQ(judge.next(s, {}).piece, 1U);
+    EXPECT_FALSE(judge.next(s, {}).is_trial) << "B breaks another rule";
+    EXPECT_EQ(asked, "A");
+    EXPECT_EQ(judge.next(s, {"B"}).piece, 0U);
+    EXPECT_TRUE(judge.next(s, {"B"}).is_trial);
+    EXPECT_EQ(judge.why(s.pieces[0]), "2.0001 % of its surface is out of reach (2 % may be)");
+    EXPECT_EQ(judge.why(s.pieces[1]), "192 faces (fewer than 100 are wanted)");
+    rules.combine = Stop::any;
+    asked.clear();
+    const NextPiece next = next_piece(s, rules, checks, {});
+    EXPECT_EQ(asked, "AB");
+    EXPECT_FALSE(next.is_finished);
+    rules.max_unreachable = 0.03;
+    EXPECT_TRUE(next_piece(s, rules, checks, {}).is_finished) << "no piece breaks that rule";
+    rules.max_faces.reset();
+    rules.max_unreachable = 0.02;
+    EXPECT_EQ(next_piece(s, rules, checks, {}).piece, 0U);
 }
 
 TEST(StopRules, ThosePiecesWaitThatWillBeCutTheNextOneFirst) {

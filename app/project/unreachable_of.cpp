@@ -1,0 +1,20 @@
+// One call of piece_reach() per piece; its cost is that of casting the rays of 4,000 samples.
+
+#include "app/project/unreachable_of.h"
+
+#include "segment/score/piece_reach.h"
+
+namespace qchopper {
+
+UnreachableOf unreachable_of(double tilt_deg) {
+    PieceReachOptions options;
+    options.tilt_deg = tilt_deg;
+    return [options](const Piece& piece) {
+        const std::vector<PieceBase> bases = bases_of(piece);
+        const PieceReach reach = piece_reach(piece, bases, options);
+        const BaseReach& best = reach.best();
+        return UnreachableSurface{best.unreachable_mm2, best.share()};
+    };
+}
+
+}  // namespace qchopper

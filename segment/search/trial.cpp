@@ -1,0 +1,136 @@
+// Each cut costs the evaluation of one piece, and what the judge asks of the pieces that it makes.
+
+#include "segment/search/trial.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "base/text.h"
+#include "segment/mesh/triangle_mesh.h"
+#include "segment/search/rank.h"
+
+namespace qchopper {
+namespace {
+
+constexpr double least_share_of_piece = 0.1;   // of its unreachable area
+constexpr double least_share_of_scan = 0.002;  // of the scan's area
+constexpr double mm2_per_cm2 = 100;
+
+double area_without_caps(const TriangleMesh& mesh) {
+    double area = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (cap_of(mesh, t) == no_cap) area += norm(area_vector(mesh, t));
+    }
+    return area;
+}
+
+double scan_area(const Segmentation& segmentation) {
+    double area = 0;
+    for (const Piece& piece : segmentation.pieces) area += area_without_caps(*piece.mesh);
+    for (const Fragment& fragment : segmentation.fragments) area += area_without_caps(*fragment.mesh);
+    for (const Discarded& discarded : segmentation.discarded) area += area_without_caps(*discarded.piece.mesh);
+    return area;
+}
+
+// The segmentation during a trial, and the pieces that the trial made.
+class Attempt {
+ public:
+    Attempt(Segmentation segmentation, const SearchSettings& settings, StopJudge& judge, EvaluationCache& cache,
+            const Context& context)
+        : segmentation_(std::move(segmentation)),
+          settings_(settings),
+          judge_(judge),
+          cache_(cache),
+          context_(context) {}
+
+    Segmentation& segmentation() { return segmentation_; }
+    int cuts() const { return cuts_; }
+
+    bool make(const Cut& cut) {
+        if (!apply(segmentation_, cut, settings_.objectives.fragment_volume_mm3)) return false;
+        ++cuts_;
+        std::erase(family_, cut.piece);
+        const std::vector<std::string>& made = segmentation_.cuts.back().pieces;
+        family_.insert(family_.end(), made.begin(), made.end());
+        return true;
+    }
+
+    double unreachable_mm2() {
+        double sum = 0;
+        for (const std::size_t p : family()) sum += judge_.unreachable(segmentation_.pieces[p]).mm2;
+        return sum;
+    }
+
+    bool make_next() {
+        std::vector<std::size_t> members = family();
+        std::erase_if(members, [&](std::size_t p) { return !judge_.breaks_a_rule(segmentation_.pieces[p]); });
+        std::stable_sort(members.begin(), members.end(), [&](std::size_t a, std::size_t b) {
+            return judge_.unreachable(segmentation_.pieces[a]).mm2 > judge_.unreachable(segmentation_.pieces[b]).mm2;
+        });
+        return std::any_of(members.begin(), members.end(), [&](std::size_t p) { return make_best(p); });
+    }
+
+ private:
+    // Indices, in the order of the pieces.
+    std::vector<std::size_t> family() const {
+        std::vector<std::size_t> members;
+        for (std::size_t p = 0; p < segmentation_.pieces.size(); ++p) {
+            const std::string& name = segmentation_.pieces[p].name;
+            if (std::find(family_.begin(), family_.end(), name) != family_.end()) members.push_back(p);
+        }
+        return members;
+    }
+
+    bool make_best(std::size_t piece) {
+        const std::vector<Ranked> ranked = rank(segmentation_, piece, settings_, cache_, context_);
+        for (std::size_t k = 0; k < ranked.size(); ++k) {
+            if (make(cut_by(segmentation_, piece, ranked, k, settings_.runners_up))) return true;
+        }
+        return false;
+    }
+
+    Segmentation segmentation_;
+    const SearchSettings& settings_;
+    StopJudge& judge_;
+    EvaluationCache& cache_;
+    const Context& context_;
+    std::vector<std::string> family_;
+    int cuts_ = 0;
+};
+
+}  // namespace
+
+double least_fall_mm2(const Segmentation& segmentation, double before_mm2) {
+    return std::max(least_share_of_piece * before_mm2, least_share_of_scan * scan_area(segmentation));
+}
+
+std::optional<Trial> try_cuts(const Segmentation& segmentation, const Cut& first, const SearchSettings& settings,
+                              StopJudge& judge, EvaluationCache& cache, const Context& context) {
+    Attempt attempt(segmentation, settings, judge, cache, context);
+    if (!attempt.make(first)) return std::nullopt;
+    const auto piece = std::find_if(segmentation.pieces.begin(), segmentation.pieces.end(),
+                                    [&](const Piece& p) { return p.name == first.piece; });
+    const double before = judge.unreachable(*piece).mm2;
+    const double least = least_fall_mm2(segmentation, before);
+    while (true) {
+        const double after = attempt.unreachable_mm2();
+        if (before - after >= least) return Trial{std::move(attempt.segmentation()), {}};
+        const bool is_cut_short = attempt.cuts() < trial_cuts &&
+                                  static_cast<int>(attempt.segmentation().cuts.size()) >= settings.stop.max_cuts;
+        if (attempt.cuts() == trial_cuts || is_cut_short || !attempt.make_next()) {
+            return Trial{std::nullopt, {first.piece, attempt.cuts(), before, after, is_cut_short}};
+        }
+    }
+}
+
+std::string describe(const RevertedTrial& trial) {
+    constexpr std::array<const char*, trial_cuts> counts{"one cut", "two cuts", "three cuts"};
+    if (trial.cuts < 1 || trial.cuts > trial_cuts) return "too little of the scan for a cut to count";
+    const int decimals = trial.before_mm2 >= 10 * mm2_per_cm2 ? 1 : 3;
+    return std::string(counts[static_cast<std::size_t>(trial.cuts) - 1]) + " changed that from " +
+           fixed(trial.before_mm2 / mm2_per_cm2, decimals) + " to " + fixed(trial.after_mm2 / mm2_per_cm2, decimals) +
+           " cm2";
+}
+
+}  // namespace qchopper

@@ -1,0 +1,284 @@
+#include "segment/search/trial.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <set>
+
+#include "segment/mesh/measure.h"
+#include "segment/search/search.h"
+#include "tests/shapes.h"
+
+namespace qchopper {
+namespace {
+
+SearchSettings settings_of(std::size_t beam = 1) {
+    SearchSettings settings;
+    settings.candidates.offsets_per_normal = 3;
+    settings.stop.max_unreachable = 0.02;
+    settings.stop.max_cuts = 20;
+    settings.beam = beam;
+    return settings;
+}
+
+struct Found {
+    Segmentation segmentation;
+    SearchEnd end;
+    std::vector<std::size_t> reported;  // cuts after every round
+    std::size_t evaluated = 0;
+};
+
+Found searched(const TriangleMesh& mesh, const SearchSettings& settings, const PieceChecks& checks) {
+    Found found{uncut(mesh, 0), {}, {}, 0};
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    const auto on_round = [&](const Segmentation& s) { found.reported.push_back(s.cuts.size()); };
+    found.end = search(found.segmentation, settings, cache, checks, on_round, {});
+    found.evaluated = cache.evaluated_count();
+    return found;
+}
+
+constexpr UnreachableSurface none{0, 0};
+constexpr UnreachableSurface too_much(double mm2) {
+    return {mm2, 0.074};
+}
+
+// What is out of reach by the number of cuts that bound a piece; by more cuts nothing.
+UnreachableOf by_cuts(std::vector<UnreachableSurface> values) {
+    return [values = std::move(values)](const Piece& p) {
+        return p.half_spaces.size() < values.size() ? values[p.half_spaces.size()] : none;
+    };
+}
+
+// Every cut leaves as much out of reach as there was.
+UnreachableOf halved(double mm2) {
+    return [mm2](const Piece& p) { return too_much(mm2 / static_cast<double>(1 << p.half_spaces.size())); };
+}
+
+// Its area is 2,000,000 mm2, less what its few triangles lose: 0.2 % are about 4,000 mm2.
+const TriangleMesh& ball() {
+    static const TriangleMesh mesh = shapes::ball({0, 0, 0}, 400, 8);
+    return mesh;
+}
+
+// A has more faces and is tried first.
+const TriangleMesh& two_balls() {
+    static const TriangleMesh mesh =
+        shapes::joined({shapes::ball({0, 0, 0}, 400, 10), shapes::ball({2000, 0, 0}, 400, 8)});
+    return mesh;
+}
+
+bool is_of_a(const Piece& piece) {
+    return bounds(*piece.mesh).centre().x < 1000;
+}
+
+// A cannot be made better; B is, by one cut.
+UnreachableSurface only_b_gains(const Piece& piece) {
+    return is_of_a(piece) ? halved(100'000)(piece) : by_cuts({too_much(100'000)})(piece);
+}
+
+TEST(Trial, EndsWithTheFirstCutThatGainsEnough) {
+    for (const std::size_t beam : {1U, 2U}) {
+        const Found one = searched(ball(), settings_of(beam), {{}, by_cuts({too_much(100'000)})});
+        EXPECT_EQ(one.end.reason, EndReason::rules_hold) << one.end.sentence;
+        EXPECT_EQ(one.reported, (std::vector<std::size_t>{1}));
+        // After two cuts 48,000 + 0 + 0; the piece that is left has a trial of its own.
+        const Found two = searched(ball(), settings_of(beam), {{}, by_cuts({too_much(100'000), too_much(48'000)})});
+        EXPECT_EQ(two.end.reason, EndReason::rules_hold) << two.end.sentence;
+        EXPECT_EQ(two.reported, (std::vector<std::size_t>{2, 3}));
+        // 100,000; 50,000 + 2 x 22,000; 4 x 22,000, for the largest one is cut next.
+        const Found three =
+            searched(ball(), settings_of(beam), {{}, by_cuts({too_much(100'000), too_much(50'000), too_much(22'000)})});
+        EXPECT_EQ(three.end.reason, EndReason::rules_hold) << three.end.sentence;
+        EXPECT_EQ(three.reported, (std::vector<std::size_t>{3, 4, 5, 6, 7}));
+    }
+}
+
+TEST(Trial, NeedsATenthOfThePieceAndTwoThousandthsOfTheScan) {
+    const double scan = area_mm2(ball());
+    const auto is_better = [&](double before, double after) {
+        const UnreachableOf reach =
+            by_cuts({too_much(before), too_much(after / 2), too_much(after / 4), too_much(after / 8)});
+        return !searched(ball(), settings_of(), {{}, reach}).reported.empty();
+    };
+    EXPECT_TRUE(is_better(100'000, 89'999));
+    EXPECT_FALSE(is_better(100'000, 90'001));
+    EXPECT_TRUE(is_better(10'000, 9'999 - 0.002 * scan));
+    EXPECT_FALSE(is_better(10'000, 10'001 - 0.002 * scan)) << "a third of the piece is too little of this scan";
+}
+
+TEST(Trial, ThatGainsNothingIsRevertedAndThePieceIsPassedOver) {
+    for (const std::size_t beam : {1U, 2U}) {
+        const Segmentation before = uncut(ball(), 0);
+        const Found found = searched(ball(), settings_of(beam), {{}, halved(100'000)});
+        EXPECT_EQ(found.end.reason, EndReason::passed_over);
+        EXPECT_FALSE(found.end.is_finished());
+        EXPECT_TRUE(found.reported.empty());
+        EXPECT_EQ(found.segmentation.names_given, before.names_given);
+        ASSERT_EQ(found.segmentation.pieces.size(), 1U);
+        EXPECT_EQ(*found.segmentation.pieces[0].mesh, *before.pieces[0].mesh);
+        EXPECT_EQ(found.end.sentence,
+                  "every unfinished piece is passed over: piece A: 7.4 % of its surface is out of reach (2 % may be), "
+                  "three cuts changed that from 1000.0 to 1000.0 cm2");
+        EXPECT_EQ(end_reason_of(found.end.sentence), EndReason::passed_over);
+    }
+}
+
+TEST(Trial, ThatFailsLeavesTheOtherPiecesToBeCut) {
+    for (const std::size_t beam : {1U, 2U}) {
+        const Found found = searched(two_balls(), settings_of(beam), {{}, only_b_gains});
+        EXPECT_EQ(found.end.reason, EndReason::passed_over);
+        ASSERT_EQ(found.segmentation.cuts.size(), 1U);
+        EXPECT_EQ(found.segmentation.cuts[0].piece, "B");
+        EXPECT_EQ(found.segmentation.cuts[0].pieces, (std::vector<std::string>{"C", "D"})) << "no name is lost";
+        EXPECT_NE(found.end.sentence.find("piece A"), std::string::npos);
+        EXPECT_EQ(found.end.sentence.find("piece C"), std::string::npos) << found.end.sentence;
+        EXPECT_EQ(found.reported, (std::vector<std::size_t>{1})) << "nothing within a trial is reported";
+    }
+}
+
+TEST(Trial, WhereEveryPieceIsPassedOverEachIsNamed) {
+    const Found found = searched(two_balls(), settings_of(),
+                                 {{}, [](const Piece& p) { return is_of_a(p) ? halved(100'000)(p) : too_much(100); }});
+    EXPECT_EQ(found.end.reason, EndReason::passed_over);
+    EXPECT_NE(found.end.sentence.find("piece A: 7.4 % of its surface is out of reach (2 % may be), three cuts"),
+              std::string::npos);
+    EXPECT_NE(found.end.sentence.find("piece B: 7.4 % of its surface is out of reach (2 % may be), too little of the "
+                                      "scan for a cut to count"),
+              std::string::npos)
+        << found.end.sentence;
+    EXPECT_TRUE(found.segmentation.cuts.empty());
+}
+
+TEST(Trial, IsNotBegunWhereNoCutCanGainEnough) {
+    const Found found = searched(ball(), settings_of(), {{}, halved(3000)});
+    EXPECT_EQ(found.end.reason, EndReason::passed_over);
+    EXPECT_EQ(found.evaluated, 0U);
+}
+
+TEST(Trial, OfAPieceThatNoPlanePartsSaysSo) {
+    for (const std::size_t beam : {1U, 2U}) {
+        SearchSettings settings = settings_of(beam);
+        settings.candidates.offsets_per_normal = 0;
+        const Found found = searched(ball(), settings, {{}, halved(100'000)});
+        EXPECT_EQ(found.end.reason, EndReason::passed_over);
+        EXPECT_TRUE(found.end.sentence.ends_with("(2 % may be), no plane parts it")) << found.end.sentence;
+    }
+}
+
+TEST(Trial, NeverExceedsTheSafetyStop) {
+    const PieceChecks checks{{}, by_cuts({too_much(100'000), too_much(48'000)})};
+    for (const std::size_t beam : {1U, 2U}) {
+        SearchSettings settings = settings_of(beam);
+        settings.stop.max_cuts = 1;  // the trial needs two
+        const Found one = searched(ball(), settings, checks);
+        EXPECT_EQ(one.end.reason, EndReason::max_cuts);
+        EXPECT_TRUE(one.segmentation.cuts.empty());
+        EXPECT_EQ(one.end.sentence,
+                  "the safety stop of 1 cuts is reached; piece A: 7.4 % of its surface is out of reach (2 % may be), "
+                  "one cut changed that from 1000.0 to 960.0 cm2");
+        settings.stop.max_cuts = 2;
+        const Found two = searched(ball(), settings, checks);
+        EXPECT_EQ(two.end.reason, EndReason::max_cuts);
+        EXPECT_EQ(two.segmentation.cuts.size(), 2U);
+        EXPECT_EQ(two.end.sentence, "the safety stop of 2 cuts is reached");
+    }
+}
+
+TEST(Trial, IsOnlyOfPiecesThatBreakNoOtherRule) {
+    SearchSettings settings = settings_of();
+    settings.stop.max_faces = ball().triangles.size();  // broken by the scan alone
+    const Found found = searched(ball(), settings, {{}, halved(100'000)});
+    EXPECT_EQ(found.reported, (std::vector<std::size_t>{1})) << "this cut is not judged";
+    EXPECT_EQ(found.end.reason, EndReason::passed_over);
+    settings.stop.combine = Stop::any;
+    const Found any = searched(ball(), settings, {{}, halved(100'000)});
+    EXPECT_EQ(any.end.reason, EndReason::rules_hold);
+    EXPECT_EQ(any.reported, (std::vector<std::size_t>{1}));
+    const Found reached = searched(ball(), settings, {{}, by_cuts({})});
+    EXPECT_EQ(reached.end.reason, EndReason::rules_hold);
+    EXPECT_TRUE(reached.reported.empty()) << "one rule holds at once";
+}
+
+TEST(Trial, WaitsUntilAsManyCutsAreMadeAsAreAskedFor) {
+    SearchSettings settings = settings_of();
+    settings.stop.min_cuts = 2;
+    const Found found = searched(ball(), settings, {{}, halved(100'000)});
+    EXPECT_EQ(found.segmentation.cuts.size(), 2U);
+    EXPECT_EQ(found.end.reason, EndReason::passed_over);
+}
+
+TEST(Trial, OfAWiderBeamBeginsWithOtherCutsToo) {
+    const SearchSettings greedy = settings_of();
+    EvaluationCache cache(greedy.objectives, greedy.candidates);
+    const Segmentation start = uncut(ball(), 0);
+    const Plane best = rank(start, 0, greedy, cache, {}).front().plane;
+    const PieceChecks checks{{}, [best](const Piece& p) {
+                                 const bool is_bad = p.half_spaces.empty() || p.half_spaces[0].plane == best;
+                                 return is_bad ? halved(100'000)(p) : none;
+                             }};
+    EXPECT_EQ(searched(ball(), greedy, checks).end.reason, EndReason::passed_over);
+    const Found wide = searched(ball(), settings_of(2), checks);
+    EXPECT_EQ(wide.end.reason, EndReason::rules_hold);
+    ASSERT_EQ(wide.segmentation.cuts.size(), 1U);
+    EXPECT_NE(wide.segmentation.cuts[0].chosen.plane, best);
+}
+
+TEST(Trial, ThatIsCancelledLeavesWhatWasBeforeIt) {
+    for (const std::size_t beam : {1U, 2U}) {
+        const SearchSettings settings = settings_of(beam);
+        EvaluationCache cache(settings.objectives, settings.candidates);
+        Segmentation segmentation = uncut(ball(), 0);
+        std::atomic<bool> stop{false};
+        Context context;
+        context.cancelled = &stop;
+        const UnreachableOf reach = [&](const Piece& p) {
+            stop = !p.half_spaces.empty();
+            return halved(100'000)(p);
+        };
+        EXPECT_THROW(search(
+                         segmentation, settings, cache, {{}, reach}, [](const Segmentation&) {}, context),
+                     Cancelled);
+        EXPECT_TRUE(segmentation.cuts.empty());
+        EXPECT_EQ(segmentation.pieces.size(), 1U);
+    }
+}
+
+// A trial is one decision: a time limit that passes in it ends the search after it. What was passed over stays so, and
+// is not tried again.
+TEST(Trial, OfASearchThatGoesOnIsNotMadeAgain) {
+    for (const std::size_t beam : {1U, 2U}) {
+        const SearchSettings settings = settings_of(beam);
+        const Found whole = searched(two_balls(), settings, {{}, only_b_gains});
+        Segmentation segmentation = uncut(two_balls(), 0);
+        BeamProgress progress;
+        progress.root = segmentation;
+        SearchEnd end;
+        std::vector<std::size_t> trials_of_a;
+        do {
+            EvaluationCache cache(settings.objectives, settings.candidates);
+            std::set<const TriangleMesh*> asked;
+            const UnreachableOf reach = [&](const Piece& p) {
+                if (is_of_a(p) && !p.half_spaces.empty()) asked.insert(p.mesh.get());
+                return only_b_gains(p);
+            };
+            end = search(
+                segmentation, settings, cache, {{}, reach}, [](const Segmentation&) {}, {}, 1e-9, &progress);
+            if (beam == 1) progress.root = segmentation;
+            trials_of_a.push_back(asked.size());
+        } while (end.is_out_of_time());
+        EXPECT_EQ(end.sentence, whole.end.sentence);
+        EXPECT_EQ(segmentation.cuts, whole.segmentation.cuts);
+        ASSERT_GE(trials_of_a.size(), 2U);
+        EXPECT_GE(trials_of_a.front(), 6U);
+        for (std::size_t i = 1; i < trials_of_a.size(); ++i) EXPECT_EQ(trials_of_a[i], 0U) << i;
+    }
+}
+
+TEST(Trial, WithoutAFunctionTheRuleIsLeftOut) {
+    const Found found = searched(ball(), settings_of(), {});
+    EXPECT_EQ(found.end.reason, EndReason::rules_hold);
+    EXPECT_TRUE(found.reported.empty());
+}
+
+}  // namespace
+}  // namespace qchopper
