@@ -167,6 +167,39 @@ TriangleTree::Nearest TriangleTree::nearest(const TriangleMesh& mesh, Vec3 p, do
     return best;
 }
 
+bool TriangleTree::is_any_nearer(const TriangleMesh& mesh, Vec3 p, double distance,
+                                 const std::vector<bool>& is_left_out) const {
+    const double limit = distance * distance;
+    const Vec3 at = p - centre;
+    std::array<std::size_t, 64> stack;
+    std::size_t height = 0;
+    if (leaves > 0) stack[height++] = 1;
+    while (height > 0) {
+        const std::size_t node = stack[--height];
+        if (node >= leaves) {
+            const std::size_t end = std::min(order.size(), (node - leaves + 1) * per_leaf);
+            for (std::size_t place = (node - leaves) * per_leaf; place < end; ++place) {
+                if (squared_distance(of_triangle[place], at) >= limit) continue;  // spares a look at its corners
+                if (!is_left_out.empty() && is_left_out[order[place]]) continue;
+                const Vec3 away = closest_on_triangle(p, corners_of(mesh, order[place])) - p;
+                if (dot(away, away) < limit) return true;
+            }
+            continue;
+        }
+        std::size_t near = 2 * node;
+        std::size_t far = 2 * node + 1;
+        double to_near = squared_distance(of_node[near], at);
+        double to_far = squared_distance(of_node[far], at);
+        if (to_far < to_near) {
+            std::swap(near, far);
+            std::swap(to_near, to_far);
+        }
+        if (to_far < limit) stack[height++] = far;
+        if (to_near < limit) stack[height++] = near;
+    }
+    return false;
+}
+
 Vec3 closest_on_triangle(Vec3 p, const std::array<Vec3, 3>& triangle) {
     const auto& [a, b, c] = triangle;
     const Vec3 ab = b - a;
