@@ -14,10 +14,12 @@
 #include "bench/clock.h"
 #include "bench/figures.h"
 #include "bench/other_readers.h"
+#include "segment/cut/cut_piece.h"
+#include "segment/cut/nudge.h"
 #include "segment/io/write_ply.h"
 #include "segment/mesh/oriented_box.h"
 #include "segment/mesh/triangle_tree.h"
-#include "segment/score/chosen_directions.h"
+#include "segment/score/piece_reach.h"
 #include "segment/score/tool_fit.h"
 
 namespace {
@@ -29,7 +31,7 @@ namespace fs = std::filesystem;
 constexpr const char* usage = R"(bench_setup [--small] [--data FOLDER] [--only GROUP]...
   --small  the sample skull with 20,000 faces instead, to check that it runs; the targets do not apply
   --data   where ct_head_1912k.ply lies; without it the sample skull with 1.9 million faces is taken
-  --only   directions or ball; both if none is named
+  --only   directions, piece or ball; all if none is named
 )";
 
 constexpr int runs = 5;
@@ -51,12 +53,44 @@ void measure_directions(const Measured& measured, double reading_s, Figures& fig
     const double time = best_of(runs, cpu_s, choose);
     figures.record(measured.name, what, time_text(time));
     figures.at_most(measured.name, what + " / reading by OpenMesh", time / reading_s, 8);
-    const std::vector<Vec3> dense = dense_directions();
-    const auto with_dense = [&] {
-        return choose_directions(judged, {axes[2], std::nullopt}, possible, dense, options).chosen.size();
+}
+
+// Half of the scan, on the cap of the cut.
+void measure_piece(const Measured& measured, Figures& figures) {
+    const Vec3 normal = canonical({oriented_box(measured.piece.mesh->points).axis[0], 0}).normal;
+    const Extent range = extent(*measured.piece.mesh, normal);
+    const auto nudged = nudge(measured.piece, normal, std::array{range.low + 0.45 * range.size()});
+    const auto made = nudged[0] ? cut_piece(measured.piece, {normal, nudged[0]->offset}, 1) : std::nullopt;
+    if (!made) return;
+    const Piece& piece = made->pieces[0];
+    const std::string name = measured.name + ", a half";
+    const std::vector<PieceBase> bases = bases_of(piece);
+    const PieceReachOptions options;
+    const auto reach_all = [&] { return piece_reach(piece, {bases.data(), 1}, options); };
+    figures.record(name, "faces", number_text(static_cast<double>(piece.mesh->triangles.size())));
+    figures.record(name, "bases", time_text(best_of(runs, cpu_s, [&] { return bases_of(piece); })));
+    figures.record(name, "reach from one base, 4,000 samples", time_text(best_of(runs, cpu_s, reach_all)));
+    const PieceReach reach = reach_all();
+    const JudgedPiece judged = reach.samples.judged();
+    const TiltBase& base = bases[0].base;
+    const std::vector<std::uint32_t> possible = allowed_directions(judged.scan.directions, base.up, options.tilt_deg);
+    std::vector<Vec3> dense = dense_directions();
+    std::erase_if(dense, [&](const Vec3& d) { return !is_allowed(d, base.up, options.tilt_deg); });
+    const auto choose = [&](std::span<const Vec3> asked) {
+        return best_of(runs, cpu_s, [&] { return choose_directions(judged, base, possible, asked); });
     };
-    figures.record(measured.name, "the same with rays along 2,000 dense directions",
-                   time_text(best_of(1, cpu_s, with_dense)));
+    const ChosenDirections chosen = choose_directions(judged, base, possible, dense);
+    figures.record(name,
+                   "of it choosing " + std::to_string(chosen.chosen.size()) + " of " + std::to_string(possible.size()) +
+                       " directions",
+                   time_text(choose({})));
+    figures.record(name, "the same with " + std::to_string(dense.size()) + " dense directions",
+                   time_text(choose(dense)));
+    const auto share = [&](const UnreachableArea& area) {
+        return number_text(100 * area.total_mm2(options.tilt_deg) / reach.best().area_mm2) + " %";
+    };
+    figures.record(name, "unreachable by the chosen, and by all",
+                   share(chosen.by_chosen) + ", " + share(chosen.by_all));
 }
 
 void measure_ball(const Measured& measured, Figures& figures) {
@@ -96,6 +130,7 @@ void measure(const Choice& choice, Figures& figures) {
     const double reading = best_of(runs, cpu_s, [&] { return openmesh_read(file, false); });
     figures.record(measured.name, "reading by OpenMesh, single precision", time_text(reading));
     if (choice.wants("directions")) measure_directions(measured, reading, figures);
+    if (choice.wants("piece")) measure_piece(measured, figures);
     if (choice.wants("ball")) measure_ball(measured, figures);
 }
 
