@@ -1,11 +1,12 @@
-// Measures what the directions of a setup cost, rays apart, and where a ball fits: CPU time of one thread, beside the
-// time in which OpenMesh reads the same scan.
+// Measures what a direction of a setup costs with all its figures, from a height map: CPU time of one thread beside
+// OpenMesh's reading of the same piece as a binary PLY, and the memory beside the mesh. Also the directions that an arm
+// holds.
 
 #include <algorithm>
-#include <array>
-#include <numeric>
+#include <cmath>
+#include <fstream>
+#include <limits>
 #include <string>
-#include <vector>
 
 #include "base/file.h"
 #include "base/parallel.h"
@@ -14,124 +15,161 @@
 #include "bench/clock.h"
 #include "bench/figures.h"
 #include "bench/other_readers.h"
-#include "segment/cut/cut_piece.h"
-#include "segment/cut/nudge.h"
+#include "bench/specimens.h"
+#include "cam/setup/foam_points.h"
+#include "cam/setup/held_directions.h"
+#include "cam/setup/mapped_reach.h"
 #include "segment/io/write_ply.h"
-#include "segment/mesh/oriented_box.h"
-#include "segment/mesh/triangle_tree.h"
-#include "segment/score/piece_reach.h"
-#include "segment/score/tool_fit.h"
+#include "segment/mesh/measure.h"
+#include "segment/score/tool_directions.h"
 
 namespace {
 
 using namespace qchopper;
 using namespace qchopper::bench;
-namespace fs = std::filesystem;
 
-constexpr const char* usage = R"(bench_setup [--small] [--data FOLDER] [--only GROUP]...
-  --small  the sample skull with 20,000 faces instead, to check that it runs; the targets do not apply
-  --data   where ct_head_1912k.ply lies; without it the sample skull with 1.9 million faces is taken
-  --only   directions, piece or ball; all if none is named
+constexpr const char* usage = R"(bench_setup [--small] [--only GROUP]...
+  --small  100,000 faces instead, to check that it runs; the targets do not apply
+  --only   map, memory or arm; all if none is named
 )";
 
 constexpr int runs = 5;
+constexpr double cell = 0.5;           // mm
+constexpr double ball_radius = 3;      // mm
+constexpr double longest_side = 1000;  // mm
 
-void measure_directions(const Measured& measured, double reading_s, Figures& figures) {
-    const std::array<Piece, 1> pieces{measured.piece};
-    const std::array<Vec3, 3> axes = oriented_box(measured.piece.mesh->points).axis;
-    const SampledScan scan = sampled_scan(pieces, tool_directions(axes));
-    const PieceAccessibility accessibility = uncut_accessibility(scan)[0];
-    const JudgedPiece judged{scan, accessibility, {}};
-    std::vector<std::uint32_t> possible(scan.directions.size());
-    std::iota(possible.begin(), possible.end(), 0U);
-    DirectionOptions options;
-    options.least_gain = 0;
-    const auto choose = [&] { return choose_directions(judged, {axes[2], std::nullopt}, possible, {}, options); };
-    const std::string what = "choosing " + std::to_string(choose().chosen.size()) + " of " +
-                             std::to_string(possible.size()) + " directions on " +
-                             number_text(static_cast<double>(accessibility.sample.size())) + " samples, rays apart";
-    const double time = best_of(runs, cpu_s, choose);
-    figures.record(measured.name, what, time_text(time));
-    figures.at_most(measured.name, what + " / reading by OpenMesh", time / reading_s, 8);
+// Scaled so that the longest side of its box is 1 m.
+TriangleMesh piece(std::size_t faces) {
+    TriangleMesh mesh = *one_shell("skull", Specimen::skull, faces).piece.mesh;
+    const Vec3 size = bounds(mesh).size();
+    const double scale = longest_side / std::max({size.x, size.y, size.z});
+    for (Vec3& p : mesh.points) p = scale * p;
+    return mesh;
 }
 
-// Half of the scan, on the cap of the cut.
-void measure_piece(const Measured& measured, Figures& figures) {
-    const Vec3 normal = canonical({oriented_box(measured.piece.mesh->points).axis[0], 0}).normal;
-    const Extent range = extent(*measured.piece.mesh, normal);
-    const auto nudged = nudge(measured.piece, normal, std::array{range.low + 0.45 * range.size()});
-    const auto made = nudged[0] ? cut_piece(measured.piece, {normal, nudged[0]->offset}, 1) : std::nullopt;
-    if (!made) return;
-    const Piece& piece = made->pieces[0];
-    const std::string name = measured.name + ", a half";
-    const std::vector<PieceBase> bases = bases_of(piece);
-    const PieceReachOptions options;
-    const auto reach_all = [&] { return piece_reach(piece, {bases.data(), 1}, options); };
-    figures.record(name, "faces", number_text(static_cast<double>(piece.mesh->triangles.size())));
-    figures.record(name, "bases", time_text(best_of(runs, cpu_s, [&] { return bases_of(piece); })));
-    figures.record(name, "reach from one base, 4,000 samples", time_text(best_of(runs, cpu_s, reach_all)));
-    const PieceReach reach = reach_all();
-    const JudgedPiece judged = reach.samples.judged();
-    const TiltBase& base = bases[0].base;
-    const std::vector<std::uint32_t> possible = allowed_directions(judged.scan.directions, base.up, options.tilt_deg);
-    std::vector<Vec3> dense = dense_directions();
-    std::erase_if(dense, [&](const Vec3& d) { return !is_allowed(d, base.up, options.tilt_deg); });
-    const auto choose = [&](std::span<const Vec3> asked) {
-        return best_of(runs, cpu_s, [&] { return choose_directions(judged, base, possible, asked); });
-    };
-    const ChosenDirections chosen = choose_directions(judged, base, possible, dense);
-    figures.record(name,
-                   "of it choosing " + std::to_string(chosen.chosen.size()) + " of " + std::to_string(possible.size()) +
-                       " directions",
-                   time_text(choose({})));
-    figures.record(name, "the same with " + std::to_string(dense.size()) + " dense directions",
-                   time_text(choose(dense)));
-    const auto share = [&](const UnreachableArea& area) {
-        return number_text(100 * area.total_mm2(options.tilt_deg) / reach.best().area_mm2) + " %";
-    };
-    figures.record(name, "unreachable by the chosen, and by all",
-                   share(chosen.by_chosen) + ", " + share(chosen.by_all));
+MappedSetup setup_of(const TriangleMesh& mesh) {
+    MappedSetup setup;
+    setup.mesh = &mesh;
+    setup.up = {0, 0, 1};
+    const Box box = bounds(mesh);
+    setup.piece_in_setup.shift = {0, 0, -box.min.z};
+    setup.block = {box.min - Vec3{10, 10, box.min.z + 10}, box.max + Vec3{10, 10, 10 - box.min.z}};
+    setup.directions = {setup.up};
+    setup.tool = ToolBody{150, {{40, 50}, {180, 350}}};
+    setup.smallest_ball_radius = ball_radius;
+    return setup;
 }
 
-void measure_ball(const Measured& measured, Figures& figures) {
-    const TriangleMesh& mesh = *measured.piece.mesh;
-    const SurfaceSamples samples = surface_samples(std::array{SampledSurface{&mesh, {}}});
-    const double tree = best_of(runs, cpu_s, [&] { return TriangleTree(mesh); });
-    figures.record(measured.name, "tree for balls", time_text(tree));
-    for (const double radius : {1.5, 3.0, 5.0, 10.0}) {
-        const BallFit ball{radius};
-        std::size_t narrow = 0;
-        const double time = best_of(runs, cpu_s, [&] {
-            const std::vector<bool> is_narrow = too_narrow(mesh, {}, samples.sample, ball);
-            narrow = static_cast<std::size_t>(std::count(is_narrow.begin(), is_narrow.end(), true));
-            return narrow;
-        });
-        const double share = 100.0 * static_cast<double>(narrow) / static_cast<double>(samples.sample.size());
-        figures.record(measured.name, "20,000 balls of radius " + number_text(radius) + " mm, tree included",
-                       time_text(time) + "; " + number_text(share) + " % do not fit");
+void measure_map(const TriangleMesh& mesh, const std::string& name, Figures& figures) {
+    const TemporaryFolder folder("qchopper-bench-");
+    write_file(folder.path() / "piece.ply", to_ply(mesh));
+    const MappedSetup setup = setup_of(mesh);
+    double ours = std::numeric_limits<double>::infinity();
+    double theirs = ours;
+    for (int i = 0; i < runs; ++i) {
+        theirs = std::min(theirs, best_of(1, cpu_s, [&] { return openmesh_read(folder.path() / "piece.ply", false); }));
+        ours = std::min(ours, best_of(1, cpu_s, [&] { return mapped_reach(setup, {.cell = cell}); }));
     }
+    figures.record(name, "one direction, and OpenMesh's reading of the PLY",
+                   time_text(ours) + " and " + time_text(theirs));
+    figures.at_most(name, "one direction / OpenMesh's reading", ours / theirs, 4);
+
+    const auto step = [&](const std::string& what, const auto& work) {
+        figures.record(name, "- of it: " + what, time_text(best_of(runs, cpu_s, work)));
+    };
+    HeightMap map = height_map(mesh, setup.up, cell);
+    figures.record(name, "cells of the map", number_text(static_cast<double>(map.height.size())));
+    step("height map", [&] { return height_map(mesh, setup.up, cell); });
+    step("reached share, twice", [&] { return reached_share(mesh, map).size() + reached_share(mesh, map).size(); });
+    const Box box{{setup.block.min.x + 10, setup.block.min.y + 10, 0}, setup.block.max - Vec3{10, 10, 10}};
+    const FoamPoints all(mesh, setup.piece_in_setup, box, MapOptions{}.foam_points);
+    step("points of foam outside of the piece",
+         [&] { return FoamPoints(mesh, setup.piece_in_setup, box, MapOptions{}.foam_points); });
+    step("foam above the map taken away", [&] {
+        FoamPoints foam = all;
+        foam.carve(map);
+        return foam;
+    });
+    const HeightMap wide = coarser(map, ball_radius / 3.5 / cell);
+    step("closing by the ball, for the residue",
+         [&] { return closed_by_ball(coarser(map, ball_radius / 3.5 / cell), ball_radius); });
+    const HeightMap closed = closed_by_ball(wide, ball_radius);
+    step("foam above the closing taken away", [&] {
+        FoamPoints foam = all;
+        foam.carve(map, {&wide, &closed});
+        return foam;
+    });
+    step("holder and spindle", [&] {
+        HeightMap raised = map;
+        return raise_to_holder_limit(raised, *setup.tool, setup.piece_in_setup);
+    });
 }
 
-// The sample skull, written to a file for the reader that this is compared with.
-fs::path written(const Measured& measured, const TemporaryFolder& folder) {
-    fs::path file = folder.path() / "scan.ply";
-    write_file(file, to_ply(*measured.piece.mesh));
-    return file;
+// Bytes of this process by a line of /proc/self/status; 0 where there is none.
+double status_bytes(const std::string& key) {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);) {
+        if (line.starts_with(key + ":")) return 1024 * std::stod(line.substr(key.size() + 1));
+    }
+    return 0;
+}
+
+// Of all memory that it needs at once; 0 if that is not known.
+template <class Work>
+double peak_bytes(const Work& work) {
+    if (!(std::ofstream("/proc/self/clear_refs") << "5" << std::flush)) return 0;
+    const double before = status_bytes("VmRSS");
+    const auto result = work();
+    static_cast<void>(result);
+    return status_bytes("VmHWM") - before;
+}
+
+// Two measures with cells of two sizes tell the bytes of a cell from those of a face.
+void measure_memory(const TriangleMesh& mesh, const std::string& name, Figures& figures) {
+    const MappedSetup setup = setup_of(mesh);
+    const auto peak = [&](double side) { return peak_bytes([&] { return mapped_reach(setup, {.cell = side}); }); };
+    const auto cells = [&](double side) { return static_cast<double>(height_map(mesh, setup.up, side).height.size()); };
+    peak(cell);
+    const double coarse = peak(cell);
+    const double fine = peak(cell / 4);
+    if (coarse == 0) {
+        figures.record(name, "memory", "not known on this machine");
+        return;
+    }
+    const double a_cell = (fine - coarse) / (cells(cell / 4) - cells(cell));
+    const double faces = static_cast<double>(mesh.triangles.size());
+    figures.at_most(name, "bytes a cell of the map", a_cell, 8);
+    figures.at_most(name, "bytes a face beside the mesh and 8 bytes a cell", (coarse - 8 * cells(cell)) / faces, 60);
+    figures.record(name, "bytes a face, with the map", number_text(coarse / faces));
+}
+
+void measure_arm(Figures& figures) {
+    std::vector<Vec3> directions = dense_directions(1528);
+    std::erase_if(directions, [](Vec3 d) { return d.z < 0; });
+    for (const char* const name : {"kr60-ha", "irb6640-185-2.8", "kr120-r2500-pro-rotary"}) {
+        const Cell ready =
+            read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / (std::string(name) + ".toml"));
+        for (const double side : {300.0, 900.0}) {
+            const Box box{{-side / 2, -side / 2, 0}, {side / 2, side / 2, side}};
+            const std::string what = ", box of " + number_text(side) + " mm";
+            const double seconds = best_of(runs, cpu_s, [&] { return held_directions(ready, box, 10, directions); });
+            const std::vector<std::uint8_t> flags = held_directions(ready, box, 10, directions);
+            figures.record(
+                name, "directions held" + what,
+                std::to_string(std::count(flags.begin(), flags.end(), 1)) + " of " + std::to_string(flags.size()));
+            figures.at_most(name, "asked for, ms" + what, 1000 * seconds, 50);
+        }
+    }
 }
 
 void measure(const Choice& choice, Figures& figures) {
     const ThreadLimit one(1);
-    const TemporaryFolder folder("qchopper-bench-");
-    fs::path file = choice.data / "ct_head_1912k.ply";
-    const auto head = choice.is_small ? nullptr : scan(file, 1);
-    const Measured measured =
-        head ? biggest("ct_head", *head) : one_shell("skull", Specimen::skull, choice.is_small ? 20'000 : 1'900'000);
-    if (!head) file = written(measured, folder);
-    const double reading = best_of(runs, cpu_s, [&] { return openmesh_read(file, false); });
-    figures.record(measured.name, "reading by OpenMesh, single precision", time_text(reading));
-    if (choice.wants("directions")) measure_directions(measured, reading, figures);
-    if (choice.wants("piece")) measure_piece(measured, figures);
-    if (choice.wants("ball")) measure_ball(measured, figures);
+    if (choice.wants("arm")) measure_arm(figures);
+    if (!choice.wants("map") && !choice.wants("memory")) return;
+    const TriangleMesh mesh = piece(choice.is_small ? 100'000 : 1'900'000);
+    const std::string name = "skull of 1 m, " + number_text(static_cast<double>(mesh.triangles.size()));
+    if (choice.wants("memory")) measure_memory(mesh, name, figures);
+    if (choice.wants("map")) measure_map(mesh, name, figures);
 }
 
 }  // namespace

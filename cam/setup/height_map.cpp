@@ -91,25 +91,28 @@ void raise(float& cell, float to) {
     }
 }
 
-// Parts of the path of a ball-ended tool: how much higher than the tip its surface is, at each cell around the axis.
-struct BallCell {
-    std::ptrdiff_t column;
+// Rows of a ball-ended tool, in cells around its axis: how much lower than its surface the tip is.
+struct BallRow {
     std::ptrdiff_t row;
-    float drop;  // mm, not positive: the tip's height less the surface's
+    std::vector<float> drop;  // mm, not positive; an odd number of them, the middle one on the axis
 };
 
-std::vector<BallCell> ball_cells(double radius, double cell) {
-    std::vector<BallCell> cells;
+std::vector<BallRow> ball_rows(double radius, double cell) {
+    std::vector<BallRow> rows;
     const auto reach = static_cast<std::ptrdiff_t>(radius / cell);
     for (std::ptrdiff_t row = -reach; row <= reach; ++row) {
+        BallRow part{row, {}};
         for (std::ptrdiff_t column = -reach; column <= reach; ++column) {
             const double square = cell * cell * static_cast<double>(row * row + column * column);
             if (square > radius * radius) continue;
-            cells.push_back({column, row, static_cast<float>(std::sqrt(radius * radius - square) - radius)});
+            part.drop.push_back(static_cast<float>(std::sqrt(radius * radius - square) - radius));
         }
+        rows.push_back(part);
     }
-    return cells;
+    return rows;
 }
+
+constexpr std::size_t rows_at_once = 64;
 
 }  // namespace
 
@@ -177,58 +180,67 @@ std::vector<float> reached_share(const TriangleMesh& mesh, const HeightMap& map)
 
 HeightMap closed_by_ball(const HeightMap& map, double radius) {
     assert(radius >= 0);
-    const std::vector<BallCell> ball = ball_cells(radius, map.cell);
-    // The tip may stand beside the map, so the tip heights have a border as wide as the tool.
-    const auto border = static_cast<std::size_t>(radius / map.cell) + 1;
+    const std::vector<BallRow> ball = ball_rows(radius, map.cell);
+    // The tip may stand beside the map, so the tip heights have a border as wide as the tool. They are held for some
+    // rows of the map at a time; the cells under the tool have as much beside the map again.
+    const std::size_t border = ball.size() / 2;
     const std::size_t columns = map.columns + 2 * border;
-    const std::size_t rows = map.rows + 2 * border;
-    std::vector<float> tip(columns * rows, HeightMap::nothing);
-    const auto is_on = [](std::ptrdiff_t i, std::size_t count) {
-        return i >= 0 && i < static_cast<std::ptrdiff_t>(count);
-    };
-    parallel_for(0, rows, [&](std::size_t row) {
-        for (std::size_t column = 0; column < columns; ++column) {
-            float& highest = tip[row * columns + column];
-            for (const BallCell& part : ball) {
-                const std::ptrdiff_t c =
-                    static_cast<std::ptrdiff_t>(column) - static_cast<std::ptrdiff_t>(border) + part.column;
-                const std::ptrdiff_t r =
-                    static_cast<std::ptrdiff_t>(row) - static_cast<std::ptrdiff_t>(border) + part.row;
-                if (!is_on(c, map.columns) || !is_on(r, map.rows)) continue;
-                highest =
-                    std::max(highest, map.at(static_cast<std::size_t>(c), static_cast<std::size_t>(r)) + part.drop);
+    HeightMap closed = map;
+    parallel_ranges(0, map.rows, rows_at_once, [&](std::size_t first, std::size_t end) {
+        const std::size_t tip_rows = end - first + 2 * border;
+        std::vector<float> tip(columns * tip_rows, HeightMap::nothing);
+        std::vector<float> under(map.columns + 4 * border, HeightMap::nothing);
+        for (std::size_t from = first > 2 * border ? first - 2 * border : 0;
+             from < std::min(map.rows, end + 2 * border); ++from) {
+            std::copy_n(&map.height[from * map.columns], map.columns, &under[2 * border]);
+            for (const BallRow& part : ball) {
+                const std::ptrdiff_t row =
+                    static_cast<std::ptrdiff_t>(from + border) - static_cast<std::ptrdiff_t>(first) - part.row;
+                if (row < 0 || row >= static_cast<std::ptrdiff_t>(tip_rows)) continue;
+                float* own = &tip[static_cast<std::size_t>(row) * columns];
+                for (std::size_t i = 0; i < part.drop.size(); ++i) {
+                    const float* at = &under[border + i - part.drop.size() / 2];
+                    const float drop = part.drop[i];
+                    for (std::size_t c = 0; c < columns; ++c) own[c] = std::max(own[c], at[c] + drop);
+                }
             }
         }
-    });
-    HeightMap closed = map;
-    parallel_for(0, map.rows, [&](std::size_t row) {
-        for (std::size_t column = 0; column < map.columns; ++column) {
-            float lowest = std::numeric_limits<float>::infinity();
-            for (const BallCell& part : ball) {
-                const std::size_t c = column + border + static_cast<std::size_t>(part.column);
-                const std::size_t r = row + border + static_cast<std::size_t>(part.row);
-                lowest = std::min(lowest, tip[r * columns + c] - part.drop);
+        std::vector<float> lowest(map.columns);
+        for (std::size_t row = first; row < end; ++row) {
+            std::fill(lowest.begin(), lowest.end(), std::numeric_limits<float>::infinity());
+            for (const BallRow& part : ball) {
+                const auto from =
+                    static_cast<std::size_t>(static_cast<std::ptrdiff_t>(row - first + border) + part.row);
+                for (std::size_t i = 0; i < part.drop.size(); ++i) {
+                    const float* at = &tip[from * columns + border + i - part.drop.size() / 2];
+                    const float drop = part.drop[i];
+                    for (std::size_t c = 0; c < map.columns; ++c) lowest[c] = std::min(lowest[c], at[c] - drop);
+                }
             }
-            float& own = closed.height[row * map.columns + column];
-            own = std::max(own, lowest);
+            float* own = &closed.height[row * map.columns];
+            for (std::size_t c = 0; c < map.columns; ++c) own[c] = std::max(own[c], lowest[c]);
         }
     });
     return closed;
 }
 
-HeightMap coarser(const HeightMap& map, std::size_t factor) {
-    assert(factor > 0);
+HeightMap coarser(const HeightMap& map, double factor) {
+    assert(factor >= 1);
+    const auto count = [&](std::size_t cells) {
+        return static_cast<std::size_t>((static_cast<double>(cells) - 0.5) / factor) + 1;
+    };
     HeightMap coarse;
     coarse.piece_in_map = map.piece_in_map;
-    coarse.cell = map.cell * static_cast<double>(factor);
-    coarse.columns = (map.columns + factor - 1) / factor;
-    coarse.rows = (map.rows + factor - 1) / factor;
+    coarse.cell = map.cell * factor;
+    coarse.columns = count(map.columns);
+    coarse.rows = count(map.rows);
     coarse.height.assign(coarse.columns * coarse.rows, HeightMap::nothing);
+    std::vector<std::size_t> column_of(map.columns);
+    for (std::size_t c = 0; c < map.columns; ++c) column_of[c] = count(c + 1) - 1;
     for (std::size_t row = 0; row < map.rows; ++row) {
-        for (std::size_t column = 0; column < map.columns; ++column) {
-            float& own = coarse.height[row / factor * coarse.columns + column / factor];
-            own = std::max(own, map.at(column, row));
-        }
+        float* under = &coarse.height[(count(row + 1) - 1) * coarse.columns];
+        const float* own = &map.height[row * map.columns];
+        for (std::size_t c = 0; c < map.columns; ++c) under[column_of[c]] = std::max(under[column_of[c]], own[c]);
     }
     return coarse;
 }

@@ -44,11 +44,13 @@ std::vector<float> reached_share(const TriangleMesh& mesh, const HeightMap& map)
 bool is_steep(const TriangleMesh& mesh, std::size_t triangle, Vec3 direction);
 
 // The closing of a map by a ball of a radius: the surface that a ball-ended tool leaves (dilation by the tool, then
-// erosion). Cells beside the map count as `nothing`. O(cells * (radius / cell)^2): meant for coarse maps.
+// erosion). A wall is met where it is for radii of k + 1/2 cells, k whole; else up to half a cell beside. Cells beside
+// the map count as `nothing`. O(cells * (radius / cell)^2): meant for radii of a few cells; 4 bytes a cell.
 HeightMap closed_by_ball(const HeightMap& map, double radius);
 
-// The same surface on cells `factor` times as wide, each as high as the highest of those in it.
-HeightMap coarser(const HeightMap& map, std::size_t factor);
+// The same surface on cells `factor` times as wide, each as high as the highest of those whose middles lie in it.
+// Precondition: factor >= 1.
+HeightMap coarser(const HeightMap& map, double factor);
 
 // Volume (mm3) of the points of a box that lie below the surface in every map: what no tool of these directions
 // removes, the piece included. The points form a grid of the given step about the middle of the box, each standing for

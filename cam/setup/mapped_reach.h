@@ -1,33 +1,26 @@
 // What the tool reaches from the directions of a setup, by one height map per direction.
 //
 // mm. A triangle counts by the share of it that a direction reaches, the largest over the directions. Agrees with rays
-// from the surface within half a percent of the area, per direction (tests/cam/setup/mapped_reach_test.cpp).
+// from the surface within half a percent of the area, per direction (tests/cam/setup/mapped_reach_test.cpp). The result
+// does not depend on the number of threads.
 
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
+#include "base/box.h"
 #include "base/pose.h"
-#include "cam/cell/carving_tool.h"
-#include "cam/cell/robot.h"
+#include "cam/setup/holder_limit.h"
 #include "cam/setup/surface_reach.h"
-#include "segment/mesh/measure.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {
 
-// The tool that goes deepest, with what is behind it. The tool itself, up to its stick-out, has the radius zero here.
-struct ToolBody {
-    double stick_out = 0;
-    std::vector<HolderStep> steps;  // of the holder and then of the spindle's body, upwards from stick_out
-};
-// Of the tools of a cell the one with the largest stick-out.
-ToolBody tool_body(const CarvingTool& tool, const Spindle& spindle);
-
 struct MappedSetup {
-    const TriangleMesh* mesh = nullptr;  // in piece coordinates, consistent
+    const TriangleMesh* mesh = nullptr;  // in piece coordinates, consistent and closed
     std::optional<std::int32_t> base;    // cut whose cap lies on the table
     Vec3 up;                             // unit
     Pose piece_in_setup;                 // z = 0 is the top of the spoil layer
@@ -40,16 +33,33 @@ struct MappedSetup {
 
 struct MapOptions {
     double cell = 0;  // mm; 0: a thousandth of the longest side of the piece's box, 0.25 mm at least
+    std::size_t foam_points = 1U << 22U;  // in the piece's box, to measure foam and residue with
 };
 
 struct MappedReach {
     SurfaceReach reach;                // method mapped; all_directions_share, further, too_narrow_mm2 are left at 0
-    std::vector<SurfaceState> states;  // per triangle; the base's are `reached`
+    std::vector<SurfaceState> states;  // per triangle, of the largest part of it; the base's are `reached`
 };
 
-// Holder and spindle may not touch the piece (any other direction's foam is assumed to be removed first) nor come below
-// z = 0. Preconditions: there is a direction, the mesh has area. O(directions x (triangles + cells)), 8 bytes a cell of
-// the maps that are held together and 4 bytes per triangle and direction.
+// Of a triangle the part that no map reaches is steep if it is steep to one of the directions, else hidden; the part
+// that a map reaches, but holder and spindle do not allow, is `holder`: they may not touch the piece (any other
+// direction's foam is taken as removed first) nor come below z = 0. With a tool for which steep does not count, steep
+// triangles count for the depth of a direction, because the side of the tool cuts them.
+//
+// Foam is what lies above z = 0 in the block, outside of the piece and below its surface in all maps; holder and
+// spindle are not asked. Its volume is that of points on a grid (foam_points.h): its standard deviation is about half
+// a grid step times the square root of the area that bounds the foam times the step, its bias at most half a cell of
+// the map times the area that is steep to the directions. Its depth is measured from a cell's width above hidden
+// surface, and holds the parts of the piece that lie over it. The residue is measured on cells of between a seventh and
+// two thirds of the radius: with the latter a fifth of a corner's is missed, and none is found of a radius below two
+// cells of the map.
+//
+// The depth of a direction is right to 1/4096 of the block's diagonal and leaves out the deepest ten-thousandth of the
+// area that it reaches, and what lies within a cell of higher surface.
+//
+// Preconditions: the directions are not more than 90 degrees from `up`; the mesh has area. Throws as height_map() does.
+// O(directions x (triangles + cells)); beside the mesh at most 8 bytes a cell of a single map, 24 bytes a triangle and
+// a bit a foam point.
 MappedReach mapped_reach(const MappedSetup& setup, const MapOptions& options = {});
 
 }  // namespace qchopper

@@ -1,0 +1,287 @@
+// One direction after another, with one map at a time: what it reaches is joined to what the ones before it reached,
+// and the foam above it is taken away from a grid of points, so no map is held beside another. Sums are taken over
+// blocks of triangles in their order. O(directions x (triangles + cells + foam points)).
+
+#include "cam/setup/mapped_reach.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/parallel.h"
+#include "cam/setup/foam_points.h"
+#include "cam/setup/height_map.h"
+#include "segment/mesh/measure.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::size_t triangles_at_once = 4096;
+constexpr double smallest_cell = 0.25;  // mm
+constexpr double cells_of_longest_side = 1000;
+constexpr double most_cells_per_ball_radius = 6;  // and a half
+
+double cell_of(const TriangleMesh& mesh, const MapOptions& options) {
+    if (options.cell > 0) return options.cell;
+    const Vec3 size = bounds(mesh).size();
+    return std::max(smallest_cell, std::max({size.x, size.y, size.z}) / cells_of_longest_side);
+}
+
+Vec3 middle_of(const TriangleMesh& mesh, std::size_t triangle) {
+    const std::array<Vec3, 3> p = corners_of(mesh, triangle);
+    return (1.0 / 3) * (p[0] + p[1] + p[2]);
+}
+
+// Length of the way from a point in a box along a direction to where it leaves the box.
+double way_out(const Box& box, Vec3 from, Vec3 direction) {
+    double way = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i) {
+        if (direction[i] == 0) continue;
+        way = std::min(way, ((direction[i] > 0 ? box.max[i] : box.min[i]) - from[i]) / direction[i]);
+    }
+    return std::max(0.0, way);
+}
+
+// Of the map under a point above it, 0 where there is no surface.
+float height_above(const HeightMap& map, Vec3 point) {
+    const Vec3 p = apply(map.piece_in_map, point);
+    const double column = p.x / map.cell;
+    const double row = p.y / map.cell;
+    if (column < 0 || row < 0) return 0;
+    const auto c = static_cast<std::size_t>(column);
+    const auto r = static_cast<std::size_t>(row);
+    if (c >= map.columns || r >= map.rows) return 0;
+    return std::max(0.0F, map.at(c, r) - static_cast<float>(p.z));
+}
+
+// Whether no surface nearby is much higher than a point: a triangle at the outline of what lies over it may be taken as
+// reached though it is not, because a cell holds both.
+bool is_open_around(const HeightMap& map, Vec3 point) {
+    const double side = map.cell;
+    for (const double x : {-side, 0.0, side}) {
+        for (const double y : {-side, 0.0, side}) {
+            const Vec3 beside = point + x * map.piece_in_map.row[0] + y * map.piece_in_map.row[1];
+            if (static_cast<double>(height_above(map, beside)) > 3 * side) return false;
+        }
+    }
+    return true;
+}
+
+// Adds up what add(sums, triangle) gives, in the order of the triangles on any number of threads.
+template <class Sums, class Add>
+Sums summed(std::size_t triangles, const Add& add) {
+    std::vector<Sums> blocks((triangles + triangles_at_once - 1) / triangles_at_once);
+    parallel_for(0, blocks.size(), [&](std::size_t b) {
+        const std::size_t end = std::min(triangles, (b + 1) * triangles_at_once);
+        for (std::size_t t = b * triangles_at_once; t < end; ++t) add(blocks[b], t);
+    });
+    Sums all;
+    for (const Sums& block : blocks) all.add(block);
+    return all;
+}
+
+struct Sum {
+    double value = 0;
+    void add(const Sum& other) { value += other.value; }
+};
+
+// How deep surface lies. Whole numbers are added up, so that their order is of no influence.
+class Depths {
+ public:
+    Depths(double most, double area) : bin_(most / static_cast<double>(bins)), unit_(area / units) {}
+
+    void add(double depth, double area) {
+        const auto bin = std::min(bins - 1, static_cast<std::size_t>(depth / bin_));
+        units_in_[bin].fetch_add(static_cast<std::uint64_t>(area / unit_), std::memory_order_relaxed);
+    }
+
+    // But for a ten-thousandth of the surface, against single triangles that are taken as reached by mistake.
+    double largest() const {
+        std::uint64_t all = 0;
+        for (const auto& some : units_in_) all += some.load();
+        std::uint64_t beyond = 0;
+        for (std::size_t bin = bins; bin > 0; --bin) {
+            beyond += units_in_[bin - 1].load();
+            if (beyond > all / 10'000) return static_cast<double>(bin) * bin_;
+        }
+        return 0;
+    }
+
+ private:
+    static constexpr std::size_t bins = 4096;
+    static constexpr double units = 1e15;
+    double bin_;   // mm
+    double unit_;  // mm2
+    std::vector<std::atomic<std::uint64_t>> units_in_ = std::vector<std::atomic<std::uint64_t>>(bins);
+};
+
+struct StateSums {
+    double area = 0;
+    double hidden = 0;
+    double steep = 0;
+    double holder = 0;
+    double foam_depth = 0;
+    void add(const StateSums& other) {
+        area += other.area;
+        hidden += other.hidden;
+        steep += other.steep;
+        holder += other.holder;
+        foam_depth = std::max(foam_depth, other.foam_depth);
+    }
+};
+
+class Reaching {
+ public:
+    explicit Reaching(const MappedSetup& setup) : setup_(setup), mesh_(*setup.mesh), surfaces_(mesh_.triangles.size()) {
+        area_ = summed<StateSums>(surfaces_.size(), [&](StateSums& sums, std::size_t t) {
+                    if (!is_base(t)) sums.area += norm(area_vector(mesh_, t));
+                }).area;
+    }
+
+    // What is in sight of a direction, by its map.
+    void join_seen(const HeightMap& map) {
+        const std::vector<float> seen = reached_share(mesh_, map);
+        const Vec3 out = map.direction();
+        parallel_ranges(0, surfaces_.size(), triangles_at_once, [&](std::size_t first, std::size_t end) {
+            for (std::size_t t = first; t < end; ++t) {
+                Surface& surface = surfaces_[t];
+                surface.seen = std::max(surface.seen, seen[t]);
+                if (surface.seen == 1) continue;
+                surface.is_steep = surface.is_steep || is_steep(mesh_, t, out);
+                const Vec3 above = middle_of(mesh_, t) + map.cell * normalized(area_vector(mesh_, t));
+                surface.foam = std::min(surface.foam, height_above(map, above));
+            }
+        });
+    }
+
+    // What it reaches, by its map after raise_to_holder_limit().
+    SetupDirection join_reached(const HeightMap& map) {
+        const std::vector<float> reached = reached_share(mesh_, map);
+        SetupDirection direction;
+        direction.out = map.direction();
+        direction.tilt_deg = std::acos(std::clamp(dot(direction.out, setup_.up), -1.0, 1.0)) * 180 / std::numbers::pi;
+        const Vec3 out = rotate(setup_.piece_in_setup, direction.out);
+        Depths depths(norm(setup_.block.size()), area_);
+        const auto gained = summed<Sum>(surfaces_.size(), [&](Sum& block, std::size_t t) {
+            if (is_base(t)) return;
+            Surface& surface = surfaces_[t];
+            if (is_cut_freely(map, t, reached[t])) {
+                const Vec3 middle = apply(setup_.piece_in_setup, middle_of(mesh_, t));
+                depths.add(way_out(setup_.block, middle, out), norm(area_vector(mesh_, t)));
+            }
+            if (reached[t] <= surface.reached) return;
+            block.value += static_cast<double>(reached[t] - surface.reached) * norm(area_vector(mesh_, t));
+            surface.reached = reached[t];
+        });
+        direction.gained_share = area_ > 0 ? gained.value / area_ : 0;
+        direction.depth_mm = depths.largest();
+        return direction;
+    }
+
+    void finish(MappedReach& result) const {
+        result.states.assign(surfaces_.size(), SurfaceState::reached);
+        const StateSums sums = summed<StateSums>(surfaces_.size(), [&](StateSums& block, std::size_t t) {
+            if (is_base(t)) return;
+            const Surface& surface = surfaces_[t];
+            const double area = norm(area_vector(mesh_, t));
+            const float holder = std::max(0.0F, surface.seen - surface.reached);
+            const float unseen = 1 - surface.seen;
+            block.holder += static_cast<double>(holder) * area;
+            (surface.is_steep ? block.steep : block.hidden) += static_cast<double>(unseen) * area;
+            if (surface.reached >= std::max(holder, unseen)) return;
+            result.states[t] = holder >= unseen   ? SurfaceState::holder
+                               : surface.is_steep ? SurfaceState::steep
+                                                  : SurfaceState::hidden;
+            if (holder < unseen && surface.seen == 0) {
+                block.foam_depth = std::max(block.foam_depth, static_cast<double>(surface.foam));
+            }
+        });
+        result.reach.area_mm2 = area_;
+        result.reach.hidden_mm2 = sums.hidden;
+        result.reach.steep_mm2 = sums.steep;
+        result.reach.holder_mm2 = sums.holder;
+        result.reach.foam_depth_mm = sums.foam_depth;
+    }
+
+ private:
+    // Of a triangle, over the directions so far.
+    struct Surface {
+        float seen = 0;                                  // largest share in sight
+        float reached = 0;                               // largest share reached with the holder
+        float foam = std::numeric_limits<float>::max();  // mm, least height of the maps over it
+        bool is_steep = false;
+    };
+
+    // Whether a triangle tells how deep the tool goes.
+    bool is_cut_freely(const HeightMap& map, std::size_t t, float reached) const {
+        if (reached > 0.5F) return is_open_around(map, middle_of(mesh_, t));
+        if (setup_.steep_counts || !is_steep(mesh_, t, map.direction())) return false;
+        const Vec3 beside = middle_of(mesh_, t) + 2 * map.cell * normalized(area_vector(mesh_, t));
+        return height_above(map, beside) == 0;
+    }
+
+    bool is_base(std::size_t t) const { return setup_.base && cap_of(mesh_, t) == *setup_.base; }
+
+    const MappedSetup& setup_;
+    const TriangleMesh& mesh_;
+    double area_ = 0;
+    std::vector<Surface> surfaces_;
+};
+
+// In the piece's box, because what lies below the surface seen from straight above lies there.
+std::optional<FoamPoints> foam_around(const MappedSetup& setup, std::size_t count) {
+    const TriangleMesh& mesh = *setup.mesh;
+    const Vec3 any = apply(setup.piece_in_setup, mesh.points[mesh.triangles.front()[0]]);
+    Box box{any, any};
+    for (const Vec3& p : mesh.points) extend(box, apply(setup.piece_in_setup, p));
+    for (int i = 0; i < 3; ++i) {
+        box.min[i] = std::max(box.min[i], setup.block.min[i]);
+        box.max[i] = std::min(box.max[i], setup.block.max[i]);
+    }
+    box.min.z = std::max(box.min.z, 0.0);
+    const Vec3 size = box.size();
+    if (!(size.x > 0 && size.y > 0 && size.z > 0)) return std::nullopt;
+    return FoamPoints(mesh, setup.piece_in_setup, box, count);
+}
+
+// On cells of which the radius is a whole number and a half, and half as many as those of the map at most.
+void carve_with_ball(FoamPoints& foam, const HeightMap& map, double radius) {
+    const double most = std::floor(radius / (std::numbers::sqrt2 * map.cell) - 0.5);
+    if (most < 1) return foam.carve(map);
+    const double cells = std::min(most, most_cells_per_ball_radius) + 0.5;
+    const HeightMap wide = coarser(map, radius / cells / map.cell);
+    const HeightMap closed = closed_by_ball(wide, radius);
+    foam.carve(map, {&wide, &closed});
+}
+
+}  // namespace
+
+MappedReach mapped_reach(const MappedSetup& setup, const MapOptions& options) {
+    assert(setup.mesh != nullptr && !setup.directions.empty());
+    const TriangleMesh& mesh = *setup.mesh;
+    const double cell = cell_of(mesh, options);
+    std::optional<FoamPoints> foam = foam_around(setup, options.foam_points);
+    std::optional<FoamPoints> foam_after_ball;
+    if (setup.smallest_ball_radius > 0) foam_after_ball = foam;
+    Reaching reaching(setup);
+    MappedReach result;
+    for (const Vec3& out : setup.directions) {
+        HeightMap map = height_map(mesh, out, cell);
+        reaching.join_seen(map);
+        if (foam) foam->carve(map);
+        if (foam_after_ball) carve_with_ball(*foam_after_ball, map, setup.smallest_ball_radius);
+        if (setup.tool) raise_to_holder_limit(map, *setup.tool, setup.piece_in_setup);
+        result.reach.directions.push_back(reaching.join_reached(map));
+    }
+    reaching.finish(result);
+    result.reach.method = ReachMethod::mapped;
+    result.reach.steep_counts = setup.steep_counts;
+    result.reach.foam_mm3 = foam ? foam->volume_mm3() : 0;
+    if (foam_after_ball) result.reach.residue_mm3 = foam_after_ball->volume_mm3() - result.reach.foam_mm3;
+    return result;
+}
+
+}  // namespace qchopper
