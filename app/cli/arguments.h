@@ -147,6 +147,7 @@ struct DispatchArguments {
     std::optional<std::string> to;
     std::optional<std::filesystem::path> drop;
     bool yes = false;
+    bool accept_unreachable = false;
 };
 
 struct Arguments {

@@ -18,6 +18,8 @@
 namespace qchopper {
 namespace {
 
+constexpr const char* dispatch_schema = "qchopper-dispatch-1";
+
 bool is_confirmed(const std::string& question) {
     if (::isatty(STDIN_FILENO) == 0) {
         throw InputError(InputFault::use,
@@ -40,11 +42,26 @@ void refuse_uncertain(const Cell& cell) {
                      "see qchopper cells check, measure, correct the cell file and prepare the scan again");
 }
 
+// All jobs are looked at before the first one is sent. That foam would stay is an answer and not an error: the exit
+// code is that of a demand that is not met.
+bool refuse_unreachable(const std::vector<PieceJob>& jobs, Terminal& terminal) {
+    std::vector<std::string> sentences = unreachable_jobs(jobs);
+    if (sentences.empty()) return false;
+    for (std::string& sentence : sentences) {
+        sentence += "; pass --accept-unreachable if the foam that stays there may stay";
+        terminal.error(sentence);
+    }
+    const HandOverReport report{{}, jobs.size(), false, sentences};
+    terminal.show({"no job was sent"}, document(report, dispatch_schema));
+    return true;
+}
+
 }  // namespace
 
 int hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options,
               const std::string& schema, Terminal& terminal) {
-    const HandOverReport report{hand_over(jobs, bus, options, terminal.context()), jobs.size(), options.want_simulated};
+    const HandOverReport report{
+        hand_over(jobs, bus, options, terminal.context()), jobs.size(), options.want_simulated, {}};
     terminal.show(lines(report), document(report, schema));
     if (report.is_cancelled()) return Terminal::cancel_code();
     return report.is_complete() ? exit_done : exit_demand_broken;
@@ -53,6 +70,7 @@ int hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const Dispatc
 int run(const DispatchArguments& arguments, Terminal& terminal) {
     terminal.set_unchanged("The project is unchanged, and no job was started.");
     const auto [cell, jobs] = jobs_of(arguments.project, arguments.piece, terminal.context());
+    if (!arguments.accept_unreachable && refuse_unreachable(jobs, terminal)) return exit_demand_broken;
     const std::optional<std::string> to = arguments.to ? arguments.to : cell.link.to;
     const std::optional<std::filesystem::path> drop = arguments.drop ? arguments.drop : cell.link.drop;
     if (!to) throw InputError(InputFault::use, "no cell address is known", "pass --to HOST:PORT");
@@ -82,7 +100,7 @@ int run(const DispatchArguments& arguments, Terminal& terminal) {
         terminal.message("not confirmed: nothing was sent");
         return exit_demand_broken;
     }
-    return hand_over(jobs, bus, options, "qchopper-dispatch-1", terminal);
+    return hand_over(jobs, bus, options, dispatch_schema, terminal);
 }
 
 }  // namespace qchopper

@@ -11,6 +11,9 @@ namespace qchopper {
 int run(const DryRunArguments& arguments, Terminal& terminal) {
     terminal.set_unchanged("The project is unchanged.");
     const auto [cell, jobs] = jobs_of(arguments.project, arguments.piece, terminal.context());
+    for (const std::string& sentence : unreachable_jobs(jobs)) {
+        terminal.warn(sentence + "; dispatch asks for --accept-unreachable");
+    }
     const TemporaryFolder drop("qchopper-dry-run-");
     CellSimOptions options;
     options.drop_folder = drop.path();

@@ -194,6 +194,8 @@ struct Parser {
         c->add_option("--to", dispatch.to, "HOST:PORT of the cell (from the cell file)");
         c->add_option("--drop", dispatch.drop, "the folder where the cell fetches job files (from the cell file)");
         c->add_flag("--yes", dispatch.yes, "do not ask before a real cell is set in motion");
+        c->add_flag("--accept-unreachable", dispatch.accept_unreachable,
+                    "send jobs too of which the tool does not reach more of the surface than the limit allows");
         add_common(c, common, [this] { common.command = dispatch; });
     }
 };

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/timings.h"
-#include "cam/job/job_file.h"
+#include "cam/job/read_job.h"
 
 namespace qchopper {
 namespace {
@@ -29,7 +29,7 @@ std::optional<PieceJob> job_of(const JobOrder& order) {
     const ReadJob job = parse_job(bytes, order.file.string());
     check_ordered(job, order);
     const JobTicket ticket = job_ticket(job, order.file.filename().string());
-    return PieceJob{order.piece, std::move(bytes), ticket};
+    return PieceJob{order.piece, std::move(bytes), ticket, job.setup.reach.unreachable_share(), job.max_unreachable};
 }
 
 }  // namespace
@@ -60,6 +60,17 @@ ProjectJobs jobs_of(const std::filesystem::path& folder, const std::optional<std
                          "see the table that prepare printed");
     }
     return found;
+}
+
+std::vector<std::string> unreachable_jobs(const std::vector<PieceJob>& jobs) {
+    std::vector<std::string> sentences;
+    for (const PieceJob& job : jobs) {
+        if (!job.is_unreachable()) continue;
+        sentences.push_back("piece " + job.piece + ": the tool does not reach " +
+                            fixed(100 * job.unreachable_share, 2) + " % of its surface, and the limit is " +
+                            fixed(100 * job.max_unreachable, 2) + " %");
+    }
+    return sentences;
 }
 
 std::vector<HandedOver> hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options,

@@ -20,6 +20,9 @@ struct PieceJob {
     std::string piece;
     Bytes file;
     JobTicket ticket;
+    double unreachable_share = 0;  // of the surface
+    double max_unreachable = 0;    // the limit of the job
+    bool is_unreachable() const { return unreachable_share > max_unreachable; }
 };
 
 struct ProjectJobs {
@@ -32,6 +35,9 @@ struct ProjectJobs {
 // no job; (mesh) a job file that is broken or not the one that was ordered (ordered_job.h).
 ProjectJobs jobs_of(const std::filesystem::path& project, const std::optional<std::string>& piece,
                     const Context& context);
+
+// Per job whose state is "unreachable" one sentence without a full stop: the piece, its share and the limit.
+std::vector<std::string> unreachable_jobs(const std::vector<PieceJob>& jobs);
 
 struct HandedOver {
     std::string piece;

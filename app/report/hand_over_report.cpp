@@ -63,11 +63,13 @@ std::vector<std::string> lines(const HandOverReport& report) {
 std::string document(const HandOverReport& report, const std::string& schema) {
     Json jobs = Json::array();
     for (const HandedOver& handed : report.handed) jobs.push_back(job_json(handed));
-    return text_of({{"schema", schema},
-                    {"simulated", report.is_simulated},
-                    {"jobs_wanted", report.wanted},
-                    {"all_complete", report.is_complete()},
-                    {"jobs", jobs}});
+    Json json = {{"schema", schema},
+                 {"simulated", report.is_simulated},
+                 {"jobs_wanted", report.wanted},
+                 {"all_complete", report.is_complete()},
+                 {"jobs", jobs}};
+    if (!report.refused.empty()) json["refused"] = report.refused;
+    return text_of(json);
 }
 
 }  // namespace qchopper

@@ -11,9 +11,10 @@ namespace qchopper {
 
 struct HandOverReport {
     std::vector<HandedOver> handed;
-    std::size_t wanted = 0;     // jobs to be handed over; handed has at most as many
-    bool is_simulated = false;  // the cell
-    bool is_complete() const;   // all jobs were handed over and ended complete
+    std::size_t wanted = 0;            // jobs to be handed over; handed has at most as many
+    bool is_simulated = false;         // the cell
+    std::vector<std::string> refused;  // why none was sent (unreachable_jobs), or empty
+    bool is_complete() const;          // all jobs were handed over and ended complete
     bool is_cancelled() const;
 };
 

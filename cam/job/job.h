@@ -1,7 +1,7 @@
 // The values of a job: what goes into the job file of one piece, and what is read back from it.
 //
-// Lengths in mm, in setup coordinates (cam/setup/setup.h) where nothing else is stated. job_file.h writes and reads
-// them (tests/cam/job/job_file_test.cpp).
+// Lengths in mm, in setup coordinates (cam/setup/setup.h) where nothing else is stated. write_job.h writes them,
+// read_job.h reads them (tests/cam/job/job_file_test.cpp).
 
 #pragma once
 
@@ -19,10 +19,11 @@
 
 namespace qchopper {
 
-constexpr int job_schema_version = 2;
+constexpr int job_schema_version = 3;
 
-// Precondition of all functions that take it: piece.mesh is not null, setup.block.stock is an index in cell.stock, and
-// the envelope has a margin.
+// Precondition of all functions that take it: piece.mesh is not null, setup.block.stock is an index in cell.stock, so
+// are those of the alternatives, the envelope has a margin, states are empty or one per triangle, and max_unreachable
+// is 0..1.
 struct JobInput {
     Piece piece;                 // in piece coordinates
     std::uint16_t piece_no = 1;  // 1..piece_count
@@ -37,6 +38,19 @@ struct JobInput {
     std::vector<SurfaceState> states;   // per triangle of the piece; empty: not known
     double max_unreachable = 0.02;      // share beyond which dispatch asks for the operator's word
     std::vector<std::string> warnings;  // of the project: "scaled by 0.5 on request"
+};
+
+// Another way to lay the piece, as far as a person needs it to choose; mm, mm3.
+struct Alternative {
+    int base_number = 0;
+    std::string base_description;
+    ReachMethod method = ReachMethod::sampled;
+    double unreachable_share = 0;
+    double foam_mm3 = 0;     // mapped only
+    double residue_mm3 = 0;  // mapped only
+    Vec3 block;              // its size
+    std::uint32_t directions = 0;
+    bool operator==(const Alternative&) const = default;
 };
 
 // A file in the job file, as the manifest lists it.
@@ -56,7 +70,9 @@ struct ReadJob {
     Uuid project_id{};
     Sha256 scan_sha256;
     std::uint16_t cell_id = 0;
-    Setup setup;                         // as it was written
+    Setup setup;  // as it was written
+    std::vector<Alternative> alternatives;
+    double max_unreachable = 0;          // share, 0..1
     std::string block_name;              // in the cell's list of stock
     std::vector<HalfSpace> half_spaces;  // in piece coordinates
     EnvelopeReport envelope;
@@ -68,5 +84,11 @@ struct ReadJob {
     std::uint32_t file_size = 0;         // of the .qjob itself
     Sha256 file_sha256;
 };
+
+// The state "unreachable": the tool leaves more of the surface than the limit allows, and dispatch asks for the
+// operator's word. Otherwise the state is "ready".
+inline bool is_unreachable(const Setup& setup, double max_unreachable) {
+    return setup.reach.unreachable_share() > max_unreachable;
+}
 
 }  // namespace qchopper

@@ -16,17 +16,74 @@ using namespace json_values;
 
 constexpr const char* format_name = "qchopper job";
 
+constexpr double most = std::numeric_limits<double>::max();
+
+const char* to_word(ReachMethod method) {
+    return method == ReachMethod::mapped ? "mapped" : "sampled";
+}
+
+const char* state_word(const Setup& setup, double max_unreachable) {
+    return is_unreachable(setup, max_unreachable) ? "unreachable" : "ready";
+}
+
+Json from_direction(const SetupDirection& direction) {
+    return {{"out", from_vector(direction.out)},
+            {"tilt_deg", direction.tilt_deg},
+            {"gained_share", direction.gained_share},
+            {"depth_mm", direction.depth_mm}};
+}
+
+Json from_reach(const SurfaceReach& reach) {
+    Json directions = Json::array();
+    for (const SetupDirection& direction : reach.directions) directions.push_back(from_direction(direction));
+    return {{"method", to_word(reach.method)},
+            {"arm_checked", reach.is_arm_checked},
+            {"directions", directions},
+            {"further", reach.further ? from_direction(*reach.further) : Json(nullptr)},
+            {"area_mm2", reach.area_mm2},
+            {"hidden_mm2", reach.hidden_mm2},
+            {"steep_mm2", reach.steep_mm2},
+            {"holder_mm2", reach.holder_mm2},
+            {"too_narrow_mm2", reach.too_narrow_mm2},
+            {"steep_counts", reach.steep_counts},
+            {"narrow_counts", reach.narrow_counts},
+            {"unreachable_share", reach.unreachable_share()},
+            {"all_directions_share", reach.all_directions_share},
+            {"foam_mm3", reach.foam_mm3},
+            {"foam_depth_mm", reach.foam_depth_mm},
+            {"residue_mm3", reach.residue_mm3}};
+}
+
+Json from_alternatives(const std::vector<Alternative>& alternatives) {
+    Json list = Json::array();
+    for (const Alternative& other : alternatives) {
+        list.push_back({{"base_number", other.base_number},
+                        {"base_description", other.base_description},
+                        {"method", to_word(other.method)},
+                        {"unreachable_share", other.unreachable_share},
+                        {"foam_mm3", other.foam_mm3},
+                        {"residue_mm3", other.residue_mm3},
+                        {"block", from_vector(other.block)},
+                        {"directions", other.directions}});
+    }
+    return list;
+}
+
 Json from_setup(const Setup& setup) {
     Json rows = Json::array();
     for (const Vec3& row : setup.piece_in_setup.row) rows.push_back(from_vector(row));
-    return {{"base", setup.base ? Json(*setup.base) : Json(nullptr)},
+    return {{"base_number", setup.base_number},
+            {"base", setup.base ? Json(*setup.base) : Json(nullptr)},
             {"base_description", setup.base_description},
             {"up", from_vector(setup.up)},
             {"piece_in_setup", {{"rows", rows}, {"shift", from_vector(setup.piece_in_setup.shift)}}},
             {"box", from_box(setup.box)},
+            {"spoil", setup.spoil},
             {"undercut", setup.undercut},
+            {"undercut_by_count", setup.undercut_by_count},
             {"base_mm2", setup.base_mm2},
             {"projected_area_mm2", setup.projected_area_mm2},
+            {"reach", from_reach(setup.reach)},
             {"warnings", setup.warnings}};
 }
 
@@ -51,11 +108,15 @@ Json from_envelope(const EnvelopeReport& envelope) {
 
 Json from_stock(const JobInput& input) {
     const Stock& stock = input.cell.stock[input.setup.block.stock];
+    Json offcuts = Json::array();
+    for (const Vec3& offcut : input.setup.block.offcuts) offcuts.push_back(from_vector(offcut));
     return {{"name", stock.name},
             {"number", input.setup.block.stock},
             {"material", to_word(stock.material)},
             {"size", from_vector(input.setup.block.size)},
             {"turned", input.setup.block.is_turned},
+            {"sawn", input.setup.block.is_sawn},
+            {"offcuts", offcuts},
             {"holds", input.setup.block.holds},
             {"margin", input.cell.stock_margin}};
 }
@@ -67,6 +128,10 @@ std::vector<std::string> texts(const Json& object, const std::string& key) {
         list.push_back(value.get<std::string>());
     }
     return list;
+}
+
+double not_negative(const Json& object, const std::string& key) {
+    return real_within(object, key, 0, most);
 }
 
 std::int32_t cut_number(const Json& object, const std::string& key) {
@@ -87,20 +152,77 @@ Pose to_pose(const Json& json) {
     return pose;
 }
 
+int base_number(const Json& object) {
+    return static_cast<int>(whole_up_to(object, "base_number", std::numeric_limits<std::int32_t>::max()));
+}
+
+ReachMethod to_method(const Json& object) {
+    const std::string word = text(object, "method");
+    if (word != "mapped" && word != "sampled") throw wrong("method", "is neither sampled nor mapped");
+    return word == "mapped" ? ReachMethod::mapped : ReachMethod::sampled;
+}
+
+SetupDirection to_direction(const Json& json) {
+    SetupDirection direction{vector(json, "out"), real(json, "tilt_deg"), real(json, "gained_share"),
+                             real(json, "depth_mm")};
+    if (!(std::abs(norm(direction.out) - 1) < 1e-6)) throw wrong("out", "is not of length 1");
+    return direction;
+}
+
+SurfaceReach to_reach(const Json& json) {
+    SurfaceReach reach;
+    reach.method = to_method(json);
+    reach.is_arm_checked = truth(json, "arm_checked");
+    for (const Json& direction : items(json, "directions")) reach.directions.push_back(to_direction(direction));
+    if (const Json& further = member(json, "further"); !further.is_null()) reach.further = to_direction(further);
+    reach.area_mm2 = not_negative(json, "area_mm2");
+    reach.hidden_mm2 = not_negative(json, "hidden_mm2");
+    reach.steep_mm2 = not_negative(json, "steep_mm2");
+    reach.holder_mm2 = not_negative(json, "holder_mm2");
+    reach.too_narrow_mm2 = not_negative(json, "too_narrow_mm2");
+    reach.steep_counts = truth(json, "steep_counts");
+    reach.narrow_counts = truth(json, "narrow_counts");
+    reach.all_directions_share = not_negative(json, "all_directions_share");
+    reach.foam_mm3 = not_negative(json, "foam_mm3");
+    reach.foam_depth_mm = real(json, "foam_depth_mm");
+    reach.residue_mm3 = not_negative(json, "residue_mm3");
+    const double stated = not_negative(json, "unreachable_share");
+    if (!(std::abs(stated - reach.unreachable_share()) <= 1e-9))
+        throw wrong("unreachable_share", "is not that of the areas");
+    return reach;
+}
+
+std::vector<Alternative> to_alternatives(const Json& json) {
+    std::vector<Alternative> alternatives;
+    for (const Json& other : items(json, "alternatives")) {
+        alternatives.push_back({base_number(other), text(other, "base_description"), to_method(other),
+                                not_negative(other, "unreachable_share"), not_negative(other, "foam_mm3"),
+                                not_negative(other, "residue_mm3"), vector(other, "block"),
+                                whole<std::uint32_t>(other, "directions")});
+    }
+    return alternatives;
+}
+
 Setup to_setup(const Json& json, const Json& stock) {
     Setup setup;
+    setup.base_number = base_number(json);
     if (!member(json, "base").is_null()) setup.base = cut_number(json, "base");
     setup.base_description = text(json, "base_description");
     setup.up = vector(json, "up");
     setup.piece_in_setup = to_pose(member(json, "piece_in_setup"));
     setup.box = box(json, "box");
+    setup.spoil = not_negative(json, "spoil");
     setup.undercut = real(json, "undercut");
+    setup.undercut_by_count = real(json, "undercut_by_count");
     setup.base_mm2 = real(json, "base_mm2");
     setup.projected_area_mm2 = real(json, "projected_area_mm2");
+    setup.reach = to_reach(member(json, "reach"));
     setup.warnings = texts(json, "warnings");
     setup.block.stock = whole<std::uint16_t>(stock, "number");
     setup.block.size = vector(stock, "size");
     setup.block.is_turned = truth(stock, "turned");
+    setup.block.is_sawn = truth(stock, "sawn");
+    for (const Json& offcut : items(stock, "offcuts")) setup.block.offcuts.push_back(to_vector(offcut, "offcuts"));
     setup.block.holds = truth(stock, "holds");
     return setup;
 }
@@ -155,6 +277,11 @@ ReadJob to_job(const Json& json) {
     if (job.cell_id == 0) throw wrong("id", "is the number of no cell");
     job.half_spaces = to_half_spaces(json);
     job.setup = to_setup(member(json, "setup"), member(json, "stock"));
+    job.alternatives = to_alternatives(json);
+    job.max_unreachable = real_within(json, "max_unreachable", 0, 1);
+    if (text(json, "state") != state_word(job.setup, job.max_unreachable)) {
+        throw wrong("state", "contradicts the unreachable share and its limit");
+    }
     job.block_name = text(member(json, "stock"), "name");
     job.envelope = to_envelope(member(json, "envelope"));
     job.entries = to_entries(json);
@@ -162,6 +289,16 @@ ReadJob to_job(const Json& json) {
 }
 
 }  // namespace
+
+std::vector<Alternative> alternatives_of(const JobInput& input) {
+    std::vector<Alternative> alternatives;
+    for (const Setup& other : input.alternatives) {
+        alternatives.push_back({other.base_number, other.base_description, other.reach.method,
+                                other.reach.unreachable_share(), other.reach.foam_mm3, other.reach.residue_mm3,
+                                other.block.size, static_cast<std::uint32_t>(other.reach.directions.size())});
+    }
+    return alternatives;
+}
 
 std::string to_manifest(const JobInput& input, const std::vector<JobEntry>& entries) {
     Json files = Json::array();
@@ -185,6 +322,9 @@ std::string to_manifest(const JobInput& input, const std::vector<JobEntry>& entr
         {"half_spaces", from_half_spaces(input.piece.half_spaces)},
         {"setup", from_setup(input.setup)},
         {"stock", from_stock(input)},
+        {"alternatives", from_alternatives(alternatives_of(input))},
+        {"max_unreachable", input.max_unreachable},
+        {"state", state_word(input.setup, input.max_unreachable)},
         {"envelope", from_envelope(input.envelope)},
         {"warnings", input.warnings},
         {"files", files},

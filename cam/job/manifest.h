@@ -12,6 +12,9 @@
 
 namespace qchopper {
 
+// What the manifest and the setup sheet tell of the other ways to lay the piece.
+std::vector<Alternative> alternatives_of(const JobInput& input);
+
 // JSON text. `entries` are the other files, sorted by name. Precondition: all numbers are finite.
 std::string to_manifest(const JobInput& input, const std::vector<JobEntry>& entries);
 

@@ -1,4 +1,8 @@
-// Writes the setup sheet: what a person at the cell has to do, as plain text (tests/cam/job/job_file_test.cpp).
+// Writes the setup sheet: what a person at the cell has to do, as HTML to be read beside the pictures of
+// setup_picture.h and to be printed on A4.
+//
+// Well-formed, without scripts and without anything from elsewhere; every text is escaped
+// (tests/cam/job/setup_sheet_test.cpp).
 
 #pragma once
 
@@ -9,7 +13,8 @@
 
 namespace qchopper {
 
-// Its head says DO NOT START if the piece does not fit. The time is that of the ticket, in seconds.
+// Its head says DO NOT START if the piece does not fit, and that the job is unreachable if it is. The time is that of
+// the ticket, in seconds.
 std::string setup_sheet(const JobInput& input, std::uint32_t estimated_time_s);
 
 }  // namespace qchopper

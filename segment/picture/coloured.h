@@ -1,7 +1,9 @@
-// A mesh to be drawn, with its colour, place and name.
+// A mesh to be drawn, with its colour or those of its triangles, its place and its name.
 
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 
 #include "segment/mesh/triangle_mesh.h"
@@ -14,6 +16,9 @@ struct ColouredMesh {
     Rgb colour = bone_colour;
     Vec3 shift;             // mm, added to every point
     std::string name = {};  // written on it; empty: nothing
+    // With both, triangle t has the colour palette[colour_of[t]] in place of `colour`; both stay the caller's.
+    std::span<const Rgb> palette = {};
+    std::span<const std::uint8_t> colour_of = {};  // per triangle
 };
 
 }  // namespace qchopper

@@ -5,6 +5,7 @@
 #include "segment/picture/picture.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -210,6 +211,7 @@ void draw_labels(Pixels& pixels, const Scene& scene, const Film& film, const std
 
 Bytes render_png(const Scene& scene, const PictureOptions& options, const Context& context) {
     check(scene.meshes(), options);
+    assert(scene.has_rays() || options.ambient_rays == 0);
     context.check_cancelled();
     const Camera camera = framed(scene.meshes(), options);
     const Film film = rasterised(scene.meshes(), camera, options);
@@ -237,7 +239,7 @@ Bytes render_png(const Scene& scene, const PictureOptions& options, const Contex
 
 Bytes render_png(std::span<const ColouredMesh> meshes, const PictureOptions& options, const Context& context) {
     check(meshes, options);
-    return render_png(Scene(meshes), options, context);
+    return render_png(Scene(meshes, options.ambient_rays > 0), options, context);
 }
 
 }  // namespace qchopper

@@ -45,8 +45,9 @@ std::vector<Vec3> point_normals(const TriangleMesh& mesh) {
 
 }  // namespace
 
-Scene::Scene(std::span<const ColouredMesh> meshes)
-    : meshes_(without_nulls(meshes)), normals_(meshes_.size()), rays_(meshes_of(meshes_)) {
+Scene::Scene(std::span<const ColouredMesh> meshes, bool has_rays)
+    : meshes_(without_nulls(meshes)), normals_(meshes_.size()) {
+    if (has_rays) rays_.emplace(meshes_of(meshes_));
     first_triangle_.push_back(0);
     for (const ColouredMesh& one : meshes_)
         first_triangle_.push_back(first_triangle_.back() + one.mesh->triangles.size());
@@ -71,7 +72,7 @@ void Scene::update() {
         corners.points.push_back(box.max + one.shift);
     }
     diagonal_ = norm(bounds(corners).size());
-    rays_.place(shifts);
+    if (rays_) rays_->place(shifts);
 }
 
 Region Scene::region_of(std::uint32_t triangle) const {
@@ -85,7 +86,10 @@ SurfacePoint Scene::surface(std::uint32_t triangle, Vec3 at, Vec3 forward) const
     point.at = at;
     point.region = region_of(triangle);
     const ColouredMesh& one = meshes_[point.region.mesh];
-    const Triangle& corner = one.mesh->triangles[triangle - first_triangle_[point.region.mesh]];
+    const std::size_t t = triangle - first_triangle_[point.region.mesh];
+    assert(one.colour_of.empty() || (t < one.colour_of.size() && one.colour_of[t] < one.palette.size()));
+    if (!one.colour_of.empty()) point.colour = one.colour_of[t];
+    const Triangle& corner = one.mesh->triangles[t];
     const Vec3 p = at - one.shift;
     const std::array<Vec3, 3> to{one.mesh->points[corner[0]] - p, one.mesh->points[corner[1]] - p,
                                  one.mesh->points[corner[2]] - p};
@@ -112,8 +116,9 @@ SurfacePoint Scene::surface(std::uint32_t triangle, Vec3 at, Vec3 forward) const
 
 void Scene::distances(const SurfacePoint& point, std::span<const Vec3> directions, double far,
                       std::span<float> result) const {
+    assert(rays_);
     // Rays are single precision.
-    rays_.distances(point.at + (5e-5 * diagonal_) * point.face_normal, directions, far, result);
+    rays_->distances(point.at + (5e-5 * diagonal_) * point.face_normal, directions, far, result);
 }
 
 }  // namespace qchopper

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,12 +28,14 @@ struct SurfacePoint {
     Vec3 face_normal;  // towards the camera
     Vec3 normal;       // the same, smooth across the facets of a round surface
     Region region;
+    std::uint8_t colour = 0;  // index in the palette of the mesh; 0 without one
 };
 
 class Scene {
  public:
-    // Entries whose mesh is null count as empty. The meshes stay the caller's and must outlive the scene.
-    explicit Scene(std::span<const ColouredMesh> meshes);
+    // Entries whose mesh is null count as empty. The meshes stay the caller's and must outlive the scene. Without rays
+    // there is no ambient light (PictureOptions::ambient_rays must be 0), and the trees are not built.
+    explicit Scene(std::span<const ColouredMesh> meshes, bool has_rays = true);
 
     // Moves the meshes: one shift (mm) each, in place of those that they came with.
     void place(std::span<const Vec3> shifts);
@@ -43,9 +46,10 @@ class Scene {
     // The surface at a point of a triangle, seen along the unit vector `forward`.
     SurfacePoint surface(std::uint32_t triangle, Vec3 at, Vec3 forward) const;
     // Distances along unit directions from just above the surface to the next one; `far` where none is nearer. Sizes
-    // are equal, at most RayScene::most_rays.
+    // are equal, at most RayScene::most_rays. Precondition: has_rays().
     void distances(const SurfacePoint& point, std::span<const Vec3> directions, double far,
                    std::span<float> result) const;
+    bool has_rays() const { return rays_.has_value(); }
     double diagonal() const { return diagonal_; }  // of the box of all meshes at their places
 
  private:
@@ -54,7 +58,7 @@ class Scene {
     std::vector<ColouredMesh> meshes_;
     std::vector<std::size_t> first_triangle_;  // per mesh, and one more: the number of all triangles
     std::vector<std::vector<Vec3>> normals_;   // per mesh and point, over the triangles that no cut made
-    RayScene rays_;
+    std::optional<RayScene> rays_;
     double diagonal_ = 0;
 };
 

@@ -56,8 +56,12 @@ Shader::Shader(const Scene& scene, const Camera& camera)
       fill_(normalized(0.9 * camera.right - 0.1 * camera.up - 0.5 * camera.forward)),
       half_(normalized(key_ - camera.forward)) {
     for (const ColouredMesh& one : scene.meshes()) {
-        const Vec3 own = to_linear(one.colour);
-        surfaces_.push_back({own, {lighter(own.x), lighter(own.y), lighter(own.z)}});
+        std::vector<Surface>& own = surfaces_.emplace_back();
+        const std::span<const Rgb> colours = one.colour_of.empty() ? std::span(&one.colour, 1) : one.palette;
+        for (const Rgb colour : colours) {
+            const Vec3 scanned = to_linear(colour);
+            own.push_back({scanned, {lighter(scanned.x), lighter(scanned.y), lighter(scanned.z)}});
+        }
     }
 }
 
@@ -69,7 +73,7 @@ Vec3 Shader::colour(const SurfacePoint& point, double sky) const {
     const Vec3 light =
         sky * Vec3{0.50, 0.53, 0.60} + from_key * Vec3{0.66, 0.63, 0.57} + from_fill * Vec3{0.11, 0.12, 0.15};
     const double gloss = 0.05 * sky * to_the_24th(std::max(0.0, dot(point.normal, half_)));
-    const Surface& surface = surfaces_[point.region.mesh];
+    const Surface& surface = surfaces_[point.region.mesh][point.colour];
     return times(light, point.region.cap != no_cap ? surface.cap : surface.scanned) + Vec3{gloss, gloss, gloss};
 }
 

@@ -26,7 +26,7 @@ class Shader {
         Vec3 scanned;
         Vec3 cap;  // the same hue, lighter
     };
-    std::vector<Surface> surfaces_;  // per mesh
+    std::vector<std::vector<Surface>> surfaces_;  // per mesh and colour of its palette
     Vec3 key_;
     Vec3 fill_;
     Vec3 half_;  // between the key light and the camera

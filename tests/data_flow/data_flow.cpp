@@ -7,7 +7,8 @@
 #include <set>
 
 #include "app/cli/simulated_limits.h"
-#include "cam/job/job_file.h"
+#include "cam/job/read_job.h"
+#include "cam/job/write_job.h"
 #include "cam/setup/envelope.h"
 #include "cam/setup/setup.h"
 #include "devices/dispatch.h"

@@ -8,7 +8,7 @@
 
 #include "base/sha256.h"
 #include "base/zip.h"
-#include "cam/job/job_file.h"
+#include "cam/job/read_job.h"
 #include "tests/fuzz/demand.h"
 
 namespace qchopper {
@@ -45,6 +45,8 @@ void try_job(const Bytes& bytes) {
         }
         demand(job.ticket.piece == job.piece && job.ticket.stock == job.setup.block.size);
         demand(!job.envelope.margins.empty());
+        demand(job.max_unreachable >= 0 && job.max_unreachable <= 1);
+        demand(job.setup.reach.unreachable_mm2() >= 0);
         try {  // it was read from a text, so its own text must be readable
             demand(ticket_template_from_json(to_json(job.ticket), "fuzz") == job.ticket);
         } catch (const InputError&) {
@@ -65,10 +67,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     const std::size_t end = text.find('\0');
     const std::string manifest = end == std::string::npos ? "" : text.substr(end + 1);
-    std::map<std::string, Bytes> files{{"piece.stl", to_bytes("solid")},
-                                       {"preview.glb", to_bytes("glTF")},
-                                       {"setup.txt", to_bytes("setup")},
-                                       {"ticket.json", to_bytes(text.substr(0, end))}};
+    std::map<std::string, Bytes> files{
+        {"piece.stl", to_bytes("solid")},  {"preview.glb", to_bytes("glTF")},
+        {"setup-1.png", to_bytes("PNG")},  {"setup-2.png", to_bytes("PNG")},
+        {"setup.html", to_bytes("setup")}, {"ticket.json", to_bytes(text.substr(0, end))}};
     const std::string right = agreeing(manifest, files);
     for (const std::string& one : {manifest, right}) {
         std::map<std::string, Bytes> all = files;

@@ -4,7 +4,8 @@
 
 #include "base/file.h"
 #include "base/zip.h"
-#include "cam/job/job_file.h"
+#include "cam/job/read_job.h"
+#include "cam/job/write_job.h"
 #include "tests/fuzz/seeds.h"
 #include "tests/shapes.h"
 
@@ -29,7 +30,18 @@ JobInput some_job() {
     input.setup.base_description = "the cap of cut 4";
     input.setup.box = {{-10, -5, 0}, {10, 5, 8}};
     input.setup.block.size = {100, 60, 50};
+    input.setup.block.is_sawn = true;
+    input.setup.block.offcuts = {{200, 60, 50}};
+    input.setup.spoil = 10;
     input.setup.warnings = {"a warning"};
+    SurfaceReach& reach = input.setup.reach;
+    reach.method = ReachMethod::mapped;
+    reach.directions = {{{0, 0, 1}, 0, 0.75, 20}};
+    reach.further = SetupDirection{{0, 1, 0}, 90, 0.125, 10};
+    reach.area_mm2 = 600;
+    reach.hidden_mm2 = 30;
+    reach.foam_mm3 = 1000;
+    input.alternatives = {input.setup};
     input.envelope.margins = {{"piece in block, height", "too high", 42}};
     input.warnings = {"scaled by 0.5 on request"};
     return input;

@@ -146,6 +146,43 @@ TEST_F(OrderedJob, WithoutARecordNothingIsSentAndPrepareMakesOne) {
     EXPECT_EQ(program::run({"dry-run", "p.qch", "--piece", "C"}, {folder.path}).code, 0);
 }
 
+// All jobs are checked before the first is sent, so that of piece C, the last, stops those before it too.
+TEST_F(OrderedJob, AnUnreachableJobIsSentOnlyWhenThatIsAccepted) {
+    const auto unreachable = [](std::map<std::string, Bytes>&, Json& manifest) {
+        Json& reach = manifest["setup"]["reach"];
+        reach["area_mm2"] = 1000.0;
+        reach["hidden_mm2"] = 52.0;
+        reach["steep_mm2"] = reach["holder_mm2"] = reach["too_narrow_mm2"] = 0.0;
+        reach["unreachable_share"] = 0.052;
+        manifest["max_unreachable"] = 0.02;
+        manifest["state"] = "unreachable";
+    };
+    forge(unreachable, true);
+    const std::string words = "piece C: the tool does not reach 5.20 % of its surface, and the limit is 2.00 %";
+    program::Arguments dispatch{"dispatch", "p.qch", "--to", to, "--drop", "drop"};
+    const Ended refused = program::run(dispatch, {folder.path});
+    EXPECT_EQ(refused.code, exit_demand_broken) << refused.err;
+    EXPECT_NE(refused.err.find(words + "; pass --accept-unreachable"), std::string::npos) << refused.err;
+    EXPECT_EQ(refused.out, "no job was sent\n");
+    EXPECT_EQ(cell->err().find("CLAIM"), std::string::npos) << cell->err();
+
+    dispatch.push_back("--json");
+    const Json document = Json::parse(program::run(dispatch, {folder.path}).out);
+    EXPECT_EQ(document["schema"], "qchopper-dispatch-1");
+    EXPECT_EQ(document["all_complete"], false);
+    EXPECT_EQ(document["jobs"].size(), 0U);
+    EXPECT_EQ(document["refused"].size(), 1U);
+
+    const Ended dry = program::run({"dry-run", "p.qch", "--piece", "C"}, {folder.path});
+    EXPECT_EQ(dry.code, 0) << dry.err;
+    EXPECT_NE(dry.err.find("warning: " + words), std::string::npos) << dry.err;
+
+    dispatch.back() = "--accept-unreachable";
+    const Ended accepted = program::run(dispatch, {folder.path});
+    EXPECT_EQ(accepted.code, 0) << accepted.err;
+    EXPECT_NE(accepted.out.find("all 3 jobs ended complete"), std::string::npos) << accepted.out;
+}
+
 // A pipe without a writer never gives a byte, a device has no end.
 TEST_F(OrderedJob, OnlyRegularFilesAreRead) {
     for (const fs::path& file : {job, project / "project.json", project / "cell.toml"}) {

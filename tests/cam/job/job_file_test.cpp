@@ -1,5 +1,5 @@
-#include "cam/job/job_file.h"
-#include "cam/job/setup_sheet.h"
+#include "cam/job/read_job.h"
+#include "cam/job/write_job.h"
 
 #include <gtest/gtest.h>
 
@@ -31,15 +31,8 @@ std::string refusal(const Bytes& bytes) {
     return "taken";
 }
 
-// The job file with one of its files changed; if it is not the manifest, the manifest is made to agree.
-Bytes forged(const std::string& name, const std::function<void(nlohmann::ordered_json&)>& change) {
-    static const std::map<std::string, Bytes> sound = unzip(job_file(some_job()), "AB.qjob");
-    std::map<std::string, Bytes> files = sound;
-    auto json = nlohmann::ordered_json::parse(text_of(files[name]));
-    change(json);
-    const std::string text = json.dump(2) + "\n";
-    files[name] = {text.begin(), text.end()};
-    if (name == "manifest.json") return zip(files);
+// Packed, after the sizes and hashes in the manifest are made to agree.
+Bytes agreeing(std::map<std::string, Bytes> files) {
     auto manifest = nlohmann::ordered_json::parse(text_of(files["manifest.json"]));
     for (auto& entry : manifest["files"]) {
         const Bytes& bytes = files[entry["name"].get<std::string>()];
@@ -49,6 +42,24 @@ Bytes forged(const std::string& name, const std::function<void(nlohmann::ordered
     const std::string listed = manifest.dump(2) + "\n";
     files["manifest.json"] = {listed.begin(), listed.end()};
     return zip(files);
+}
+
+// With a few bytes in place of each picture, which no reader looks into: quicker to hash.
+Bytes small_job_file(const JobInput& input) {
+    std::map<std::string, Bytes> files = unzip(job_file(input), "AB.qjob");
+    for (const char* name : {"setup-1.png", "setup-2.png"}) files[name] = {0x89, 'P', 'N', 'G'};
+    return agreeing(std::move(files));
+}
+
+// The job file with one of its files changed; if it is not the manifest, the manifest is made to agree.
+Bytes forged(const std::string& name, const std::function<void(nlohmann::ordered_json&)>& change) {
+    static const std::map<std::string, Bytes> sound = unzip(small_job_file(tilting_job(3)), "AB.qjob");
+    std::map<std::string, Bytes> files = sound;
+    auto json = nlohmann::ordered_json::parse(text_of(files[name]));
+    change(json);
+    const std::string text = json.dump(2) + "\n";
+    files[name] = {text.begin(), text.end()};
+    return name == "manifest.json" ? zip(files) : agreeing(std::move(files));
 }
 
 TEST(Job, SameInputSameBytesWhateverTimeAndTimeZone) {
@@ -83,8 +94,49 @@ TEST(Job, WhatIsReadIsWhatWasWritten) {
     EXPECT_EQ(job.ticket, ticket_template(input));
     EXPECT_EQ(job.file_size, bytes.size());
     EXPECT_EQ(job.file_sha256, sha256(bytes));
-    ASSERT_EQ(job.entries.size(), 4U);
-    for (const JobEntry& entry : job.entries) EXPECT_EQ(entry.sha256, sha256(job.files.at(entry.name)));
+    std::vector<std::string> names;
+    for (const JobEntry& entry : job.entries) {
+        names.push_back(entry.name);
+        EXPECT_EQ(entry.sha256, sha256(job.files.at(entry.name)));
+    }
+    const std::vector<std::string> listed{"piece.stl",   "preview.glb", "setup-1.png",
+                                          "setup-2.png", "setup.html",  "ticket.json"};
+    EXPECT_EQ(names, listed);
+}
+
+TEST(Job, WhatTheToolReachesIsReadBack) {
+    JobInput input = tilting_job();
+    const ReadJob job = parse_job(job_file(input), "AB.qjob");
+    EXPECT_EQ(job.setup, input.setup);
+    EXPECT_TRUE(job.setup.reach.further);
+    EXPECT_EQ(job.max_unreachable, 0.02);
+    EXPECT_TRUE(is_unreachable(job.setup, job.max_unreachable));
+    const std::vector<Alternative> others{
+        {1, "without a cap, lying on its side", ReachMethod::mapped, 0.225, 12345, 890, {58, 56, 44}, 2},
+        {3, "without a cap, lying on its side", ReachMethod::sampled, 0.225, 12345, 890, {58, 56, 44}, 2}};
+    EXPECT_EQ(job.alternatives, others);
+    const auto manifest = nlohmann::json::parse(text_of(job.files.at("manifest.json")));
+    EXPECT_EQ(manifest["schema"], 3);
+    EXPECT_EQ(manifest["state"], "unreachable");
+    EXPECT_EQ(manifest["setup"]["reach"]["method"], "mapped");
+    EXPECT_EQ(manifest["setup"]["reach"]["unreachable_share"], 0.05);
+}
+
+TEST(Job, AShareAtTheLimitIsReady) {
+    JobInput input = tilting_job(3);
+    input.max_unreachable = input.setup.reach.unreachable_share();
+    const ReadJob job = parse_job(job_file(input), "AB.qjob");
+    EXPECT_EQ(nlohmann::json::parse(text_of(job.files.at("manifest.json")))["state"], "ready");
+    EXPECT_FALSE(is_unreachable(job.setup, job.max_unreachable));
+}
+
+TEST(Job, WhatDoesNotCountDoesNotMakeItUnreachable) {
+    SurfaceReach reach = some_reach(some_job(3));
+    EXPECT_EQ(reach.unreachable_mm2(), 100);
+    reach.steep_counts = false;
+    EXPECT_EQ(reach.unreachable_mm2(), 80);
+    reach.narrow_counts = true;
+    EXPECT_EQ(reach.unreachable_mm2(), 124);
 }
 
 TEST(Job, ThePieceLiesInTheFileAsInTheSetup) {
@@ -125,23 +177,8 @@ TEST(Job, TheEstimateIsFoamOverRemovalRate) {
     EXPECT_EQ(ticket_template(input).estimated_time_s, static_cast<std::uint32_t>(foam / 24000) + 1);
 }
 
-TEST(Job, TheSheetSaysWhatToDo) {
-    JobInput input = some_job();
-    const std::string sheet = setup_sheet(input, ticket_template(input).estimated_time_s);
-    for (const char* word :
-         {"piece AB (2 of 5)", "block \"small\" (eps), 100 x 60 x 50 mm", "the cap of cut 4",
-          "Number 1, ball, diameter 20.0 mm", "scaled by 0.5 on request", "piece in block, height"}) {
-        EXPECT_NE(sheet.find(word), std::string::npos) << word << "\n" << sheet;
-    }
-    EXPECT_EQ(sheet.find("DO NOT START"), std::string::npos);
-    input.envelope.margins[0].mm = -12;
-    EXPECT_NE(setup_sheet(input, ticket_template(input).estimated_time_s)
-                  .find("DO NOT START: piece AB does not fit: 12 mm too long"),
-              std::string::npos);
-}
-
 TEST(Job, ACutOffFileIsRefusedAtEveryLength) {
-    const Bytes bytes = job_file(some_job(3));
+    const Bytes bytes = small_job_file(some_job(3));
     for (std::size_t length = 0; length < bytes.size(); length += 1 + length / 300) {
         EXPECT_NE(refusal(Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length))), "taken")
             << length;
@@ -150,7 +187,7 @@ TEST(Job, ACutOffFileIsRefusedAtEveryLength) {
 
 // Dates and rights too: what does not describe the job has only one form.
 TEST(Job, EveryDamagedByteIsFound) {
-    const Bytes bytes = job_file(some_job(3));
+    const Bytes bytes = small_job_file(some_job(3));
     std::mt19937 random(3);
     for (std::size_t at = 0; at < bytes.size(); at += 1 + random() % 5) {
         Bytes damaged = bytes;
@@ -171,10 +208,10 @@ TEST(Job, TheTextsInsideHaveOneForm) {
     const auto compact = [](const std::string& text) { return nlohmann::ordered_json::parse(text).dump(); };
     EXPECT_NE(with(compact).find("the one form"), std::string::npos) << with(compact);
     EXPECT_NE(with([](const std::string& text) { return text + " "; }).find("the one form"), std::string::npos);
-    const auto twice = [](const std::string& text) { return "{\n  \"schema\": 2," + text.substr(1); };
+    const auto twice = [](const std::string& text) { return "{\n  \"schema\": 3," + text.substr(1); };
     EXPECT_NE(with(twice).find("the one form"), std::string::npos) << with(twice);
     const auto huge = [](std::string text) {
-        return text.replace(text.find("\"schema\": 2"), 11, "\"schema\": 1e999");
+        return text.replace(text.find("\"schema\": 3"), 11, "\"schema\": 1e999");
     };
     EXPECT_NE(with(huge).find("out of range"), std::string::npos) << with(huge);
     const auto deep = [](const std::string&) { return std::string(5'000'000, '['); };
@@ -205,7 +242,7 @@ TEST(Job, AnyValueOfAnotherKindEndsInOneWay) {
 TEST(Job, ForgedManifestsAreRefusedAndSayWhere) {
     using Json = nlohmann::ordered_json;
     const std::vector<std::pair<std::function<void(Json&)>, std::string>> cases{
-        {[](Json& j) { j["schema"] = 1; }, "schema 1 is not 2"},
+        {[](Json& j) { j["schema"] = 2; }, "schema 2 is not 3"},
         {[](Json& j) { j["format"] = "other"; }, "format"},
         {[](Json& j) { j.erase("piece"); }, "piece is missing"},
         {[](Json& j) { j["piece"]["number"] = 70000; }, "number is not a whole number"},
@@ -226,6 +263,23 @@ TEST(Job, ForgedManifestsAreRefusedAndSayWhere) {
          "max is not three numbers"},
         {[](Json& j) { j["setup"]["box"]["max"][0] = 1; }, "different jobs"},
         {[](Json& j) { j["envelope"]["fits"] = false; }, "contradicts"},
+        {[](Json& j) { j["state"] = "ready"; }, "state contradicts the unreachable share and its limit"},
+        {[](Json& j) { j["state"] = "maybe"; }, "state contradicts the unreachable share and its limit"},
+        {[](Json& j) { j["max_unreachable"] = 0.9; }, "state contradicts the unreachable share and its limit"},
+        {[](Json& j) { j["max_unreachable"] = 1.5; }, "max_unreachable"},
+        {[](Json& j) { j["setup"]["reach"]["hidden_mm2"] = 1; }, "unreachable_share is not that of the areas"},
+        {[](Json& j) { j["setup"]["reach"]["hidden_mm2"] = -1; }, "hidden_mm2"},
+        {[](Json& j) { j["setup"]["reach"]["method"] = "guessed"; }, "method is neither sampled nor mapped"},
+        {[](Json& j) {
+             j["setup"]["reach"]["directions"][1]["out"] = {1, 2, 3};
+         },
+         "out is not of length 1"},
+        {[](Json& j) { j["setup"]["reach"]["further"].erase("tilt_deg"); }, "tilt_deg is missing"},
+        {[](Json& j) { j["setup"]["reach"].erase("further"); }, "further is missing"},
+        {[](Json& j) { j["setup"].erase("base_number"); }, "base_number is missing"},
+        {[](Json& j) { j["setup"]["spoil"] = -1; }, "spoil"},
+        {[](Json& j) { j["stock"]["offcuts"][0] = 3; }, "offcuts is not three numbers"},
+        {[](Json& j) { j["alternatives"][0]["base_number"] = -1; }, "base_number is not a whole number"},
         {[](Json& j) { j["envelope"]["margins"] = Json::array(); }, "margins is empty"},
         {[](Json& j) { j["files"][0]["sha256"] = std::string(64, '0'); }, "piece.stl does not match its SHA-256"},
         {[](Json& j) { j["files"][0]["size"] = 1; }, "piece.stl has another size"},

@@ -5,7 +5,8 @@
 
 #include <cmath>
 
-#include "cam/job/job_file.h"
+#include "cam/job/read_job.h"
+#include "cam/job/write_job.h"
 #include "tests/cam/job/some_job.h"
 
 namespace qchopper {

@@ -1,7 +1,9 @@
-// A job for the tests of this folder: half a ball on its cap.
+// Jobs for the tests of this folder: half a ball on its cap, in a cell of each version. What the tool reaches is
+// written down, not computed.
 
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include "cam/job/job.h"
@@ -23,6 +25,72 @@ inline JobInput some_job(int rings = 8) {
     input.setup = choose_setup(input.piece, input.cell).setups.front();
     input.envelope = check_envelope(input.setup, input.cell);
     input.warnings = {"scaled by 0.5 on request"};
+    return input;
+}
+
+inline SurfaceReach some_reach(const JobInput& input) {
+    SurfaceReach reach;
+    reach.method = ReachMethod::mapped;
+    const double s = std::sqrt(0.5);
+    reach.directions = {{input.setup.up, 0, 0.75, 21.5},
+                        {rotate_inverse(input.setup.piece_in_setup, {0, s, s}), 45, 0.125, 30.25}};
+    reach.further = SetupDirection{rotate_inverse(input.setup.piece_in_setup, {-1, 0, 0}), 90, 0.01, 12};
+    reach.area_mm2 = 2000;
+    reach.hidden_mm2 = 50;
+    reach.steep_mm2 = 20;
+    reach.holder_mm2 = 30;
+    reach.too_narrow_mm2 = 44;
+    reach.all_directions_share = 0.0125;
+    reach.foam_mm3 = 12345;
+    reach.foam_depth_mm = 6.7;
+    reach.residue_mm3 = 890;
+    return reach;
+}
+
+// In a cell of version 2, from a block that is sawn, with a spoil layer: 5 % of the surface are out of reach, and the
+// limit is 2 %.
+inline JobInput tilting_job(int rings = 8) {
+    JobInput input = some_job(rings);
+    CellMachine machine;
+    CarvingTool long_ball;
+    long_ball.number = 1;
+    long_ball.name = "long ball";
+    long_ball.diameter = 20;
+    long_ball.corner_radius = 10;
+    long_ball.stick_out = 180;
+    long_ball.is_length_measured = true;
+    long_ball.rpm_max = 18000;
+    long_ball.feed_max_mm_per_s = 150;
+    CarvingTool fine = long_ball;
+    fine.number = 7;
+    fine.name = "fine <cone>";
+    fine.shape = ToolShape::cone;
+    fine.diameter = 6;
+    fine.stick_out = 92.5;
+    fine.is_length_measured = false;
+    machine.tools = {long_ball, fine};
+    input.cell.machine = machine;
+    input.cell.stock[1].is_sawn = true;
+    input.cell.stock[1].kerf = 3;
+    Setup& setup = input.setup;
+    setup.base_number = 2;
+    setup.spoil = 12;
+    setup.undercut_by_count = 0.0625;
+    setup.block = {1, false, true, {58, 56, 44}, true, {{339, 300, 60}, {58, 241, 60}, {58, 56, 13}}};
+    setup.reach = some_reach(input);
+    input.states.resize(input.piece.mesh->triangles.size());
+    for (std::size_t t = 0; t < input.states.size(); ++t) {
+        const Vec3 at = apply(setup.piece_in_setup, corners_of(*input.piece.mesh, t)[0]);
+        input.states[t] = static_cast<SurfaceState>(static_cast<int>(3 + std::floor(std::atan2(at.y, at.x))) % 5);
+    }
+    Setup other = setup;
+    other.base_number = 1;
+    other.base_description = "without a cap, lying on its side";
+    other.reach.hidden_mm2 = 400;
+    input.alternatives = {other};
+    other.base_number = 3;
+    other.reach.method = ReachMethod::sampled;
+    input.alternatives.push_back(other);
     return input;
 }
 

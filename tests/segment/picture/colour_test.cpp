@@ -1,56 +1,15 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "segment/picture/picture.h"
+#include "tests/segment/picture/eyes.h"
 
 namespace qchopper {
 namespace {
 
-using Matrix = std::array<std::array<double, 3>, 3>;
-using Triple = std::array<double, 3>;
-
-double linear(std::uint8_t value) {
-    const double s = value / 255.0;
-    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-}
-
-double root(double t) {
-    return t > 0.008856 ? std::cbrt(t) : 7.787 * t + 16.0 / 116;
-}
-
-Triple times(const Matrix& m, Triple v) {
-    Triple out{};
-    for (int i = 0; i < 3; ++i) {
-        for (int k = 0; k < 3; ++k) out[i] += m[i][k] * v[k];
-    }
-    return out;
-}
-
-// CIE L*a*b* of the colour as an eye sees it.
-Triple perceived(Rgb colour, const Matrix& eye) {
-    Triple light = times(eye, {linear(colour.r), linear(colour.g), linear(colour.b)});
-    for (double& channel : light) channel = std::clamp(channel, 0.0, 1.0);
-    const Triple xyz = times({{{0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}}}, light);
-    const double y = root(xyz[1]);
-    return {116 * y - 16, 500 * (root(xyz[0] / 0.9505) - y), 200 * (y - root(xyz[2] / 1.089))};
-}
-
-// Eyes after Vienot, Brettel and Mollon (1999): all cones, without red ones, without green ones.
-constexpr std::array<Matrix, 3> eyes{{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
-                                      {{{0.11238, 0.88762, 0}, {0.11238, 0.88762, 0}, {0.00401, -0.00401, 1}}},
-                                      {{{0.29275, 0.70725, 0}, {0.29275, 0.70725, 0}, {-0.02234, 0.02234, 1}}}}};
-
 TEST(Palette, TwelveColoursStayApartForEveryEye) {
-    for (const Matrix& eye : eyes) {
-        for (std::size_t i = 0; i < 12; ++i) {
-            for (std::size_t k = 0; k < i; ++k) {
-                const Triple a = perceived(piece_colour(i), eye);
-                const Triple b = perceived(piece_colour(k), eye);
-                EXPECT_GT(std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]), 20) << i << " and " << k;
-            }
+    for (std::size_t i = 0; i < 12; ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            EXPECT_GT(eyes::distance(piece_colour(i), piece_colour(k)), 20) << i << " and " << k;
         }
     }
 }

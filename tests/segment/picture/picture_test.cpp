@@ -141,6 +141,37 @@ TEST(Picture, ADarkLineRunsAlongTheBorderOfAPiece) {
     EXPECT_GT(brightness(without.at(80, 60)), 0.9 * brightness(without.at(60, 60)));
 }
 
+TEST(Picture, TrianglesMayHaveColoursOfTheirOwn) {
+    const TriangleMesh mesh = shapes::ball({0, 0, 0}, 10);
+    const std::array<Rgb, 3> palette{{{200, 30, 20}, {20, 160, 40}, {30, 60, 210}}};
+    std::vector<std::uint8_t> colour_of(mesh.triangles.size(), 1);
+    const ColouredMesh plain{&mesh, palette[1], {}};
+    ColouredMesh of_triangles{&mesh, palette[2], {}};
+    of_triangles.palette = palette;
+    of_triangles.colour_of = colour_of;
+    EXPECT_EQ(render_png({{of_triangles}}, small()), render_png({{plain}}, small())) << "all of the same colour";
+    for (std::size_t t = 0; t < colour_of.size(); ++t) colour_of[t] = corners_of(mesh, t)[0].z > 1 ? 0 : 1;
+    const Picture picture = decode(render_png({{of_triangles}}, small()));
+    std::size_t reddish = 0;
+    std::size_t greenish = 0;
+    for (const Rgb pixel : picture.pixels) {
+        reddish += pixel.r > pixel.g + 60 ? 1 : 0;
+        greenish += pixel.g > pixel.r + 60 ? 1 : 0;
+    }
+    EXPECT_GT(reddish, 100U);
+    EXPECT_GT(greenish, 100U);
+}
+
+TEST(Picture, WithoutAmbientLightNoRaysAreNeeded) {
+    const TriangleMesh mesh = shapes::ball({0, 0, 0}, 10);
+    const std::vector<ColouredMesh> meshes{{&mesh, bone_colour, {}}};
+    PictureOptions options = small();
+    options.ambient_rays = 0;
+    const Scene scene(meshes, false);
+    EXPECT_FALSE(scene.has_rays());
+    EXPECT_EQ(render_png(scene, options), render_png(Scene(meshes), options));
+}
+
 TEST(Picture, SameBytesForAnyNumberOfThreads) {
     const TriangleMesh torus = shapes::torus({0, 0, 0}, 20, 6, 48);
     const std::vector<ColouredMesh> scene{{&torus, red, {}}, {&torus, blue, {0, 0, 20}}};

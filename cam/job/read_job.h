@@ -1,7 +1,7 @@
-// Writes and reads the job file of one piece: all that the cell and the workshop need, in one ZIP named <piece>.qjob.
+// Reads the job file of one piece: all that the cell and the workshop need, in one ZIP named <piece>.qjob.
 //
-// Same input, same bytes: no time and no random number goes in. Reading checks the form, the schema, and every size and
-// SHA-256 (tests/cam/job/job_file_test.cpp). docs/job-folder.md holds the grammar.
+// Checked are the form, the schema, and every size and SHA-256 (tests/cam/job/job_file_test.cpp). docs/job-folder.md
+// holds the grammar; write_job.h writes it. Needs neither rays nor pictures.
 
 #pragma once
 
@@ -15,13 +15,6 @@ namespace qchopper {
 
 // "<piece>.qjob". Throws InputError (use) if the name does not fit the wire (is_portable_name).
 std::string job_file_name(const std::string& piece);
-
-// The whole file. Throws InputError (use) if the name does not fit the wire, the number of the base's cut does not fit
-// the ticket, or the file would exceed job_limit.
-Bytes job_file(const JobInput& input);
-
-// The template that goes into the job file. Throws InputError (use) if the number of the base's cut does not fit it.
-TicketTemplate ticket_template(const JobInput& input);
 
 // The bytes of a job file (job_limit). Throws InputError: missing if it cannot be read, mesh if it is too large.
 Bytes read_job(const std::filesystem::path& path);

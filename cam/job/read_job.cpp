@@ -1,16 +1,13 @@
-// Packs by base/zip.h; every entry is hashed once when it is written and once when it is read. O(bytes), with the files
-// and the archive in memory.
+// Unpacks by base/zip.h and hashes every entry once. O(bytes), with the archive and the files in memory.
 
-#include "cam/job/job_file.h"
+#include "cam/job/read_job.h"
+
+#include <array>
 
 #include "base/error.h"
 #include "base/portable_name.h"
 #include "base/zip.h"
 #include "cam/job/manifest.h"
-#include "cam/job/preview.h"
-#include "cam/job/setup_sheet.h"
-#include "segment/io/write_stl.h"
-#include "segment/mesh/transform.h"
 
 namespace qchopper {
 namespace {
@@ -19,21 +16,8 @@ constexpr std::uint64_t largest_text = 16u << 20;  // of manifest and ticket, wh
 constexpr const char* manifest_name = "manifest.json";
 constexpr const char* ticket_name = "ticket.json";
 
-Bytes to_bytes(const std::string& text) {
-    return {text.begin(), text.end()};
-}
-
 std::string_view as_text(const Bytes& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-std::uint16_t base_plane(const JobInput& input) {
-    if (!input.setup.base) return no_base_plane;
-    if (*input.setup.base < 0 || *input.setup.base >= no_base_plane) {
-        throw InputError(InputFault::use, "piece " + input.piece.name + ": cut " + std::to_string(*input.setup.base) +
-                                              " has no place in a ticket, which counts up to 65534");
-    }
-    return static_cast<std::uint16_t>(*input.setup.base);
 }
 
 [[noreturn]] void refuse(const std::string& source, const std::string& why) {
@@ -51,7 +35,8 @@ void check_entries(const ReadJob& job, const std::string& source) {
             refuse(source, entry.name + " has another size than the manifest lists");
         if (sha256(found->second) != entry.sha256) refuse(source, entry.name + " does not match its SHA-256");
     }
-    for (const char* name : {"piece.stl", "preview.glb", "setup.txt", ticket_name}) {
+    constexpr std::array names{"piece.stl", "preview.glb", "setup-1.png", "setup-2.png", "setup.html", ticket_name};
+    for (const char* name : names) {
         if (!job.files.contains(name)) refuse(source, std::string(name) + " is missing");
     }
 }
@@ -74,54 +59,6 @@ std::string job_file_name(const std::string& piece) {
                          "use up to 27 of A-Z a-z 0-9 . _ -");
     }
     return name;
-}
-
-TicketTemplate ticket_template(const JobInput& input) {
-    const Vec3 block = input.setup.block.size;
-    const Tool& tool = input.cell.tool;
-    TicketTemplate about;
-    about.piece = input.piece.name;
-    about.piece_no = input.piece_no;
-    about.piece_count = input.piece_count;
-    about.project_id = input.project_id;
-    about.box = input.setup.box;
-    about.stock = block;
-    about.material = input.cell.stock[input.setup.block.stock].material;
-    about.tool_no = tool.number;
-    about.tool_diameter = tool.diameter;
-    about.spindle_max_rpm = tool.spindle_max_rpm;
-    about.feed_max_mm_per_min = tool.feed_max_mm_per_min;
-    about.estimated_time_s =
-        crude_time_s(block.x * block.y * block.z, volume_mm3(*input.piece.mesh), tool.removal_mm3_per_s);
-    about.base_plane = base_plane(input);
-    return about;
-}
-
-Bytes job_file(const JobInput& input) {
-    job_file_name(input.piece.name);  // throws if the name does not fit the wire
-    const PreviewNotes notes{input.piece.name,  input.program_version,         input.piece_no,
-                             input.piece_count, input.setup.base.value_or(-1), input.envelope.fits()};
-    std::map<std::string, Bytes> files;
-    {
-        const TriangleMesh lying = apply(input.setup.piece_in_setup, *input.piece.mesh);
-        files["preview.glb"] = preview_glb(lying, notes);
-        files["piece.stl"] = to_stl(lying);
-    }
-    const TicketTemplate ticket = ticket_template(input);
-    files["setup.txt"] = to_bytes(setup_sheet(input, ticket.estimated_time_s));
-    files[ticket_name] = to_bytes(to_json(ticket));
-    std::vector<JobEntry> entries;
-    std::uint64_t total = 0;
-    for (const auto& [name, bytes] : files) {
-        entries.push_back({name, bytes.size(), sha256(bytes)});
-        total += bytes.size();
-    }
-    if (total > job_limit.bytes - largest_text) {
-        throw InputError(InputFault::use, "piece " + input.piece.name + ": its job file would exceed 4 GB",
-                         "cut the piece further");
-    }
-    files[manifest_name] = to_bytes(to_manifest(input, entries));
-    return zip(std::move(files));
 }
 
 ReadJob parse_job(const Bytes& bytes, const std::string& source) {

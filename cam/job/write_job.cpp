@@ -1,0 +1,90 @@
+// Packs by base/zip.h and hashes every entry once. O(bytes), with the files and the archive in memory; besides, two
+// pictures are drawn (setup_picture.cpp).
+
+#include "cam/job/write_job.h"
+
+#include "base/error.h"
+#include "base/zip.h"
+#include "cam/job/manifest.h"
+#include "cam/job/preview.h"
+#include "cam/job/read_job.h"
+#include "cam/job/setup_picture.h"
+#include "cam/job/setup_sheet.h"
+#include "segment/io/write_stl.h"
+#include "segment/mesh/measure.h"
+#include "segment/mesh/transform.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::uint64_t largest_manifest = 16u << 20;  // bytes; it has kilobytes
+constexpr const char* manifest_name = "manifest.json";
+constexpr const char* ticket_name = "ticket.json";
+
+Bytes to_bytes(const std::string& text) {
+    return {text.begin(), text.end()};
+}
+
+std::uint16_t base_plane(const JobInput& input) {
+    if (!input.setup.base) return no_base_plane;
+    if (*input.setup.base < 0 || *input.setup.base >= no_base_plane) {
+        throw InputError(InputFault::use, "piece " + input.piece.name + ": cut " + std::to_string(*input.setup.base) +
+                                              " has no place in a ticket, which counts up to 65534");
+    }
+    return static_cast<std::uint16_t>(*input.setup.base);
+}
+
+}  // namespace
+
+TicketTemplate ticket_template(const JobInput& input) {
+    const Vec3 block = input.setup.block.size;
+    const Tool& tool = input.cell.tool;
+    TicketTemplate about;
+    about.piece = input.piece.name;
+    about.piece_no = input.piece_no;
+    about.piece_count = input.piece_count;
+    about.project_id = input.project_id;
+    about.box = input.setup.box;
+    about.stock = block;
+    about.material = input.cell.stock[input.setup.block.stock].material;
+    about.tool_no = tool.number;
+    about.tool_diameter = tool.diameter;
+    about.spindle_max_rpm = tool.spindle_max_rpm;
+    about.feed_max_mm_per_min = tool.feed_max_mm_per_min;
+    about.estimated_time_s =
+        crude_time_s(block.x * block.y * block.z, volume_mm3(*input.piece.mesh), tool.removal_mm3_per_s);
+    about.base_plane = base_plane(input);
+    return about;
+}
+
+Bytes job_file(const JobInput& input) {
+    job_file_name(input.piece.name);  // throws if the name does not fit the wire
+    const PreviewNotes notes{input.piece.name,  input.program_version,         input.piece_no,
+                             input.piece_count, input.setup.base.value_or(-1), input.envelope.fits()};
+    std::map<std::string, Bytes> files;
+    {
+        const TriangleMesh lying = apply(input.setup.piece_in_setup, *input.piece.mesh);
+        files["preview.glb"] = preview_glb(lying, notes);
+        files["piece.stl"] = to_stl(lying);
+        const SetupPictures pictures = setup_pictures(input, lying);
+        files["setup-1.png"] = pictures.front;
+        files["setup-2.png"] = pictures.back;
+    }
+    const TicketTemplate ticket = ticket_template(input);
+    files["setup.html"] = to_bytes(setup_sheet(input, ticket.estimated_time_s));
+    files[ticket_name] = to_bytes(to_json(ticket));
+    std::vector<JobEntry> entries;
+    std::uint64_t total = 0;
+    for (const auto& [name, bytes] : files) {
+        entries.push_back({name, bytes.size(), sha256(bytes)});
+        total += bytes.size();
+    }
+    if (total > job_limit.bytes - largest_manifest) {
+        throw InputError(InputFault::use, "piece " + input.piece.name + ": its job file would exceed 4 GB",
+                         "cut the piece further");
+    }
+    files[manifest_name] = to_bytes(to_manifest(input, entries));
+    return zip(std::move(files));
+}
+
+}  // namespace qchopper

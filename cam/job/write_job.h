@@ -1,0 +1,20 @@
+// Writes the job file of one piece: all that the cell and the workshop need, in one ZIP named <piece>.qjob.
+//
+// Same input, same bytes: no time and no random number goes in, and no number of threads
+// (tests/cam/job/job_file_test.cpp). docs/job-folder.md holds the grammar; read_job.h reads it.
+
+#pragma once
+
+#include "base/file.h"
+#include "cam/job/job.h"
+
+namespace qchopper {
+
+// The whole file. Throws InputError (use) if the name does not fit the wire, the number of the base's cut does not fit
+// the ticket, or the file would exceed job_limit.
+Bytes job_file(const JobInput& input);
+
+// The template that goes into the job file. Throws InputError (use) if the number of the base's cut does not fit it.
+TicketTemplate ticket_template(const JobInput& input);
+
+}  // namespace qchopper
