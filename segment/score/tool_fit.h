@@ -18,8 +18,9 @@ namespace qchopper {
 
 // A scan is a surface of flat triangles with noise: beside every concave edge a ball that had to touch p exactly would
 // not fit, however shallow the edge. What a ball may leave on p lets edges pass at which the surface turns by up to
-// acos(1 - lift / r), 10 degrees for a radius of 3 mm; and a slot whose walls are 2 r apart less this much. Not a share
-// of r: then a larger ball could fit where a smaller one does not.
+// acos(r / (r + lift)), 10 degrees for a radius of 3 mm; in return a slot fits only from a width of 2 r + lift. Of a CT
+// scan with triangles 0.5 mm long a ball of 1.5 mm misses 35 % of the surface without it, 13 % with it, and 11 % with
+// four times as much. Not a share of r: then a larger ball could fit where a smaller one does not.
 constexpr double default_lift_mm = 0.05;
 
 struct BallFit {
