@@ -95,6 +95,29 @@ double squared_distance(const FloatBox& box, Vec3 p) {
     return sum;
 }
 
+// The same in single precision, for many boxes: its error is for the caller to allow for.
+float squared_distance(const FloatBox& box, const std::array<float, 3>& p) {
+    float sum = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float out = std::max(std::max(box.min[axis] - p[axis], p[axis] - box.max[axis]), 0.0F);
+        sum += out * out;
+    }
+    return sum;
+}
+
+// A squared distance that squared_distance in single precision does not reach for a box that is nearer to p than
+// `distance`. Corners, p and differences are rounded by at most 6e-8 of the largest coordinate each, and the squares
+// and their sum by that share of themselves.
+float squared_limit(const FloatBox& all, const std::array<float, 3>& p, double distance) {
+    double largest = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float of_axis = std::max({std::abs(all.min[axis]), std::abs(all.max[axis]), std::abs(p[axis])});
+        largest = std::max(largest, double{of_axis});
+    }
+    const double wider = distance + 1e-6 * (largest + distance);
+    return static_cast<float>(wider * wider);
+}
+
 }  // namespace
 
 TriangleTree::TriangleTree(const TriangleMesh& mesh) {
@@ -165,6 +188,41 @@ TriangleTree::Nearest TriangleTree::nearest(const TriangleMesh& mesh, Vec3 p, do
         if (near.squared < best_squared) stack[height++] = near;
     }
     return best;
+}
+
+bool TriangleTree::is_any_nearer(const TriangleMesh& mesh, Vec3 p, double distance,
+                                 const std::vector<bool>& is_left_out) const {
+    if (leaves == 0) return false;
+    const double limit = distance * distance;
+    const std::array<float, 3> at = box_of({p, p, p}).min;
+    const float box_limit = squared_limit(of_node[1], at, distance);
+    std::array<std::size_t, 64> stack;
+    std::size_t height = 0;
+    stack[height++] = 1;
+    while (height > 0) {
+        const std::size_t node = stack[--height];
+        if (node >= leaves) {
+            const std::size_t end = std::min(order.size(), (node - leaves + 1) * per_leaf);
+            for (std::size_t place = (node - leaves) * per_leaf; place < end; ++place) {
+                if (squared_distance(of_triangle[place], at) > box_limit) continue;  // spares a look at its corners
+                if (!is_left_out.empty() && is_left_out[order[place]]) continue;
+                const Vec3 away = closest_on_triangle(p, corners_of(mesh, order[place])) - p;
+                if (dot(away, away) < limit) return true;
+            }
+            continue;
+        }
+        std::size_t near = 2 * node;
+        std::size_t far = 2 * node + 1;
+        float to_near = squared_distance(of_node[near], at);
+        float to_far = squared_distance(of_node[far], at);
+        if (to_far < to_near) {
+            std::swap(near, far);
+            std::swap(to_near, to_far);
+        }
+        if (to_far <= box_limit) stack[height++] = far;
+        if (to_near <= box_limit) stack[height++] = near;
+    }
+    return false;
 }
 
 Vec3 closest_on_triangle(Vec3 p, const std::array<Vec3, 3>& triangle) {

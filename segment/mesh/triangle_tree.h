@@ -71,6 +71,11 @@ struct TriangleTree {
     // the tree was built from.
     Nearest nearest(const TriangleMesh& mesh, Vec3 p, double enough = 0) const;
 
+    // Whether the surface is somewhere nearer to p than `distance`; `mesh` as above. Triangles of which is_left_out is
+    // true (one per triangle, or empty) are passed over.
+    bool is_any_nearer(const TriangleMesh& mesh, Vec3 p, double distance,
+                       const std::vector<bool>& is_left_out = {}) const;
+
  private:
     template <class Enter, class Visit>
     void descend(const Enter& enter, const Visit& visit) const {

@@ -9,36 +9,23 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "segment/score/up_column.h"
 
 namespace qchopper {
 namespace {
 
 constexpr std::size_t samples_at_once = 256;
-constexpr double faces_away = -1e-9;
+constexpr double turned_away = -1e-9;  // the cosine between a cap that faces away and the direction is below this
 
-const SurfaceSample& sample_of(const JudgedPiece& piece, std::size_t row) {
-    return piece.scan.samples.sample[piece.accessibility.sample[row]];
-}
+}  // namespace
 
-// Distances along `up`: of the table, or of rays cast for it.
-struct UpColumn {
-    UpColumn(const JudgedPiece& piece, Vec3 up)
-        : accessibility(piece.accessibility), direction(index_of(piece.scan.directions, up)) {
-        if (direction == piece.scan.directions.size()) cast = PieceRays(piece.scan, accessibility).distances(up);
-    }
-    bool is_open(std::size_t row) const {
-        return cast.empty() ? accessibility.is_open(row, direction) : std::isinf(cast[row]);
-    }
-    const PieceAccessibility& accessibility;
-    std::size_t direction;
-    std::vector<float> cast;
-};
-
-bool is_cap_of(const OwnedCap& cap, const TiltBase& base) {
+bool is_base(const OwnedCap& cap, const TiltBase& base) {
     return base.cut && cap.cut == *base.cut;
 }
 
-}  // namespace
+bool faces_away(const OwnedCap& cap, Vec3 direction) {
+    return dot(cap.outward, direction) < turned_away;
+}
 
 std::vector<OwnedCap> owned_caps(const Piece& piece) {
     std::vector<OwnedCap> caps;
@@ -62,15 +49,15 @@ double JudgedPiece::area_mm2() const {
 
 double JudgedPiece::area_without_base_mm2(TiltBase base) const {
     double area = area_mm2();
-    for (const OwnedCap& cap : caps) area -= is_cap_of(cap, base) ? cap.area_mm2 : 0;
+    for (const OwnedCap& cap : caps) area -= is_base(cap, base) ? cap.area_mm2 : 0;
     return area;
 }
 
 double projected_area_mm2(const JudgedPiece& piece, Vec3 up) {
-    const UpColumn column(piece, up);
+    const UpColumn column(piece.scan, piece.accessibility, up);
     double sum = 0;
     for (std::size_t row = 0; row < piece.accessibility.sample.size(); ++row) {
-        if (column.is_open(row)) sum += dot(sample_of(piece, row).normal, up);
+        if (column.is_open(row)) sum += dot(piece.sample(row).normal, up);
     }
     return piece.scan.samples.area_each_mm2 * sum;
 }
@@ -89,7 +76,7 @@ UnreachableArea unreachable_area(const JudgedPiece& piece, const TiltBase& base,
     const std::vector<Vec3>& directions = piece.scan.directions;
     const std::vector<std::uint32_t> allowed = allowed_directions(directions, base.up, tilt_deg);
     const std::vector<std::uint32_t> allowed_further = allowed_directions(further, base.up, tilt_deg);
-    const UpColumn up(piece, base.up);
+    const UpColumn up(piece.scan, piece.accessibility, base.up);
     std::optional<PieceRays> rays;
     if (!allowed_further.empty()) rays.emplace(piece.scan, piece.accessibility);
     std::atomic<std::size_t> hidden = 0;
@@ -100,7 +87,7 @@ UnreachableArea unreachable_area(const JudgedPiece& piece, const TiltBase& base,
         if (up.is_open(row) || std::any_of(allowed.begin(), allowed.end(), is_open) ||
             std::any_of(allowed_further.begin(), allowed_further.end(), is_open_further))
             return;
-        const Vec3 normal = sample_of(piece, row).normal;
+        const Vec3 normal = piece.sample(row).normal;
         const auto is_steep = [&](Vec3 d) { return std::abs(dot(normal, d)) < least_facing; };
         const auto is_steep_to = [&](std::uint32_t k) { return is_steep(directions[k]); };
         if (is_steep(base.up) || std::any_of(allowed.begin(), allowed.end(), is_steep_to))
@@ -115,10 +102,9 @@ UnreachableArea unreachable_area(const JudgedPiece& piece, const TiltBase& base,
     result.hidden_mm2 = piece.scan.samples.area_each_mm2 * static_cast<double>(hidden);
     result.steep_mm2 = piece.scan.samples.area_each_mm2 * static_cast<double>(steep);
     for (const OwnedCap& cap : piece.caps) {
-        const auto faces_away_from = [&](Vec3 d) { return dot(cap.outward, d) < faces_away; };
-        const auto faces_away_from_direction = [&](std::uint32_t k) { return faces_away_from(directions[k]); };
-        if (!is_cap_of(cap, base) && faces_away_from(base.up) &&
-            std::all_of(allowed.begin(), allowed.end(), faces_away_from_direction))
+        const auto faces_away_from = [&](std::uint32_t k) { return faces_away(cap, directions[k]); };
+        if (!is_base(cap, base) && faces_away(cap, base.up) &&
+            std::all_of(allowed.begin(), allowed.end(), faces_away_from))
             result.caps_mm2 += cap.area_mm2;
     }
     return result;

@@ -31,6 +31,12 @@ struct TiltBase {
     std::optional<std::int32_t> cut;
 };
 
+// Whether the cap is the base. It lies on the table then, and counts as no surface.
+bool is_base(const OwnedCap& cap, const TiltBase& base);
+// Whether a tool that comes out along the direction (a unit vector) does not reach the cap. Caps are flat and hide
+// nothing of themselves: they need no rays.
+bool faces_away(const OwnedCap& cap, Vec3 direction);
+
 // The vertical walls of a piece are no undercut for a tool that hardly tilts: below this tilt steep surface does not
 // count.
 constexpr double steep_counts_from_deg = 15;
@@ -51,6 +57,7 @@ struct JudgedPiece {
     const SampledScan& scan;
     const PieceAccessibility& accessibility;
     std::span<const OwnedCap> caps;
+    const SurfaceSample& sample(std::size_t row) const { return scan.samples.sample[accessibility.sample[row]]; }
     double area_mm2() const;                            // its samples and its caps
     double area_without_base_mm2(TiltBase base) const;  // what shares of a piece are taken of
 };

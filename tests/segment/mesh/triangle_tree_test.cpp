@@ -57,6 +57,36 @@ TEST(TriangleTree, FindsTheNearestPoint) {
     }
 }
 
+TEST(TriangleTree, KnowsWhetherAnythingIsNearer) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> place(-12, 12);
+    for (const Vec3 by : {Vec3{}, Vec3{1e6, 1e6, 1e6}}) {
+        for (const shapes::Named& shape : shapes::all_closed()) {
+            const TriangleMesh mesh = shapes::moved(shape.mesh, by);
+            const TriangleTree tree(mesh);
+            std::vector<bool> is_left_out;
+            for (std::size_t t = 0; t < mesh.triangles.size(); ++t) is_left_out.push_back(random() % 3 == 0);
+            for (int i = 0; i < 30; ++i) {
+                const Vec3 p = by + Vec3{place(random), place(random), place(random)};
+                for (const std::vector<bool>& left_out : {std::vector<bool>(), is_left_out}) {
+                    double nearest = std::numeric_limits<double>::infinity();
+                    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+                        if (!left_out.empty() && left_out[t]) continue;
+                        nearest = std::min(nearest, norm(closest_on_triangle(p, corners_of(mesh, t)) - p));
+                    }
+                    for (const double share : {0.0, 0.5, 1 - 1e-12}) {
+                        EXPECT_FALSE(tree.is_any_nearer(mesh, p, share * nearest, left_out)) << shape.name;
+                    }
+                    for (const double share : {1 + 1e-12, 1.5, 100.0}) {
+                        EXPECT_TRUE(tree.is_any_nearer(mesh, p, share * nearest, left_out)) << shape.name;
+                    }
+                }
+            }
+        }
+    }
+    EXPECT_FALSE(TriangleTree(TriangleMesh{}).is_any_nearer({}, {}, 1));
+}
+
 // No point of a fine grid of the triangle is nearer than the closest one.
 TEST(TriangleTree, ClosestPointOfATriangleIsClosest) {
     std::mt19937 random(3);

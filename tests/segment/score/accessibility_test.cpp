@@ -37,7 +37,7 @@ std::ostream& operator<<(std::ostream& out, const Comparison& c) {
                << " wrong of samples on a plane; " << c.states << " states, " << c.wrong_states << " wrong";
 }
 
-Comparison compare(const SampledScan& scan, const SampledPiece& piece) {
+Comparison compare(const SampledScan& scan, const TrackedPiece& piece) {
     Comparison result;
     const CutPieceReference reference(scan, piece);
     std::vector<Vec3> ups{{0, 0, 1}};
@@ -85,8 +85,8 @@ struct Cuts {
 Cuts compare_cuts(const TriangleMesh& mesh, std::size_t samples, int cuts, std::mt19937& random) {
     Cuts result;
     const SampledScan scan = sampled(mesh, samples);
-    std::vector<SampledPiece> pieces = uncut_pieces(scan);
-    for (const SampledPiece& piece : pieces) result.two_solids += compare(scan, piece);
+    std::vector<TrackedPiece> pieces = uncut_pieces(scan);
+    for (const TrackedPiece& piece : pieces) result.two_solids += compare(scan, piece);
     std::uniform_real_distribution<double> share(0.1, 0.9);
     for (std::int32_t number = 1; number <= cuts; ++number) {
         const Vec3 normal = number % 3 == 0 ? canonical({scan.directions[random() % scan.directions.size()], 0}).normal
@@ -126,7 +126,7 @@ TEST(Accessibility, EqualsRaysCastOnReallyCutPiecesOfABone) {
 TEST(Accessibility, AfterAFullRecastSeveralSolidsOnOneSideDoNotBlockEachOther) {
     TriangleMesh mesh = shapes::torus({0, 0, 0}, 40, 12);
     const SampledScan scan = sampled(mesh, 2'000);
-    std::vector<SampledPiece> pieces = uncut_pieces(scan);
+    std::vector<TrackedPiece> pieces = uncut_pieces(scan);
     const PieceAccessibility whole = pieces[0].accessibility;
     ASSERT_EQ(cut_at(scan, pieces, 0, {1, 0, 0}, 0.5, 1), 2U);
     ASSERT_EQ(cut_at(scan, pieces, 0, {1, 0, 0}, 0.3, 2), 3U);
@@ -134,7 +134,7 @@ TEST(Accessibility, AfterAFullRecastSeveralSolidsOnOneSideDoNotBlockEachOther) {
     Comparison all;
     std::size_t open_before = 0;
     std::size_t open_now = 0;
-    for (const SampledPiece& piece : pieces) {
+    for (const TrackedPiece& piece : pieces) {
         all += compare(scan, piece);
         for (std::size_t row = 0; row < piece.accessibility.sample.size(); ++row) {
             for (std::size_t k = 0; k < scan.directions.size(); ++k) {
@@ -159,9 +159,9 @@ TEST(Accessibility, EqualsRaysCastAfterCutsFlushWithFlatRegions) {
             const Plane flat = canonical(
                 {normalized(area_vector(mesh, t)), dot(normalized(area_vector(mesh, t)), corners_of(mesh, t)[0])});
             for (const double beside : {-1e-6, -3e-8, -1e-9, 1e-9, 3e-8, 1e-6}) {
-                std::vector<SampledPiece> pieces = uncut_pieces(scan);
+                std::vector<TrackedPiece> pieces = uncut_pieces(scan);
                 cut_along(scan, pieces, 0, {flat.normal, flat.offset + beside * extent}, 1);
-                for (const SampledPiece& piece : pieces) {
+                for (const TrackedPiece& piece : pieces) {
                     if (!piece.piece.half_spaces.empty()) all += compare(scan, piece);
                 }
             }
@@ -176,10 +176,10 @@ TEST(Accessibility, OfADirectionBesideTheOthersIsCastOnThePiece) {
     std::size_t open = 0;
     for (const auto& [name, mesh, solids] : shapes::all_closed()) {
         const SampledScan scan = sampled(mesh, 200);
-        std::vector<SampledPiece> pieces = uncut_pieces(scan);
+        std::vector<TrackedPiece> pieces = uncut_pieces(scan);
         for (std::int32_t number = 1; number <= 3; ++number)
             cut_at(scan, pieces, 0, random_normal(random), 0.45, number);
-        for (const SampledPiece& piece : pieces) {
+        for (const TrackedPiece& piece : pieces) {
             const PieceRays rays(scan, piece.accessibility);
             const CutPieceReference reference(scan, piece);
             for (int i = 0; i < 10; ++i) {
@@ -201,7 +201,7 @@ TEST(Accessibility, OfADirectionBesideTheOthersIsCastOnThePiece) {
 TEST(Accessibility, DistancesAreThoseToTheFirstSurface) {
     for (const auto& [name, mesh, solids] : shapes::all_closed()) {
         const SampledScan scan = sampled(mesh, 60);
-        for (const SampledPiece& piece : uncut_pieces(scan)) {
+        for (const TrackedPiece& piece : uncut_pieces(scan)) {
             for (std::size_t row = 0; row < piece.accessibility.sample.size(); ++row) {
                 const SurfaceSample& sample = scan.samples.sample[piece.accessibility.sample[row]];
                 for (std::size_t k = row % 7; k < scan.directions.size(); k += 7) {
@@ -226,7 +226,7 @@ TEST(Accessibility, AnotherSolidDoesNotBlock) {
     const TriangleMesh mesh =
         shapes::joined({shapes::box({0, 0, 0}, {10, 10, 10}), shapes::box({-50, -50, 11}, {50, 50, 20})});
     const SampledScan scan = sampled(mesh, 4'000);
-    for (const SampledPiece& piece : uncut_pieces(scan)) {
+    for (const TrackedPiece& piece : uncut_pieces(scan)) {
         for (std::size_t row = 0; row < piece.accessibility.sample.size(); ++row) {
             const Vec3 normal = scan.samples.sample[piece.accessibility.sample[row]].normal;
             EXPECT_TRUE(piece.accessibility.is_open(row, index_of(scan.directions, normal)));
@@ -255,11 +255,11 @@ TEST(Accessibility, ARayThatMeetsABackFaceFirstIsBlockedAtOnce) {
 
 std::vector<float> all_distances(const TriangleMesh& mesh, PreciseRays::Instructions instructions) {
     const SampledScan scan = sampled(mesh, 2'000, instructions);
-    std::vector<SampledPiece> pieces = uncut_pieces(scan);
+    std::vector<TrackedPiece> pieces = uncut_pieces(scan);
     cut_at(scan, pieces, 0, canonical({normalized({1, 2, -0.3}), 0}).normal, 0.45, 1);
     cut_at(scan, pieces, 0, {0, 0, 1}, 0.5, 2);
     std::vector<float> all;
-    for (const SampledPiece& piece : pieces) {
+    for (const TrackedPiece& piece : pieces) {
         all.insert(all.end(), piece.accessibility.distance.begin(), piece.accessibility.distance.end());
     }
     return all;

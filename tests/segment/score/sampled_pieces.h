@@ -21,7 +21,7 @@
 
 namespace qchopper {
 
-struct SampledPiece {
+struct TrackedPiece {
     Piece piece;
     PieceAccessibility accessibility;
 };
@@ -40,8 +40,8 @@ inline SampledScan sampled(const TriangleMesh& mesh, std::size_t samples,
     return sampled_scan(pieces_of_solids(mesh), tool_directions(oriented_box(mesh.points).axis), options);
 }
 
-inline std::vector<SampledPiece> uncut_pieces(const SampledScan& scan) {
-    std::vector<SampledPiece> pieces;
+inline std::vector<TrackedPiece> uncut_pieces(const SampledScan& scan) {
+    std::vector<TrackedPiece> pieces;
     for (PieceAccessibility& a : uncut_accessibility(scan)) {
         Piece piece;
         piece.mesh = scan.solid[a.solid];
@@ -51,9 +51,9 @@ inline std::vector<SampledPiece> uncut_pieces(const SampledScan& scan) {
 }
 
 // Replaces pieces[which] by what a plane makes of it. Returns how many pieces it makes; 0 if the plane misses.
-inline std::size_t cut_along(const SampledScan& scan, std::vector<SampledPiece>& pieces, std::size_t which,
+inline std::size_t cut_along(const SampledScan& scan, std::vector<TrackedPiece>& pieces, std::size_t which,
                              const Plane& plane, std::int32_t number) {
-    const SampledPiece parent = pieces[which];
+    const TrackedPiece parent = pieces[which];
     const auto made = cut_piece(parent.piece, plane, number);
     if (!made) return 0;
     std::vector<PieceAccessibility> accessibility = cut_accessibility(scan, parent.accessibility, *made);
@@ -65,7 +65,7 @@ inline std::size_t cut_along(const SampledScan& scan, std::vector<SampledPiece>&
 }
 
 // The same along a plane at this share of the piece's extent, nudged.
-inline std::size_t cut_at(const SampledScan& scan, std::vector<SampledPiece>& pieces, std::size_t which, Vec3 normal,
+inline std::size_t cut_at(const SampledScan& scan, std::vector<TrackedPiece>& pieces, std::size_t which, Vec3 normal,
                           double share, std::int32_t number) {
     const Piece& parent = pieces[which].piece;
     const Extent range = extent(*parent.mesh, normal);
@@ -99,7 +99,7 @@ inline double brute_force_distance(const TriangleMesh& mesh, Vec3 origin, Vec3 d
 // Whether samples of a piece are open, from the mesh of the cut piece alone.
 class CutPieceReference {
  public:
-    CutPieceReference(const SampledScan& scan, const SampledPiece& piece)
+    CutPieceReference(const SampledScan& scan, const TrackedPiece& piece)
         : scan_(scan), piece_(piece), tree_(*piece.piece.mesh) {}
     // In single precision; where that is not `expected`, all triangles are tried in double precision.
     bool is_open(std::size_t row, Vec3 direction, bool expected) const {
@@ -119,7 +119,7 @@ class CutPieceReference {
 
  private:
     const SampledScan& scan_;
-    const SampledPiece& piece_;
+    const TrackedPiece& piece_;
     RayTree tree_;
 };
 

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <string>
 
-#include "segment/cut/ear_clipping.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
 #include "segment/sample/sample.h"
+#include "tests/segment/score/extruded.h"
 #include "tests/segment/score/sampled_pieces.h"
 #include "tests/shapes.h"
 
@@ -17,27 +17,6 @@ namespace qchopper {
 namespace {
 
 constexpr std::array<Vec3, 3> world{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-
-// A polygon in x and z, extruded along y.
-TriangleMesh extruded(const std::vector<Point2>& outline, double y0, double y1) {
-    TriangleMesh mesh;
-    const auto n = static_cast<std::uint32_t>(outline.size());
-    Loop loop;
-    for (const double y : {y0, y1}) {
-        for (const Point2& p : outline) mesh.points.push_back({p.x, y, p.y});
-    }
-    for (std::uint32_t i = 0; i < n; ++i) {
-        const std::uint32_t j = (i + 1) % n;
-        loop.push_back(i);
-        mesh.triangles.push_back({i, n + i, n + j});
-        mesh.triangles.push_back({i, n + j, j});
-    }
-    for (const auto& [a, b, c] : clip_ears(outline, loop, {})) {
-        mesh.triangles.push_back({a, b, c});
-        mesh.triangles.push_back({n + a, n + c, n + b});
-    }
-    return mesh;
-}
 
 // All of a piece that unreachable_area asks for.
 struct Whole {
@@ -47,24 +26,24 @@ struct Whole {
         cut_at(scan, pieces, 0, canonical({normalized(normal), 0}).normal, share, ++cuts);
     }
     SampledScan scan;
-    std::vector<SampledPiece> pieces;
+    std::vector<TrackedPiece> pieces;
     std::int32_t cuts = 0;
 };
 
-UnreachableArea area_of(const SampledScan& scan, const SampledPiece& piece, const TiltBase& base, double tilt,
+UnreachableArea area_of(const SampledScan& scan, const TrackedPiece& piece, const TiltBase& base, double tilt,
                         std::span<const Vec3> further = {}) {
     const std::vector<OwnedCap> caps = owned_caps(piece.piece);
     return unreachable_area({scan, piece.accessibility, caps}, base, tilt, further);
 }
 
-TiltBase base_of(const SampledPiece& piece) {
+TiltBase base_of(const TrackedPiece& piece) {
     const HalfSpace& last = piece.piece.half_spaces.back();
     return {last.up(), last.cut};
 }
 
 // Share of the slot's floor that is open along some of the directions within the tilt of z.
 double open_floor(const Whole& slot, std::span<const Vec3> directions, double tilt) {
-    const SampledPiece& piece = slot.pieces[0];
+    const TrackedPiece& piece = slot.pieces[0];
     const PieceRays rays(slot.scan, piece.accessibility);
     std::size_t all = 0;
     std::size_t open = 0;
@@ -118,7 +97,7 @@ TEST(Unreachable, AConvexSolidHidesOnlyWhatFacesDown) {
             Whole whole(mesh, 3'000);
             whole.cut(normal, 0.45);
             ASSERT_EQ(whole.pieces.size(), 2U);
-            for (const SampledPiece& piece : whole.pieces) {
+            for (const TrackedPiece& piece : whole.pieces) {
                 const TiltBase base = base_of(piece);
                 const std::vector<std::uint32_t> allowed = allowed_directions(whole.scan.directions, base.up, 90);
                 std::size_t hidden = 0;
@@ -143,7 +122,7 @@ TEST(Unreachable, GrowingTheTiltNeverMakesItLarger) {
         const double rounding = 1e-6 * whole.scan.samples.area_each_mm2;
         whole.cut(random_normal(random), 0.4);
         whole.cut(random_normal(random), 0.6);
-        for (const SampledPiece& piece : whole.pieces) {
+        for (const TrackedPiece& piece : whole.pieces) {
             for (const HalfSpace& half_space : piece.piece.half_spaces) {
                 double before = std::numeric_limits<double>::infinity();
                 double dense_before = before;
@@ -180,11 +159,11 @@ TEST(Unreachable, TurningModelPlanesAndDirectionsTogetherChangesNothing) {
         for (const double tilt : {0.0, 30.0, 60.0, 90.0}) {
             double before = 0;
             double after = 0;
-            for (const SampledPiece& piece : upright.pieces) {
+            for (const TrackedPiece& piece : upright.pieces) {
                 if (piece.piece.half_spaces.empty()) continue;
                 before += area_of(upright.scan, piece, base_of(piece), tilt).total_mm2(90);
             }
-            for (const SampledPiece& piece : other.pieces) {
+            for (const TrackedPiece& piece : other.pieces) {
                 if (piece.piece.half_spaces.empty()) continue;
                 after += area_of(other.scan, piece, base_of(piece), tilt).total_mm2(90);
             }
@@ -205,7 +184,7 @@ TEST(Unreachable, EqualsTheReferenceOnReallyCutPieces) {
         Whole whole(mesh, 500);
         whole.cut(random_normal(random), 0.4);
         whole.cut(random_normal(random), 0.6);
-        for (const SampledPiece& piece : whole.pieces) {
+        for (const TrackedPiece& piece : whole.pieces) {
             const CutPieceReference reference(whole.scan, piece);
             const TiltBase base = base_of(piece);
             for (const double tilt : {0.0, 30.0, 60.0, 90.0}) {
@@ -239,7 +218,7 @@ TEST(Unreachable, EqualsTheReferenceOnReallyCutPieces) {
 TEST(Unreachable, VerticalWallsAreSteepAndCountFrom15Degrees) {
     Whole box(shapes::box({0, 0, 0}, {40, 40, 40}), 3'000);
     box.cut({0, 0, 1}, 0.5);
-    for (const SampledPiece& piece : box.pieces) {
+    for (const TrackedPiece& piece : box.pieces) {
         const UnreachableArea straight = area_of(box.scan, piece, base_of(piece), 0);
         EXPECT_NEAR(straight.steep_mm2, 4 * 40 * 20, 100);
         EXPECT_EQ(straight.hidden_mm2, 0);
@@ -268,7 +247,7 @@ TEST(Unreachable, AnUpBesideTheDirectionsIsCast) {
 
 TEST(Unreachable, CapsThatFaceAwayFromAllDirectionsCount) {
     Whole box(shapes::box({0, 0, 0}, {40, 40, 40}), 3'000);
-    const auto cap_area = [](const SampledPiece& piece, std::int32_t cut) {
+    const auto cap_area = [](const TrackedPiece& piece, std::int32_t cut) {
         for (const OwnedCap& cap : owned_caps(piece.piece)) {
             if (cap.cut == cut) return cap.area_mm2;
         }
@@ -278,7 +257,7 @@ TEST(Unreachable, CapsThatFaceAwayFromAllDirectionsCount) {
     box.cut({1, 0, 1}, 0.5);  // of the part above: a slope that faces down on one side, up on the other
     ASSERT_EQ(box.pieces.size(), 3U);
     int facing_down = 0;
-    for (const SampledPiece& piece : box.pieces) {
+    for (const TrackedPiece& piece : box.pieces) {
         if (piece.piece.half_spaces.size() != 2 || cap_area(piece, 1) == 0 || cap_area(piece, 2) == 0) continue;
         const HalfSpace& first = piece.piece.half_spaces[0];
         const HalfSpace& second = piece.piece.half_spaces[1];
@@ -296,8 +275,8 @@ TEST(Unreachable, ASmallCapIsNoBase) {
     Whole pyramid(shapes::pyramid({0, 0, 0}, 20, 50), 3'000);
     pyramid.cut({0, 0, 1}, 0.9);
     ASSERT_EQ(pyramid.pieces.size(), 2U);
-    const SampledPiece& tip = pyramid.pieces[0];
-    const SampledPiece& stump = pyramid.pieces[1];
+    const TrackedPiece& tip = pyramid.pieces[0];
+    const TrackedPiece& stump = pyramid.pieces[1];
     const std::vector<OwnedCap> tip_caps = owned_caps(tip.piece);
     const std::vector<OwnedCap> stump_caps = owned_caps(stump.piece);
     ASSERT_EQ(tip_caps.size(), 1U);
