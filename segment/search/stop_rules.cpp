@@ -50,7 +50,7 @@ StopJudge::StopJudge(StopRules rules, PieceChecks checks, std::function<Vec3(con
     if (rules.max_obb) {
         piece_rules_.push_back(
             {[limit = *rules.max_obb, size = box_size](const Piece& p) { return fits_in(size(p), limit); },
-             [limit = *rules.max_obb, size = box_size](const Piece& p) {
+             [limit = *rules.max_obb, size = std::move(box_size)](const Piece& p) {
                  return "a box of " + lengths(size(p)) + " mm (" + lengths(limit) + " mm may be)";
              }});
     }
