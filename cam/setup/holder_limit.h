@@ -1,6 +1,7 @@
 // How deep the tip of a tool may go until holder or spindle touch the piece or come below the top of the spoil layer.
 //
-// mm. The piece alone is in the way: foam that other directions remove is taken as removed.
+// mm. The piece alone is in the way: foam that other directions remove is taken as removed. Below its surface in the
+// map it is taken as solid, so that under an overhang the limit is on the safe side.
 
 #pragma once
 

@@ -50,7 +50,7 @@ float height_above(const HeightMap& map, Vec3 point) {
     const Vec3 p = apply(map.piece_in_map, point);
     const double column = p.x / map.cell;
     const double row = p.y / map.cell;
-    if (column < 0 || row < 0) return 0;
+    if (!(column >= 0) || !(row >= 0)) return 0;  // beside it, or the triangle has no normal
     const auto c = static_cast<std::size_t>(column);
     const auto r = static_cast<std::size_t>(row);
     if (c >= map.columns || r >= map.rows) return 0;
@@ -94,6 +94,7 @@ class Depths {
     Depths(double most, double area) : bin_(most / static_cast<double>(bins)), unit_(area / units) {}
 
     void add(double depth, double area) {
+        if (!(depth > 0)) depth = 0;
         const auto bin = std::min(bins - 1, static_cast<std::size_t>(depth / bin_));
         units_in_[bin].fetch_add(static_cast<std::uint64_t>(area / unit_), std::memory_order_relaxed);
     }
@@ -103,7 +104,7 @@ class Depths {
         std::uint64_t all = 0;
         for (const auto& some : units_in_) all += some.load();
         std::uint64_t beyond = 0;
-        for (std::size_t bin = bins; bin > 0; --bin) {
+        for (std::size_t bin = bins; bin > 1; --bin) {
             beyond += units_in_[bin - 1].load();
             if (beyond > all / 10'000) return static_cast<double>(bin) * bin_;
         }
@@ -123,13 +124,11 @@ struct StateSums {
     double hidden = 0;
     double steep = 0;
     double holder = 0;
-    double foam_depth = 0;
     void add(const StateSums& other) {
         area += other.area;
         hidden += other.hidden;
         steep += other.steep;
         holder += other.holder;
-        foam_depth = std::max(foam_depth, other.foam_depth);
     }
 };
 
@@ -141,9 +140,8 @@ class Reaching {
                 }).area;
     }
 
-    // What is in sight of a direction, by its map.
-    void join_seen(const HeightMap& map) {
-        const std::vector<float> seen = reached_share(mesh_, map);
+    // What is in sight of a direction: its map, and of each triangle the share.
+    void join_seen(const HeightMap& map, const std::vector<float>& seen) {
         const Vec3 out = map.direction();
         parallel_ranges(0, surfaces_.size(), triangles_at_once, [&](std::size_t first, std::size_t end) {
             for (std::size_t t = first; t < end; ++t) {
@@ -158,8 +156,7 @@ class Reaching {
     }
 
     // What it reaches, by its map after raise_to_holder_limit().
-    SetupDirection join_reached(const HeightMap& map) {
-        const std::vector<float> reached = reached_share(mesh_, map);
+    SetupDirection join_reached(const HeightMap& map, const std::vector<float>& reached) {
         SetupDirection direction;
         direction.out = map.direction();
         direction.tilt_deg = std::acos(std::clamp(dot(direction.out, setup_.up), -1.0, 1.0)) * 180 / std::numbers::pi;
@@ -183,6 +180,7 @@ class Reaching {
 
     void finish(MappedReach& result) const {
         result.states.assign(surfaces_.size(), SurfaceState::reached);
+        Depths depths(norm(bounds(mesh_).size()), area_);
         const StateSums sums = summed<StateSums>(surfaces_.size(), [&](StateSums& block, std::size_t t) {
             if (is_base(t)) return;
             const Surface& surface = surfaces_[t];
@@ -196,14 +194,14 @@ class Reaching {
                                : surface.is_steep ? SurfaceState::steep
                                                   : SurfaceState::hidden;
             if (holder < unseen && surface.seen == 0) {
-                block.foam_depth = std::max(block.foam_depth, static_cast<double>(surface.foam));
+                depths.add(static_cast<double>(surface.foam), area);
             }
         });
         result.reach.area_mm2 = area_;
         result.reach.hidden_mm2 = sums.hidden;
         result.reach.steep_mm2 = sums.steep;
         result.reach.holder_mm2 = sums.holder;
-        result.reach.foam_depth_mm = sums.foam_depth;
+        result.reach.foam_depth_mm = depths.largest();
     }
 
  private:
@@ -270,11 +268,14 @@ MappedReach mapped_reach(const MappedSetup& setup, const MapOptions& options) {
     MappedReach result;
     for (const Vec3& out : setup.directions) {
         HeightMap map = height_map(mesh, out, cell);
-        reaching.join_seen(map);
+        std::vector<float> share = reached_share(mesh, map);
+        reaching.join_seen(map, share);
         if (foam) foam->carve(map);
         if (foam_after_ball) carve_with_ball(*foam_after_ball, map, setup.smallest_ball_radius);
-        if (setup.tool) raise_to_holder_limit(map, *setup.tool, setup.piece_in_setup);
-        result.reach.directions.push_back(reaching.join_reached(map));
+        if (setup.tool && raise_to_holder_limit(map, *setup.tool, setup.piece_in_setup)) {
+            share = reached_share(mesh, map);
+        }
+        result.reach.directions.push_back(reaching.join_reached(map, share));
     }
     reaching.finish(result);
     result.reach.method = ReachMethod::mapped;

@@ -50,7 +50,8 @@ struct MappedReach {
 // spindle are not asked. Its volume is that of points on a grid (foam_points.h): its standard deviation is about half
 // a grid step times the square root of the area that bounds the foam times the step, its bias at most half a cell of
 // the map times the area that is steep to the directions. Its depth is measured from a cell's width above hidden
-// surface, and holds the parts of the piece that lie over it. The residue is measured on cells of between a seventh and
+// surface, and holds the parts of the piece that lie over it; it is right to 1/4096 of the diagonal of the piece's box,
+// and the deepest ten-thousandth of that surface is left out. The residue is measured on cells of between a seventh and
 // two thirds of the radius: with the latter a fifth of a corner's is missed, and none is found of a radius below two
 // cells of the map.
 //

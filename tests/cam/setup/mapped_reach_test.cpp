@@ -78,6 +78,16 @@ TEST(MappedReach, ABoxIsReachedFromAboveButForItsSteepWalls) {
     EXPECT_LT(reach_of(setup).reach.unreachable_share(), 1e-9);
 }
 
+TEST(MappedReach, TrianglesWithoutAreaChangeNothing) {
+    TriangleMesh mesh =
+        cell_solid({0, 30, 90}, {0, 35, 70}, {0, 10, 50, 65}, [](Vec3 p) { return p.z < 10 || p.x < 30 || p.z > 50; });
+    const MappedReach before = reach_of(standing(mesh));
+    mesh.triangles.push_back({0, 0, 1});
+    mesh.triangles.push_back({0, 1, 0});
+    mesh.cap_of.insert(mesh.cap_of.end(), 2, no_cap);
+    EXPECT_EQ(reach_of(standing(mesh)).reach, before.reach);
+}
+
 // Share of a horizontal slot's floor: carve, invariants.
 TEST(MappedReach, ASlotIsReachedAsFarAsTheTiltLooksIn) {
     constexpr double deep = 30;
@@ -163,7 +173,7 @@ TEST(MappedReach, FoamUnderAShelfHasItsVolume) {
     const SurfaceReach from_above = reach_of(setup, 0.5, 1U << 20U).reach;
     const double under = 60 * 70 * 40;
     EXPECT_NEAR(from_above.foam_mm3, under, 0.01 * under);
-    EXPECT_NEAR(from_above.foam_depth_mm, 65 - 10 - 0.5, 1e-3) << "the shelf is counted with it";
+    EXPECT_NEAR(from_above.foam_depth_mm, 65 - 10 - 0.5, 0.04) << "the shelf is counted with it";
     EXPECT_NEAR(from_above.hidden_mm2, 2 * 60 * 70, 1e-6) << "the floor and the shelf's underside";
     // A horizontal tool takes all of it out, one of 45 degrees what lies above its lowest line of sight.
     setup.directions = {{0, 0, 1}, {1, 0, 0}};
@@ -245,6 +255,7 @@ TEST(MappedReach, TurningEverythingTogetherChangesNothing) {
     EXPECT_NEAR(after.steep_mm2, before.steep_mm2, 0.001 * before.area_mm2);
     EXPECT_NEAR(after.foam_mm3, before.foam_mm3, 0.03 * before.foam_mm3);
     EXPECT_NEAR(after.residue_mm3, before.residue_mm3, 0.05 * before.residue_mm3);
+    EXPECT_NEAR(after.foam_depth_mm, before.foam_depth_mm, 5);
     EXPECT_GT(before.holder_mm2, 0);
     for (std::size_t i = 0; i < before.directions.size(); ++i) {
         EXPECT_NEAR(after.directions[i].gained_share, before.directions[i].gained_share, 0.003);
@@ -351,7 +362,7 @@ TEST(MappedReach, HolderAgreesWithALoopOverTheVertices) {
             if (found.states[t] == SurfaceState::holder) by_map += area;
         }
         EXPECT_GT(by_loop, 0.01 * all);
-        EXPECT_NEAR(by_map / all, by_loop / all, 0.01);
+        EXPECT_NEAR(by_map / all, by_loop / all, 0.005) << "of the area";
     }
 }
 
