@@ -176,7 +176,7 @@ std::string place_section(const JobInput& input) {
                       " mm. The underside must lie flat on the table.");
     const Vec3 origin{input.cell.table.centre_x, input.cell.table.centre_y, input.cell.table.height + setup.spoil};
     html += paragraph(
-        "Base frame of the program: its origin lies under the middle of the block at the height of the piece's base, " +
+        "Base frame of the program: its origin lies on the vertical through the middle of the block, at the height of the piece's base, " +
         fixed(setup.spoil, 1) + " mm above the table, its axes along those of the cell, z up. In the cell it is at (" +
         fixed(origin.x, 1) + ", " + fixed(origin.y, 1) + ", " + fixed(origin.z, 1) + ").");
     html += paragraph(
