@@ -146,7 +146,7 @@ std::string keys_of(const JobInput& input) {
     }
     if (input.setup.base) add(base_colour, "base");
     if (html.empty()) return {};
-    return "<p>" + html + "; what the words mean is said under 7.</p>\n";
+    return "<p>" + html + (input.states.empty() ? "" : "; what the words mean is said under 7") + ".</p>\n";
 }
 
 std::string pictures(const JobInput& input) {
@@ -273,7 +273,10 @@ std::vector<Entry> direction_row(const Setup& setup, const std::string& name, co
 
 std::string direction_section(const JobInput& input) {
     const SurfaceReach& reach = input.setup.reach;
-    if (reach.directions.empty()) return section("6. Directions", paragraph("None was chosen."));
+    const std::string arm = paragraph(reach.is_arm_checked ? "Arm checked: it holds the tool in all these directions."
+                                                           : "Arm not checked: whether it holds the tool in these "
+                                                             "directions is not known.");
+    if (reach.directions.empty()) return section("6. Directions", paragraph("None was chosen.") + arm);
     Rows rows{{word("direction"), right("tilt, degrees"), right("azimuth, degrees"), right("surface gained, %"),
                right("depth")}};
     for (std::size_t i = 0; i < reach.directions.size(); ++i) {
