@@ -289,9 +289,7 @@ std::string direction_section(const JobInput& input) {
             paragraph("Tilt: of the tool from the vertical. Azimuth: towards which the upper end of the tool "
                       "then leans, from x towards y. Gained: reached by this direction and by none before "
                       "it. Depth: from where the tool enters the block to the deepest surface.") +
-            paragraph(reach.is_arm_checked ? "Arm checked: it holds the tool in all these directions."
-                                           : "Arm not checked: whether it holds the tool in these "
-                                             "directions is not known."));
+            arm);
 }
 
 std::string reach_section(const JobInput& input) {

@@ -57,7 +57,7 @@ std::string fault_of(const std::string& html) {
 TEST(SetupSheet, SaysWhatToDoInACellOfVersion1) {
     const std::string sheet = setup_sheet(some_job(), some_time_s);
     expect_words(sheet, {"<h1>Setup sheet: piece AB (2 of 5)</h1>", "Cell test.",
-                         "Take block &quot;small&quot; (eps), 100 x 60 x 50 mm.", "Not sawn.",
+                         "Take block &quot;small&quot; (eps), 100 x 60 x 50 mm.", "Not sawn.", "Arm not checked",
                          "There is no spoil layer. Glue the base of the piece", "the cap of cut 4",
                          "<li>scaled by 0.5 on request</li>", "About 1 h 23 min. Crude: foam to remove over 24.0 cm3/s",
                          "Other bases</h2>\n<p>None.</p>", "Written by qchopper 0.1.0."});
