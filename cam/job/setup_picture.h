@@ -2,7 +2,7 @@
 //
 // Shown are the surface in colours by what becomes of it, the block and its spoil layer as thin bars, an arrow for each
 // direction with its number in the sheet, and the points to touch off. Same input, same bytes, whatever the number of
-// threads and the processor (tests/cam/job/setup_picture_test.cpp).
+// threads (tests/cam/job/setup_picture_test.cpp).
 
 #pragma once
 

@@ -37,7 +37,6 @@ constexpr const char* style = R"(
   @media print {
     body { max-width: none; margin: 0; padding: 0; font-size: 9.5pt; }
     .key { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
-    .page { break-before: page; }
     section { break-inside: avoid; }
   }
 )";
@@ -87,14 +86,14 @@ std::string paragraph(const std::string& text) {
     return "<p>" + svg_text(text) + "</p>\n";
 }
 
-std::string section(const std::string& title, const std::string& html, bool begins_page = false) {
-    return "<section" + std::string(begins_page ? " class=\"page\"" : "") + ">\n<h2>" + svg_text(title) + "</h2>\n" +
-           html + "</section>\n";
+std::string section(const std::string& title, const std::string& html) {
+    return "<section>\n<h2>" + svg_text(title) + "</h2>\n" + html + "</section>\n";
 }
 
-// "100 x 60.5 x 50"
+// "100 x 60.5 x 50": to tenths.
 std::string size_text(Vec3 size) {
-    return significant(size.x, 6) + " x " + significant(size.y, 6) + " x " + significant(size.z, 6);
+    const auto length = [](double mm) { return significant(std::round(10 * mm) / 10, 8); };
+    return length(size.x) + " x " + length(size.y) + " x " + length(size.z);
 }
 
 std::string percent(double share, int decimals = 2) {
@@ -130,12 +129,32 @@ std::string figure(const std::string& file, const std::string& caption) {
            svg_text(caption) + "</figcaption></figure>\n";
 }
 
-std::string pictures() {
+Entry key(Rgb colour, const std::string& text) {
+    return {"<span class=\"key\" style=\"background:" + svg_colour(colour) + "\"></span> " + svg_text(text)};
+}
+
+// The colours of the pictures; none where they show the piece in one colour.
+std::string keys_of(const JobInput& input) {
+    std::string html;
+    const auto add = [&](Rgb colour, const char* name) { html += (html.empty() ? "" : ", ") + key(colour, name).html; };
+    if (!input.states.empty()) {
+        add(surface_colour(SurfaceState::reached), "reached");
+        add(surface_colour(SurfaceState::hidden), "hidden");
+        add(surface_colour(SurfaceState::steep), "steep");
+        add(surface_colour(SurfaceState::holder), "holder");
+        add(surface_colour(SurfaceState::too_narrow), "too narrow");
+    }
+    if (input.setup.base) add(base_colour, "base");
+    if (html.empty()) return {};
+    return "<p>" + html + (input.states.empty() ? "" : "; what the words mean is said under 7") + ".</p>\n";
+}
+
+std::string pictures(const JobInput& input) {
     return "<div class=\"sides\">\n" +
            figure("setup-1.png",
                   "From the side of -y, a little from above. Numbered arrows: the directions of the tool.") +
            figure("setup-2.png", "From the side of +y, a little from below. P1, P2, P3: the points to touch off.") +
-           "</div>\n";
+           "</div>\n" + keys_of(input);
 }
 
 std::string block_section(const JobInput& input) {
@@ -176,7 +195,8 @@ std::string place_section(const JobInput& input) {
                       " mm. The underside must lie flat on the table.");
     const Vec3 origin{input.cell.table.centre_x, input.cell.table.centre_y, input.cell.table.height + setup.spoil};
     html += paragraph(
-        "Base frame of the program: its origin lies under the middle of the block at the height of the piece's base, " +
+        "Base frame of the program: its origin lies on the vertical through the middle of the block, at the height of "
+        "the piece's base, " +
         fixed(setup.spoil, 1) + " mm above the table, its axes along those of the cell, z up. In the cell it is at (" +
         fixed(origin.x, 1) + ", " + fixed(origin.y, 1) + ", " + fixed(origin.z, 1) + ").");
     html += paragraph(
@@ -252,7 +272,10 @@ std::vector<Entry> direction_row(const Setup& setup, const std::string& name, co
 
 std::string direction_section(const JobInput& input) {
     const SurfaceReach& reach = input.setup.reach;
-    if (reach.directions.empty()) return section("6. Directions", paragraph("None was chosen."));
+    const std::string arm = paragraph(reach.is_arm_checked ? "Arm checked: it holds the tool in all these directions."
+                                                           : "Arm not checked: whether it holds the tool in these "
+                                                             "directions is not known.");
+    if (reach.directions.empty()) return section("6. Directions", paragraph("None was chosen.") + arm);
     Rows rows{{word("direction"), right("tilt, degrees"), right("azimuth, degrees"), right("surface gained, %"),
                right("depth")}};
     for (std::size_t i = 0; i < reach.directions.size(); ++i) {
@@ -265,20 +288,13 @@ std::string direction_section(const JobInput& input) {
             paragraph("Tilt: of the tool from the vertical. Azimuth: towards which the upper end of the tool "
                       "then leans, from x towards y. Gained: reached by this direction and by none before "
                       "it. Depth: from where the tool enters the block to the deepest surface.") +
-            paragraph(reach.is_arm_checked ? "Arm checked: it holds the tool in all these directions."
-                                           : "Arm not checked: whether it holds the tool in these "
-                                             "directions is not known."));
-}
-
-Entry key(Rgb colour, const std::string& text) {
-    return {"<span class=\"key\" style=\"background:" + svg_colour(colour) + "\"></span> " + svg_text(text)};
+            arm);
 }
 
 std::string reach_section(const JobInput& input) {
     const SurfaceReach& reach = input.setup.reach;
     if (reach.area_mm2 <= 0) {
-        return section("7. What the tool reaches", paragraph("Not judged: the pictures show the piece in one colour."),
-                       true);
+        return section("7. What the tool reaches", paragraph("Not judged: the pictures show the piece in one colour."));
     }
     Rows rows{{word("surface"), right("cm2"), right("% of the surface"), word("unreachable"), word("because")}};
     const auto add = [&](SurfaceState state, const char* name, double mm2, bool counts, const char* why) {
@@ -316,7 +332,7 @@ std::string reach_section(const JobInput& input) {
     }
     html += paragraph("With all directions that can be held, " + percent(reach.all_directions_share) +
                       " of the surface would stay out of reach.");
-    return section("7. What the tool reaches", html, true);
+    return section("7. What the tool reaches", html);
 }
 
 std::string parting_section(const Setup& setup) {
@@ -374,7 +390,7 @@ std::string time_section(const Tool& tool, std::uint32_t seconds) {
 std::string setup_sheet(const JobInput& input, std::uint32_t estimated_time_s) {
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" +
            svg_text("Setup sheet: " + title_of(input)) + "</title>\n<style>" + style + "</style>\n</head>\n<body>\n" +
-           head(input) + pictures() + block_section(input) + place_section(input) + holding_section(input.setup) +
+           head(input) + pictures(input) + block_section(input) + place_section(input) + holding_section(input.setup) +
            piece_section(input.setup) + tool_section(input.cell) + direction_section(input) + reach_section(input) +
            parting_section(input.setup) + alternative_section(input) + margin_section(input.envelope) +
            warning_section(input) + time_section(input.cell.tool, estimated_time_s) + "<footer>" +

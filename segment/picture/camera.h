@@ -21,6 +21,7 @@ struct PictureOptions {
     double outline = 1.2;   // width of the dark line at the border of a piece, in pixels; 0: none
     double frame = 0.06;    // empty border, as a share of the picture
     bool labels = true;     // names of the meshes, and a scale bar
+    double letters = 0.02;  // height of the names' capital letters, as a share of the picture's
 };
 
 struct Camera {

@@ -38,6 +38,7 @@ void check(std::span<const ColouredMesh> meshes, const PictureOptions& options) 
     if (!(norm(options.view) > 0) || !std::isfinite(norm(options.view))) refuse("the view must have a direction");
     if (!std::isfinite(norm(options.up))) refuse("up must be finite");
     if (!(options.frame >= 0 && options.frame < 0.5)) refuse("the frame must be 0 to 0.5");
+    if (!(options.letters > 0 && options.letters <= 0.2)) refuse("the letters must be above 0 and at most 0.2 high");
     if (!(options.outline >= 0 && options.outline <= 20)) refuse("the outline must be 0 to 20 pixels");
 }
 
@@ -202,7 +203,8 @@ void draw_labels(Pixels& pixels, const Scene& scene, const Film& film, const std
     const std::span<const ColouredMesh> meshes = scene.meshes();
     const std::vector<LabelPlace> places = label_places(regions, film, meshes.size(), options.supersampling);
     for (std::size_t i = 0; i < meshes.size(); ++i) {
-        if (places[i].depth > 0) draw_text(pixels, places[i].x, places[i].y, meshes[i].name, pixels.height / 50.0);
+        if (places[i].depth > 0)
+            draw_text(pixels, places[i].x, places[i].y, meshes[i].name, pixels.height * options.letters);
     }
     draw_scale_bar(pixels, camera.mm_per_pixel);
 }

@@ -18,7 +18,8 @@ Bytes to_bytes(const std::string& text) {
     return {text.begin(), text.end()};
 }
 
-// The manifest with the sizes and hashes of these files, so that the checks after them are reached. A text that is no
+// The manifest with the sizes and hashes of these files, in the one form that is taken, so that the checks after them
+// are reached. A text that is no
 // JSON object is unchanged.
 std::string agreeing(const std::string& manifest, const std::map<std::string, Bytes>& files) {
     using Json = nlohmann::ordered_json;
@@ -29,7 +30,7 @@ std::string agreeing(const std::string& manifest, const std::map<std::string, By
         list.push_back({{"name", name}, {"size", bytes.size()}, {"sha256", to_hex(sha256(bytes))}});
     }
     json["files"] = list;
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 void try_job(const Bytes& bytes) {

@@ -57,10 +57,11 @@ std::string fault_of(const std::string& html) {
 TEST(SetupSheet, SaysWhatToDoInACellOfVersion1) {
     const std::string sheet = setup_sheet(some_job(), some_time_s);
     expect_words(sheet, {"<h1>Setup sheet: piece AB (2 of 5)</h1>", "Cell test.",
-                         "Take block &quot;small&quot; (eps), 100 x 60 x 50 mm.", "Not sawn.",
+                         "Take block &quot;small&quot; (eps), 100 x 60 x 50 mm.", "Not sawn.", "Arm not checked",
                          "There is no spoil layer. Glue the base of the piece", "the cap of cut 4",
                          "<li>scaled by 0.5 on request</li>", "About 1 h 23 min. Crude: foam to remove over 24.0 cm3/s",
                          "Other bases</h2>\n<p>None.</p>", "Written by qchopper 0.1.0."});
+    EXPECT_EQ(sheet.find("</span> hidden"), std::string::npos) << "the pictures have one colour";
     EXPECT_EQ(row(sheet, "1 | ball"), "1 | ball | 20.0 | 18000 | 9000");
     EXPECT_EQ(row(sheet, "P1"),
               "P1 | corner of the block's top at -x, -y | -50.0 | -30.0 | 50.0 | -50.0 | -30.0 | 150.0");
@@ -74,7 +75,7 @@ TEST(SetupSheet, TellsTheFiguresOfATiltingTool) {
     const std::string sheet = setup_sheet(tilting_job(), some_time_s);
     expect_words(
         sheet,
-        {"Take block &quot;flat&quot; (pu_foam), 400 x 300 x 60 mm.",
+        {"</span> hidden, <span", "Take block &quot;flat&quot; (pu_foam), 400 x 300 x 60 mm.",
          "Saw it down to 58 x 56 x 44 mm; a saw cut takes 3 mm",
          "A turn by 1 degree moves the corners of the block by 0.7 mm.", "12.0 mm above the table",
          "In the cell it is at (0.0, 0.0, 112.0).", "Clamps must stay within the lowest 12.0 mm",
@@ -111,9 +112,11 @@ TEST(SetupSheet, TellsTheFiguresOfATiltingTool) {
 TEST(SetupSheet, SaysHowExactlyTheBlockMustLie) {
     JobInput input = tilting_job();
     input.setup.box = {{-20, -10, 0}, {20, 10, 20}};
+    input.setup.block.size.z = 44.26;
     expect_words(setup_sheet(input, some_time_s),
                  {"the foam around the piece is what the block may be off, 9.0 mm along x "
-                  "and 18.0 mm along y."});
+                  "and 18.0 mm along y.",
+                  "58 x 56 x 44.3 mm along x, y and z"});
 }
 
 TEST(SetupSheet, SaysDoNotStart) {
