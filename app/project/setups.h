@@ -12,8 +12,8 @@
 #include "app/project/decisions.h"
 #include "base/context.h"
 #include "cam/cell/cell.h"
+#include "cam/setup/choose_setup.h"
 #include "cam/setup/envelope.h"
-#include "cam/setup/setup.h"
 #include "segment/search/stop_rules.h"
 
 namespace qchopper {

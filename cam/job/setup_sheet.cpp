@@ -231,14 +231,13 @@ std::string piece_section(const Setup& setup) {
     const Vec3 size = setup.box.size();
     std::string base = "Base " + std::to_string(setup.base_number) + ": " + setup.base_description;
     if (setup.base) base += ", " + fixed(setup.base_mm2 / 100, 1) + " cm2";
-    return section("4. Piece",
-                   paragraph("It lies in the middle of the block, " + fixed(size.x, 1) + " mm along x, " +
-                             fixed(size.y, 1) + " mm along y, " + fixed(size.z, 1) +
-                             " mm high, its base at z = 0. preview.glb shows it as it lies.") +
-                       paragraph(base + ". Up is (" + fixed(setup.up.x, 4) + ", " + fixed(setup.up.y, 4) + ", " +
-                                 fixed(setup.up.z, 4) + ") of the scan.") +
-                       paragraph("Undercut: " + percent(setup.undercut, 1) + " of the projected area, " +
-                                 percent(setup.undercut_by_count, 1) + " of the triangles."));
+    return section("4. Piece", paragraph("It lies in the middle of the block, " + fixed(size.x, 1) + " mm along x, " +
+                                         fixed(size.y, 1) + " mm along y, " + fixed(size.z, 1) +
+                                         " mm high, its base at z = 0. preview.glb shows it as it lies.") +
+                                   paragraph(base + ". Up is (" + fixed(setup.up.x, 4) + ", " + fixed(setup.up.y, 4) +
+                                             ", " + fixed(setup.up.z, 4) + ") of the scan.") +
+                                   paragraph("Undercut: " + percent(setup.undercut, 1) + " of the projected area, " +
+                                             percent(setup.undercut_by_count, 1) + " of the triangles."));
 }
 
 std::string tool_section(const Cell& cell) {

@@ -1,10 +1,9 @@
-// Chooses how a piece is held and oriented: which cap lies on the table, from which directions the tool comes, how the
-// piece is turned, and the block it is carved from.
+// How a piece is held and oriented: which cap lies on the table, from which directions the tool comes, how the piece is
+// turned, and the block it is carved from.
 //
-// Lengths in mm. Setup coordinates: z up, the piece's base plane (its lowest point, without a base) at z = 0, the
-// underside of the block at z = -spoil, the block's middle and the middle of the piece's box at x = y = 0, x along the
-// long side of the piece's smallest rectangle on the table. Turning a piece with caps together with its half-spaces
-// changes neither undercut nor block (tests/cam/setup/setup_test.cpp).
+// Values only; lengths in mm. Setup coordinates: z up, the piece's base plane (its lowest point, without a base) at z =
+// 0, the underside of the block at z = -spoil, the block's middle and the middle of the piece's box at x = y = 0, x
+// along the long side of the piece's smallest rectangle on the table.
 
 #pragma once
 
@@ -18,7 +17,6 @@
 #include "cam/cell/cell.h"
 #include "cam/setup/block.h"
 #include "cam/setup/surface_reach.h"
-#include "segment/cut/piece.h"
 #include "segment/mesh/measure.h"
 
 namespace qchopper {
@@ -42,32 +40,5 @@ struct Setup {
     std::vector<std::string> warnings;
     bool operator==(const Setup&) const = default;
 };
-
-struct SetupOptions {
-    std::optional<int> base;  // number of the base that is taken (PieceBase::number); nothing: the best
-    std::size_t max_directions = 8;
-    std::optional<double> max_tilt_deg;  // nothing: that of the cell, or without a machine default_tilt_deg
-    bool count_narrow = false;           // surface too narrow for the smallest tool is unreachable
-    std::size_t samples = 4000;          // of the piece's surface, per piece
-    // So many of the best bases are judged by height maps. With 0 and without count_narrow, no surface is judged too
-    // narrow.
-    std::size_t mapped = 2;
-};
-
-// All ways to lay a piece, best first.
-struct SetupChoice {
-    std::vector<Setup> setups;         // at least one
-    std::vector<SurfaceState> states;  // per triangle of the piece, in the first setup; empty if it is not mapped
-};
-
-// Ranked are, first of all, those whose block fits into the cell; then by the least unreachable area, the least foam
-// that stays, the least residue and the smallest block. With options.base that base is first. Preconditions: the mesh
-// is closed and has triangles, half_space.up() are unit vectors, the cell has a block, and options.base is a number of
-// bases_of(piece).
-SetupChoice choose_setup(const Piece& piece, const Cell& cell, const SetupOptions& options = {});
-
-// Whether some way to lay the piece fits into the cell, by boxes alone: the stop rule of that name. Far cheaper than
-// choose_setup().
-bool fits_cell(const Piece& piece, const Cell& cell);
 
 }  // namespace qchopper

@@ -9,6 +9,7 @@
 #include "app/cli/simulated_limits.h"
 #include "cam/job/read_job.h"
 #include "cam/job/write_job.h"
+#include "cam/setup/choose_setup.h"
 #include "cam/setup/envelope.h"
 #include "cam/setup/setup.h"
 #include "devices/dispatch.h"

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cam/job/job.h"
+#include "cam/setup/choose_setup.h"
 #include "tests/cam/setup/pieces.h"
 
 namespace qchopper::test_pieces {

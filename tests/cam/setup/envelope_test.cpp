@@ -1,4 +1,5 @@
 #include "cam/setup/envelope.h"
+#include "cam/setup/choose_setup.h"
 
 #include <gtest/gtest.h>
 

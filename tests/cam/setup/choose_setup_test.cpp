@@ -1,4 +1,4 @@
-#include "cam/setup/setup.h"
+#include "cam/setup/choose_setup.h"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,6 @@ namespace qchopper {
 namespace {
 
 using namespace test_pieces;
-
-// qchopper::Setup in full below: a test is a class that has a Setup of its own.
 
 // Undercut as the specification prints it, triangle by triangle, with nothing shared with the module under test.
 double undercut_by_hand(const Piece& piece, const HalfSpace& base) {
@@ -52,7 +50,7 @@ void expect_rotation(const Pose& pose) {
     EXPECT_NEAR(dot(pose.row[0], cross(pose.row[1], pose.row[2])), 1, 1e-12);
 }
 
-TEST(Setup, EveryPieceLiesOnZeroInTheMiddleTurnedNotMirrored) {
+TEST(ChooseSetup, EveryPieceLiesOnZeroInTheMiddleTurnedNotMirrored) {
     for (const Piece& piece : cut_shapes()) {
         const qchopper::Setup setup = choose_setup(piece, cell()).setups.front();
         const Pose& pose = setup.piece_in_setup;
@@ -78,7 +76,7 @@ bool can_carry(const Piece& piece, const HalfSpace& half_space) {
     return base_mm2 >= 0.1 * projected_area_mm2(*piece.mesh, half_space.up());
 }
 
-TEST(Setup, EveryCapThatCarriesIsRankedByWhatIsOutOfReach) {
+TEST(ChooseSetup, EveryCapThatCarriesIsRankedByWhatIsOutOfReach) {
     int with_base = 0;
     for (const Piece& piece : cut_shapes()) {
         const SetupChoice choice = choose_setup(piece, cell());
@@ -110,7 +108,7 @@ TEST(Setup, EveryCapThatCarriesIsRankedByWhatIsOutOfReach) {
     EXPECT_GT(with_base, 20);
 }
 
-TEST(Setup, MapsAndSamplesAgree) {
+TEST(ChooseSetup, MapsAndSamplesAgree) {
     for (const Piece& piece : cut_shapes()) {
         SetupOptions sampled;
         sampled.mapped = 0;
@@ -123,7 +121,7 @@ TEST(Setup, MapsAndSamplesAgree) {
     }
 }
 
-TEST(Setup, TheOperatorsBaseComesFirstAndFewerDirectionsReachLess) {
+TEST(ChooseSetup, TheOperatorsBaseComesFirstAndFewerDirectionsReachLess) {
     for (const Piece& piece : cut_shapes()) {
         const SetupChoice free = choose_setup(piece, cell());
         SetupOptions options;
@@ -141,7 +139,7 @@ TEST(Setup, TheOperatorsBaseComesFirstAndFewerDirectionsReachLess) {
     }
 }
 
-TEST(Setup, StatesBelongToTheSetupThatIsFirst) {
+TEST(ChooseSetup, StatesBelongToTheSetupThatIsFirst) {
     for (const Piece& piece : cut_shapes()) {
         const SetupChoice choice = choose_setup(piece, cell());
         ASSERT_EQ(choice.states.size(), piece.mesh->triangles.size());
@@ -154,7 +152,7 @@ TEST(Setup, StatesBelongToTheSetupThatIsFirst) {
     }
 }
 
-TEST(Setup, TheBaseLiesFlatOnTheTable) {
+TEST(ChooseSetup, TheBaseLiesFlatOnTheTable) {
     for (const Piece& piece : cut_shapes()) {
         const qchopper::Setup setup = choose_setup(piece, cell()).setups.front();
         if (!setup.base) continue;
@@ -168,22 +166,33 @@ TEST(Setup, TheBaseLiesFlatOnTheTable) {
     }
 }
 
-TEST(Setup, TurningPieceAndBoundsTogetherChangesNothing) {
+TEST(ChooseSetup, TurningPieceAndBoundsTogetherChangesOnlyWhatDependsOnTheDirectionSet) {
     const Cell in = cell();
+    SetupOptions sampled;
+    sampled.mapped = 0;
     for (const Piece& piece : cut_shapes()) {
-        const qchopper::Setup before = choose_setup(piece, in).setups.front();
-        if (!before.base) continue;  // the oriented box is a search, and may end elsewhere
-        const qchopper::Setup after =
-            choose_setup(rotated(piece, {0.3, -0.5, 0.8}, 1.234, {17, -40, 5}), in).setups.front();
-        EXPECT_NEAR(after.undercut, before.undercut, 1e-9) << piece.name;
-        EXPECT_EQ(after.base, before.base) << piece.name;
-        EXPECT_EQ(after.block.stock, before.block.stock) << piece.name;
-        const Vec3 change = after.box.size() - before.box.size();
-        EXPECT_LT(norm(change), 1e-6 * norm(before.box.size())) << piece.name;
+        const std::vector<qchopper::Setup> before = choose_setup(piece, in, sampled).setups;
+        if (!before.front().base) continue;  // the oriented box is a search, and may end elsewhere
+        const std::vector<qchopper::Setup> after =
+            choose_setup(rotated(piece, {0.3, -0.5, 0.8}, 1.234, {17, -40, 5}), in, sampled).setups;
+        ASSERT_EQ(after.size(), before.size()) << piece.name;
+        EXPECT_NEAR(after.front().reach.unreachable_share(), before.front().reach.unreachable_share(), 0.05)
+            << piece.name;
+        for (const qchopper::Setup& setup : before) {
+            const auto turned = std::find_if(after.begin(), after.end(), [&](const qchopper::Setup& s) {
+                return s.base_number == setup.base_number;
+            });
+            ASSERT_NE(turned, after.end()) << piece.name;
+            EXPECT_NEAR(turned->undercut, setup.undercut, 1e-9) << piece.name;
+            EXPECT_EQ(turned->undercut_by_count, setup.undercut_by_count) << piece.name;
+            EXPECT_EQ(turned->block.stock, setup.block.stock) << piece.name;
+            const Vec3 change = turned->box.size() - setup.box.size();
+            EXPECT_LT(norm(change), 1e-6 * norm(setup.box.size())) << piece.name;
+        }
     }
 }
 
-TEST(Setup, ABoxOnItsCapHasNoUndercut) {
+TEST(ChooseSetup, ABoxOnItsCapHasNoUndercut) {
     const Piece piece = standing_box({10, 20, 30}, {40, 110, 45}, 3, 4);
     const qchopper::Setup setup = choose_setup(piece, cell()).setups.front();
     EXPECT_EQ(setup.base, 3);
@@ -199,7 +208,7 @@ TEST(Setup, ABoxOnItsCapHasNoUndercut) {
     EXPECT_FALSE(setup.block.is_turned);
 }
 
-TEST(Setup, ATieGoesToTheLowerCut) {
+TEST(ChooseSetup, ATieGoesToTheLowerCut) {
     TriangleMesh mesh = shapes::box({0, 0, 0}, {10, 10, 10});
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const Vec3 n = area_vector(mesh, t);
@@ -211,13 +220,13 @@ TEST(Setup, ATieGoesToTheLowerCut) {
     EXPECT_EQ(choose_setup(piece, cell()).setups.front().base, 2);
 }
 
-TEST(Setup, AHalfSpaceWhoseCapIsGoneIsNoBase) {
+TEST(ChooseSetup, AHalfSpaceWhoseCapIsGoneIsNoBase) {
     Piece piece = standing_box({0, 0, 0}, {10, 10, 10}, 3);
     piece.half_spaces.insert(piece.half_spaces.begin(), HalfSpace{1, {{0, 0, 1}, -5}, true});
     EXPECT_EQ(choose_setup(piece, cell()).setups.front().base, 3);
 }
 
-TEST(Setup, ACapThatCannotCarryIsNoBase) {
+TEST(ChooseSetup, ACapThatCannotCarryIsNoBase) {
     const Piece whole = uncut(shapes::pyramid({0, 0, 0}, 40, 60));
     const auto halves = cut_piece(whole, {{0, 0, 1}, 54.321}, 0);
     ASSERT_TRUE(halves && halves->pieces.size() == 2);
@@ -230,7 +239,7 @@ TEST(Setup, ACapThatCannotCarryIsNoBase) {
     for (const Piece& half : again->pieces) EXPECT_EQ(choose_setup(half, cell()).setups.front().base, 1);
 }
 
-TEST(Setup, APieceWithoutCapsLiesOnASideOfItsBox) {
+TEST(ChooseSetup, APieceWithoutCapsLiesOnASideOfItsBox) {
     const Piece piece = uncut(shapes::box({0, 0, 0}, {50, 20, 10}));
     const qchopper::Setup setup = choose_setup(piece, cell()).setups.front();
     EXPECT_EQ(setup.base, std::nullopt);
@@ -240,7 +249,7 @@ TEST(Setup, APieceWithoutCapsLiesOnASideOfItsBox) {
     EXPECT_NEAR(setup.box.size().z, 50, 1e-6);
 }
 
-TEST(Setup, StockIsTheSmallestThatHoldsThePieceEitherWayRound) {
+TEST(ChooseSetup, StockIsTheSmallestThatHoldsThePieceEitherWayRound) {
     const Cell in = cell();
     const auto stock_for = [&](Vec3 size) { return choose_setup(standing_box({0, 0, 0}, size, 0), in).setups.front(); };
     EXPECT_EQ(stock_for({90, 50, 45}).block.stock, 0U) << "exactly with its margin";
@@ -255,7 +264,7 @@ TEST(Setup, StockIsTheSmallestThatHoldsThePieceEitherWayRound) {
     EXPECT_TRUE(turned.block.holds);
 }
 
-TEST(Setup, WithoutAHoldingBlockTheOneThatLacksLeastIsNamed) {
+TEST(ChooseSetup, WithoutAHoldingBlockTheOneThatLacksLeastIsNamed) {
     const qchopper::Setup setup = choose_setup(standing_box({0, 0, 0}, {150, 150, 410}, 0), cell()).setups.front();
     EXPECT_FALSE(setup.block.holds);
     EXPECT_EQ(setup.block.stock, 2U) << "15 mm too low; the others lack hundreds";

@@ -2,7 +2,7 @@
 // by height maps. Rays of the samples (segment/score/piece_reach.h) and O(directions x triangles) for each base that is
 // mapped.
 
-#include "cam/setup/setup.h"
+#include "cam/setup/choose_setup.h"
 
 #include <algorithm>
 #include <cassert>

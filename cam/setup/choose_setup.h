@@ -1,0 +1,45 @@
+// Chooses the setup of a piece in a cell (setup.h): of every way to lay it, that which leaves least out of reach.
+//
+// Lengths in mm. A piece that is turned together with its half-spaces has the same bases, undercuts and blocks; what is
+// reached of it differs by the direction set, which is fixed in the scan (tests/cam/setup/choose_setup_test.cpp).
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "cam/cell/cell.h"
+#include "cam/setup/setup.h"
+#include "segment/cut/piece.h"
+
+namespace qchopper {
+
+struct SetupOptions {
+    std::optional<int> base;  // number of the base that is taken (PieceBase::number); nothing: the best
+    std::size_t max_directions = 8;
+    std::optional<double> max_tilt_deg;  // nothing: that of the cell, or without a machine default_tilt_deg
+    bool count_narrow = false;           // surface too narrow for the smallest tool is unreachable
+    std::size_t samples = 4000;          // of the piece's surface, per piece
+    // So many of the best bases are judged by height maps. With 0 and without count_narrow, no surface is judged too
+    // narrow.
+    std::size_t mapped = 2;
+};
+
+// All ways to lay a piece, best first.
+struct SetupChoice {
+    std::vector<Setup> setups;         // at least one
+    std::vector<SurfaceState> states;  // per triangle of the piece, in the first setup; empty if it is not mapped
+};
+
+// Ranked are, first of all, those whose block fits into the cell; then by the least unreachable area, the least foam
+// that stays, the least residue and the smallest block. With options.base that base is first. Preconditions: the mesh
+// is closed and has triangles, half_space.up() are unit vectors, the cell has a block, and options.base is a number of
+// bases_of(piece).
+SetupChoice choose_setup(const Piece& piece, const Cell& cell, const SetupOptions& options = {});
+
+// Whether some way to lay the piece fits into the cell, by boxes alone: the stop rule of that name. Far cheaper than
+// choose_setup().
+bool fits_cell(const Piece& piece, const Cell& cell);
+
+}  // namespace qchopper
