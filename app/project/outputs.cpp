@@ -74,9 +74,8 @@ void write_pieces(const fs::path& folder, const Segmentation& segmentation, Frag
 }
 
 double most_unreachable(const Project& project, const Cell& cell) {
-    constexpr double without_a_machine = 0.02;
     if (project.settings.stop.max_unreachable) return *project.settings.stop.max_unreachable;
-    return cell.machine ? cell.machine->max_unreachable : without_a_machine;
+    return cell.machine ? cell.machine->max_unreachable : 1;
 }
 
 PieceReport write_job(const fs::path& folder, Project& project, const Segmentation& segmentation, std::size_t index,

@@ -21,7 +21,8 @@ namespace qchopper {
 void write_pieces(const std::filesystem::path& folder, const Segmentation& segmentation, FragmentChoice fragments,
                   const Context& context = {});
 
-// The share of a piece's surface that may stay out of reach: the operator's, or else the cell's.
+// The share of a piece's surface that may stay out of reach: the operator's, or else the cell's. A cell of version 1
+// sets no limit: 1.
 double most_unreachable(const Project& project, const Cell& cell);
 
 // The result of prepare for one piece.

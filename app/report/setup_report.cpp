@@ -115,7 +115,7 @@ std::string base_word(const Setup& setup) {
 }
 
 std::string share_word(double share) {
-    return fixed(100 * share, 1) + " %";
+    return fixed(100 * share, 2) + " %";
 }
 
 std::string arm_note(const Cell& cell) {

@@ -13,7 +13,7 @@ namespace qchopper {
 
 // "cut 2", or "side 3" of a piece that has no cap that can carry it.
 std::string base_word(const Setup& setup);
-// "3.1 %"
+// "3.14 %"
 std::string share_word(double share);
 // Said of a cell that describes no arm; empty for any other.
 std::string arm_note(const Cell& cell);

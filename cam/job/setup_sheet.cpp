@@ -312,7 +312,9 @@ std::string reach_section(const JobInput& input) {
         "the smallest tool does not fit in");
     rows.push_back({word("unreachable together"), number(reach.unreachable_mm2() / 100, 1),
                     number(100 * reach.unreachable_share(), 2), word(""), word("")});
-    rows.push_back({word("limit"), word(""), number(100 * input.max_unreachable, 2), word(""), word("")});
+    rows.push_back({word("limit"), word(""),
+                    input.max_unreachable < 1 ? number(100 * input.max_unreachable, 2) : right("none"), word(""),
+                    word("")});
     std::string html = table(rows);
     html += "<p>" + key(base_colour, "the base, which is left out of all shares").html + "</p>\n";
     if (input.states.empty()) {

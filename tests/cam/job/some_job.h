@@ -52,6 +52,7 @@ inline SurfaceReach some_reach(const JobInput& input) {
 // limit is 2 %.
 inline JobInput tilting_job(int rings = 8) {
     JobInput input = some_job(rings);
+    input.max_unreachable = 0.02;
     CellMachine machine;
     CarvingTool long_ball;
     long_ball.number = 1;

@@ -176,7 +176,9 @@ TEST(ChooseSetup, TurningPieceAndBoundsTogetherChangesOnlyWhatDependsOnTheDirect
         const std::vector<qchopper::Setup> after =
             choose_setup(rotated(piece, {0.3, -0.5, 0.8}, 1.234, {17, -40, 5}), in, sampled).setups;
         ASSERT_EQ(after.size(), before.size()) << piece.name;
-        EXPECT_NEAR(after.front().reach.unreachable_share(), before.front().reach.unreachable_share(), 0.05)
+        // A side of a box that only few directions of the set face is reached or not as a whole; the dense ones even
+        // that out.
+        EXPECT_NEAR(after.front().reach.all_directions_share, before.front().reach.all_directions_share, 0.05)
             << piece.name;
         for (const qchopper::Setup& setup : before) {
             const auto turned = std::find_if(after.begin(), after.end(), [&](const qchopper::Setup& s) {
