@@ -36,7 +36,7 @@ struct JobInput {
     EnvelopeReport envelope;
     std::vector<Setup> alternatives;    // the other ways to lay the piece, best first
     std::vector<SurfaceState> states;   // per triangle of the piece; empty: not known
-    double max_unreachable = 1;      // share beyond which dispatch asks for the operator's word
+    double max_unreachable = 1;         // share beyond which dispatch asks for the operator's word
     std::vector<std::string> warnings;  // of the project: "scaled by 0.5 on request"
 };
 
