@@ -3,11 +3,9 @@
 
 #include "app/project/evaluation_store.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cstring>
-#include <type_traits>
 
+#include "app/project/cache_bytes.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/sha256.h"
@@ -20,71 +18,12 @@ namespace fs = std::filesystem;
 // To be raised whenever candidates or evaluations of the same piece change.
 constexpr std::uint32_t version_of_evaluations = 2;
 
-class Writer {
- public:
-    template <typename T>
-    void put(T value) {
-        static_assert(std::is_arithmetic_v<T>);
-        add(&value, sizeof value);
-    }
-    template <typename T>
-    void put_all(const std::vector<T>& values) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        put(values.size());
-        add(values.data(), values.size() * sizeof(T));
-    }
-    void put(const Plane& p) {
-        for (const double x : {p.normal.x, p.normal.y, p.normal.z, p.offset}) put(x);
-    }
-    void put(const std::string& text) { put_all(std::vector<char>(text.begin(), text.end())); }
-    Bytes& bytes() { return bytes_; }
-
- private:
-    void add(const void* from, std::size_t count) {
-        if (count == 0) return;
-        const std::size_t before = bytes_.size();
-        bytes_.resize(before + count);
-        std::memcpy(bytes_.data() + before, from, count);
-    }
-
-    Bytes bytes_;
-};
-
-// Never reads beyond the end, but returns zeros; is_whole() is then false.
-class Reader {
- public:
-    explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-    template <typename T>
-    T get() {
-        T value{};
-        if (bytes_.size() < sizeof value) {
-            is_short_ = true;
-            return value;
-        }
-        std::memcpy(&value, bytes_.data(), sizeof value);
-        bytes_ = bytes_.subspan(sizeof value);
-        return value;
-    }
-    // A count of elements of at least one byte each.
-    std::size_t count() {
-        const auto n = get<std::size_t>();
-        if (n <= bytes_.size()) return n;
-        is_short_ = true;
-        return 0;
-    }
-    bool is_whole() const { return !is_short_ && bytes_.empty(); }
-
- private:
-    std::span<const std::uint8_t> bytes_;
-    bool is_short_ = false;
-};
-
-void put(Writer& out, const BaseShare& b) {
+void put(CacheWriter& out, const BaseShare& b) {
     out.put(b.cut);
     for (const double x : {b.down_mm2, b.all_mm2, b.down_count, b.all_count}) out.put(x);
 }
 
-void put(Writer& out, const CutEvaluation& evaluation) {
+void put(CacheWriter& out, const CutEvaluation& evaluation) {
     out.put(evaluation.cap_area_mm2);
     out.put(evaluation.fragility);
     out.put(evaluation.solids.size());
@@ -97,7 +36,7 @@ void put(Writer& out, const CutEvaluation& evaluation) {
     }
 }
 
-CutEvaluation evaluation_from(Reader& in) {
+CutEvaluation evaluation_from(CacheReader& in) {
     CutEvaluation evaluation;
     evaluation.cap_area_mm2 = in.get<double>();
     evaluation.fragility = in.get<double>();
@@ -116,7 +55,7 @@ CutEvaluation evaluation_from(Reader& in) {
 }
 
 Bytes to_bytes(const PieceEvaluations& evaluations) {
-    Writer out;
+    CacheWriter out;
     assert(evaluations.candidates.size() == evaluations.evaluations.size());
     out.put(evaluations.candidates.size());
     for (std::size_t i = 0; i < evaluations.candidates.size(); ++i) {
@@ -128,19 +67,13 @@ Bytes to_bytes(const PieceEvaluations& evaluations) {
         out.put(static_cast<std::uint8_t>(evaluations.evaluations[i].has_value()));
         if (evaluations.evaluations[i]) put(out, *evaluations.evaluations[i]);
     }
-    const Sha256 digest = sha256(out.bytes());
-    out.bytes().insert(out.bytes().end(), digest.bytes.begin(), digest.bytes.end());
-    return std::move(out.bytes());
+    return sealed(std::move(out.bytes()));
 }
 
 std::optional<PieceEvaluations> from_bytes(std::span<const std::uint8_t> bytes) {
-    if (bytes.size() < sizeof(Sha256)) return std::nullopt;
-    const auto body = bytes.first(bytes.size() - sizeof(Sha256));
-    const Sha256 digest = sha256(body);
-    if (!std::equal(digest.bytes.begin(), digest.bytes.end(), bytes.last(sizeof(Sha256)).begin())) {
-        return std::nullopt;
-    }
-    Reader in(body);
+    const auto body = unsealed(bytes);
+    if (!body) return std::nullopt;
+    CacheReader in(*body);
     PieceEvaluations evaluations;
     evaluations.candidates.resize(in.count());
     for (Candidate& c : evaluations.candidates) {
@@ -156,7 +89,7 @@ std::optional<PieceEvaluations> from_bytes(std::span<const std::uint8_t> bytes) 
 }
 
 std::string name_of_file(const std::string& settings, const Piece& piece) {
-    Writer out;
+    CacheWriter out;
     out.put(settings);
     out.put_all(piece.mesh->points);
     out.put_all(piece.mesh->triangles);
@@ -173,7 +106,7 @@ std::string name_of_file(const std::string& settings, const Piece& piece) {
 
 EvaluationStore evaluation_store(const fs::path& folder, const Objectives& objectives,
                                  const CandidateOptions& options) {
-    Writer w;
+    CacheWriter w;
     w.put(version_of_evaluations);
     w.put(static_cast<int>(objectives.fragility_form));
     w.put(objectives.fragility_distance);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "app/project/distance_store.h"
 #include "app/project/evaluation_store.h"
 #include "app/project/project_folder.h"
 #include "app/project/project_scan.h"
@@ -61,7 +62,7 @@ const Segmentation& OpenProject::segmentation() {
     if (segmentation_) return *segmentation_;
     const TriangleMesh& imported = scan();
     const StageTimer stage(context_, "cuts replayed");
-    segmentation_ = replay(project_, imported, context_);
+    segmentation_ = replay(project_, imported, context_, distance_store(folder_ / "cache"));
     return *segmentation_;
 }
 
@@ -246,9 +247,12 @@ void OpenProject::commit_first(std::size_t committed) {
 
 void OpenProject::set_search(const StopRules& stop, std::size_t beam) {
     if (stop == project_.settings.stop && beam == project_.settings.beam) return;
+    const bool had_samples = project_.settings.takes_samples();
     project_.settings.stop = stop;
     project_.settings.beam = beam;
     project_.beam.reset();
+    // Made again with samples, or without: as a project that is opened with these settings.
+    if (project_.settings.takes_samples() != had_samples) segmentation_.reset();
     save();
 }
 
@@ -257,7 +261,8 @@ SearchEnd OpenProject::search(const PieceChecks& checks, const std::function<voi
     remove_outputs(folder_, project_);
     Segmentation working = segmentation();
     const StageTimer stage(context, "search");
-    BeamProgress progress = beam_progress(project_, working, [this]() -> const TriangleMesh& { return scan(); });
+    BeamProgress progress = beam_progress(
+        project_, working, [this]() -> const TriangleMesh& { return scan(); }, distance_store(folder_ / "cache"));
     release_scan();
     const auto keep = [&](const Segmentation& best) {
         adopt(best, progress.saved());

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/error.h"
+#include "base/timings.h"
 #include "segment/mesh/measure.h"
 
 namespace qchopper {
@@ -53,14 +54,21 @@ void record(Project& project, const Segmentation& segmentation) {
     project.warnings.insert(project.warnings.end(), segmentation.warnings.begin(), segmentation.warnings.end());
 }
 
-Segmentation replay(const Project& project, const TriangleMesh& scan, const Context& context) {
-    return replay(project, scan, project.cuts.size(), context);
+Segmentation replay(const Project& project, const TriangleMesh& scan, const Context& context,
+                    const DistanceStore& store) {
+    return replay(project, scan, project.cuts.size(), context, store);
 }
 
-Segmentation replay(const Project& project, const TriangleMesh& scan, std::size_t cuts, const Context& context) {
+Segmentation replay(const Project& project, const TriangleMesh& scan, std::size_t cuts, const Context& context,
+                    const DistanceStore& store) {
     context.progress("cuts made on the scan", 0, cuts);
     const double fragment_volume = project.settings.objectives.fragment_volume_mm3;
     Segmentation segmentation = uncut(scan, fragment_volume);
+    if (project.settings.takes_samples()) {
+        const StageTimer stage(context, "rays cast");
+        context.progress("samples asked", 0, default_surface_samples);
+        sample_uncut(segmentation.pieces, store);
+    }
     discard_now(segmentation, project.discards);
     for (const Cut& cut : std::span(project.cuts).first(cuts)) {
         if (!apply(segmentation, cut, fragment_volume)) {
@@ -83,12 +91,12 @@ std::optional<std::size_t> piece_named(const Segmentation& segmentation, const s
 }
 
 BeamProgress beam_progress(const Project& project, const Segmentation& committed,
-                           const std::function<const TriangleMesh&()>& scan) {
+                           const std::function<const TriangleMesh&()>& scan, const DistanceStore& store) {
     BeamProgress progress;
     if (!project.beam || !project.settings.has_state()) return progress;
     progress.state = *project.beam;
     const bool has_root = progress.state.from == committed.cuts.size();
-    progress.root = has_root ? committed : replay(project, scan(), progress.state.from);
+    progress.root = has_root ? committed : replay(project, scan(), progress.state.from, {}, store);
     return progress;
 }
 

@@ -12,6 +12,7 @@
 
 #include "app/project/project.h"
 #include "base/context.h"
+#include "segment/score/sampled_piece.h"
 
 namespace qchopper {
 
@@ -23,9 +24,12 @@ void record(Project& project, const Segmentation& segmentation);
 // Applies the first `cuts` of the cuts in force to the scan exactly as they were made, and discards what was discarded
 // before the next cut. Reports progress in cuts. Throws Cancelled. Precondition: cuts <= project.cuts.size(). Throws
 // InputError (config) if a cut misses or a piece does not exist. O(cuts) times the cost of a cut.
-Segmentation replay(const Project& project, const TriangleMesh& scan, std::size_t cuts, const Context& context = {});
+// The pieces have samples if the settings want them; `store` keeps their distances, and changes nothing but the time.
+Segmentation replay(const Project& project, const TriangleMesh& scan, std::size_t cuts, const Context& context = {},
+                    const DistanceStore& store = {});
 // All of them.
-Segmentation replay(const Project& project, const TriangleMesh& scan, const Context& context = {});
+Segmentation replay(const Project& project, const TriangleMesh& scan, const Context& context = {},
+                    const DistanceStore& store = {});
 
 // The index of a piece in segmentation.pieces; nothing if no piece has that name. O(pieces).
 std::optional<std::size_t> piece_named(const Segmentation& segmentation, const std::string& name);
@@ -33,6 +37,6 @@ std::optional<std::size_t> piece_named(const Segmentation& segmentation, const s
 // Where the search of a project goes on: at its beam if it has one and is wider than 1. `committed` is the segmentation
 // of its cuts; `scan` is called only if the root of the beam has fewer.
 BeamProgress beam_progress(const Project& project, const Segmentation& committed,
-                           const std::function<const TriangleMesh&()>& scan);
+                           const std::function<const TriangleMesh&()>& scan, const DistanceStore& store = {});
 
 }  // namespace qchopper

@@ -46,6 +46,7 @@ const Carving& Setups::of(const Piece& piece) {
 UnreachableSurface Setups::unreachable(const Piece& piece) {
     SetupOptions options = options_for(piece);
     options.mapped = 0;
+    options.takes_kept_samples = !count_narrow_;
     const SetupChoice choice = choose_setup(piece, cell_, options);
     const SurfaceReach& reach = choice.setups.front().reach;
     return {reach.unreachable_mm2(), reach.unreachable_share()};

@@ -140,14 +140,16 @@ class Choice {
         for (std::size_t i = 0; i < mapped; ++i) {
             if (number[i] == setups_.front().base_number) result.states = std::move(states[i]);
         }
-        if (!result.states.empty()) paint_narrow(*piece_.mesh, reach_->samples.scan.samples, is_narrow_, result.states);
+        if (!result.states.empty())
+            paint_narrow(*piece_.mesh, reach_->samples->scan->samples, is_narrow_, result.states);
         result.setups = std::move(setups_);
         return result;
     }
 
  private:
     void judge_on_samples() {
-        const PieceReachOptions options{tilt_of(cell_, options_), {options_.max_directions}, options_.samples};
+        const PieceReachOptions options{
+            tilt_of(cell_, options_), {options_.max_directions}, options_.samples, options_.takes_kept_samples};
         const auto held = [&](const PieceBase& base, std::span<const Vec3> directions) {
             const Setup& setup = setups_[static_cast<std::size_t>(&base - bases_.data())];
             std::vector<Vec3> in_setup;
@@ -155,7 +157,7 @@ class Choice {
             return held_directions(cell_, setup.box, setup.spoil, in_setup);
         };
         reach_ = piece_reach(piece_, bases_, options, held);
-        const SampledScan& scan = reach_->samples.scan;
+        const SampledScan& scan = *reach_->samples->scan;
         is_narrow_.assign(scan.samples.sample.size(), false);
         if (options_.mapped > 0 || options_.count_narrow) {
             std::vector<bool> is_cap(piece_.mesh->triangles.size());
@@ -174,7 +176,7 @@ class Choice {
         }
         reach.hidden_mm2 = directions.by_chosen.hidden_mm2 + directions.by_chosen.caps_mm2;
         reach.steep_mm2 = directions.by_chosen.steep_mm2;
-        reach.too_narrow_mm2 = too_narrow_mm2(directions, is_narrow_, reach_->samples.scan.samples.area_each_mm2);
+        reach.too_narrow_mm2 = too_narrow_mm2(directions, is_narrow_, reach_->samples->scan->samples.area_each_mm2);
         reach.steep_counts = tilt_deg >= steep_counts_from_deg;
         reach.narrow_counts = options_.count_narrow;
         reach.all_directions_share = reach.area_mm2 > 0 ? directions.by_all.total_mm2(tilt_deg) / reach.area_mm2 : 0;

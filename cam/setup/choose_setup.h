@@ -21,6 +21,8 @@ struct SetupOptions {
     std::optional<double> max_tilt_deg;  // nothing: that of the cell, or without a machine default_tilt_deg
     bool count_narrow = false;           // surface too narrow for the smallest tool is unreachable
     std::size_t samples = 4000;          // of the piece's surface, per piece
+    // Piece::samples serve if they are as many. Only with mapped = 0 and without count_narrow, and then without states.
+    bool takes_kept_samples = false;
     // So many of the best bases are judged by height maps. With 0 and without count_narrow, no surface is judged too
     // narrow.
     std::size_t mapped = 2;

@@ -24,10 +24,14 @@ struct HalfSpace {
     Vec3 up() const { return above ? plane.normal : -plane.normal; }
 };
 
+struct SampledPiece;  // segment/score/sampled_piece.h
+
 struct Piece {
     std::string name;  // A, B, ... Z, AA, ...: in the order in which pieces were made
     std::shared_ptr<const TriangleMesh> mesh;
     std::vector<HalfSpace> half_spaces;  // in the order of the cuts; of some of them the piece may have no cap left
+    std::shared_ptr<const SampledPiece> samples =
+        {};  // along which directions its surface is open; null: not asked yet
 };
 
 }  // namespace qchopper

@@ -137,8 +137,7 @@ SampledScan sampled_scan(std::span<const Piece> uncut, std::vector<Vec3> directi
             PreciseRays(meshes, options.instructions), box ? norm(box->size()) : 0};
 }
 
-std::vector<PieceAccessibility> uncut_accessibility(const SampledScan& scan) {
-    const std::size_t directions = scan.directions.size();
+std::vector<PieceAccessibility> unasked_accessibility(const SampledScan& scan) {
     std::vector<PieceAccessibility> pieces(scan.solid.size());
     for (std::uint32_t i = 0; i < pieces.size(); ++i) {
         pieces[i].solid = i;
@@ -148,6 +147,12 @@ std::vector<PieceAccessibility> uncut_accessibility(const SampledScan& scan) {
     for (std::uint32_t i = 0; i < scan.samples.sample.size(); ++i) {
         pieces[scan.samples.sample[i].mesh].sample.push_back(i);
     }
+    return pieces;
+}
+
+std::vector<PieceAccessibility> uncut_accessibility(const SampledScan& scan) {
+    const std::size_t directions = scan.directions.size();
+    std::vector<PieceAccessibility> pieces = unasked_accessibility(scan);
     for (PieceAccessibility& piece : pieces) {
         piece.distance.resize(piece.sample.size() * directions);
         parallel_ranges(0, piece.sample.size(), samples_at_once, [&](std::size_t first, std::size_t end) {

@@ -71,6 +71,9 @@ struct PieceAccessibility {
     bool is_open(std::size_t row, std::size_t direction) const { return std::isinf(distances(row)[direction]); }
 };
 
+// Per solid of the scan, uncut, without distances.
+std::vector<PieceAccessibility> unasked_accessibility(const SampledScan& scan);
+
 // Per solid of the scan, uncut. O(samples x directions) rays, in parallel.
 std::vector<PieceAccessibility> uncut_accessibility(const SampledScan& scan);
 

@@ -41,6 +41,16 @@ std::vector<Vec3> directions_for(std::span<const PieceBase> bases, const std::ar
     return directions;
 }
 
+std::shared_ptr<const SampledPiece> samples_of(const Piece& piece, std::span<const PieceBase> bases,
+                                               const PieceReachOptions& options) {
+    if (options.takes_kept && piece.samples && piece.samples->accessibility.sample.size() >= options.samples) {
+        return piece.samples;
+    }
+    const OrientedBox box = oriented_box(piece.mesh->points);
+    return std::make_shared<const SampledPiece>(
+        sampled_alone(piece, directions_for(bases, box.axis, options.tilt_deg), options.samples));
+}
+
 std::vector<Vec3> those_held(const PieceBase& base, std::vector<Vec3> directions, const HeldDirections& held) {
     if (!held) return directions;
     const std::vector<std::uint8_t> is_held = held(base, directions);
@@ -53,19 +63,6 @@ std::vector<Vec3> those_held(const PieceBase& base, std::vector<Vec3> directions
 
 }  // namespace
 
-SampledPiece sampled_piece(const Piece& piece, std::vector<Vec3> directions, std::size_t samples) {
-    const Piece alone{piece.name, piece.mesh, {}};
-    SampledScanOptions options;
-    options.samples = samples;
-    options.is_left_out.emplace_back(piece.mesh->triangles.size());
-    for (std::size_t t = 0; t < piece.mesh->triangles.size(); ++t) {
-        options.is_left_out.front()[t] = cap_of(*piece.mesh, t) != no_cap;
-    }
-    SampledPiece result{sampled_scan({&alone, 1}, std::move(directions), options), {}, owned_caps(piece)};
-    result.accessibility = std::move(uncut_accessibility(result.scan).front());
-    return result;
-}
-
 const BaseReach& PieceReach::best() const {
     assert(!bases.empty());
     return *std::min_element(bases.begin(), bases.end(),
@@ -75,10 +72,9 @@ const BaseReach& PieceReach::best() const {
 PieceReach piece_reach(const Piece& piece, std::span<const PieceBase> bases, const PieceReachOptions& options,
                        const HeldDirections& held) {
     assert(!bases.empty());
-    const OrientedBox box = oriented_box(piece.mesh->points);
-    PieceReach result{sampled_piece(piece, directions_for(bases, box.axis, options.tilt_deg), options.samples), {}};
-    const JudgedPiece judged = result.samples.judged();
-    const std::vector<Vec3>& all = result.samples.scan.directions;
+    PieceReach result{samples_of(piece, bases, options), {}};
+    const JudgedPiece judged = result.samples->judged();
+    const std::vector<Vec3>& all = judged.scan.directions;
     const std::vector<Vec3> dense = dense_directions();
     for (const PieceBase& base : bases) {
         std::vector<Vec3> allowed;

@@ -13,17 +13,9 @@
 
 #include "segment/cut/piece.h"
 #include "segment/score/chosen_directions.h"
+#include "segment/score/sampled_piece.h"
 
 namespace qchopper {
-
-// Samples of the surface of one piece, its caps left out, with rays of their own.
-struct SampledPiece {
-    SampledScan scan;
-    PieceAccessibility accessibility;
-    std::vector<OwnedCap> caps;
-    JudgedPiece judged() const { return {scan, accessibility, caps}; }
-};
-SampledPiece sampled_piece(const Piece& piece, std::vector<Vec3> directions, std::size_t samples);
 
 // A way in which a piece can lie. `number` is that of the cut whose cap lies on the table; of a piece without a cap
 // that can carry it, 1 to 6: the sides of its oriented box, shortest axis first, each before its opposite.
@@ -41,6 +33,7 @@ struct PieceReachOptions {
     double tilt_deg = default_tilt_deg;
     DirectionOptions directions;
     std::size_t samples = 4000;
+    bool takes_kept = false;  // the piece's own Piece::samples serve if they are as many
 };
 
 // Per direction 1 if it can be held when the piece lies on a base, else 0.
@@ -56,7 +49,7 @@ struct BaseReach {
 };
 
 struct PieceReach {
-    SampledPiece samples;
+    std::shared_ptr<const SampledPiece> samples;
     std::vector<BaseReach> bases;   // one per base that was given, in their order; at least one
     const BaseReach& best() const;  // the one with the least share; the first of several
 };

@@ -10,6 +10,7 @@
 #include "segment/mesh/measure.h"
 #include "segment/mesh/order.h"
 #include "segment/mesh/solids.h"
+#include "segment/score/sampled_piece.h"
 
 namespace qchopper {
 namespace {
@@ -61,6 +62,7 @@ bool apply(Segmentation& segmentation, Cut cut, double fragment_volume_mm3) {
     if (piece == segmentation.pieces.end()) return false;
     std::optional<CutPieces> made = cut_piece(*piece, cut.chosen.plane, cut.number);
     if (!made) return false;
+    sample_parts(*piece, *made);
     segmentation.pieces.erase(piece);
     const std::size_t fragments_before = segmentation.fragments.size();
     cut.pieces = add_solids(segmentation, std::move(made->pieces), cut.number, fragment_volume_mm3);

@@ -69,8 +69,8 @@ std::string piece_name(std::size_t index);
 Segmentation uncut(const TriangleMesh& scan, double fragment_volume_mm3);
 
 // Cuts the piece cut.piece along cut.chosen.plane and adds the cut, with the pieces and fragments that it makes filled
-// in. Returns false, and changes nothing, if there is no such piece or the plane misses it. Throws InputError if the
-// piece is open.
+// in. If the piece has samples, those that it makes have them too. Returns false, and changes nothing, if there is no
+// such piece or the plane misses it. Throws InputError if the piece is open.
 bool apply(Segmentation& segmentation, Cut cut, double fragment_volume_mm3);
 
 // Moves a piece to `discarded`, with a warning that states its volume. Returns false, and changes nothing, if there is

@@ -20,6 +20,8 @@ struct SearchSettings {
                                  // of the piece's extent, the worse is culled; of no effect at b = 1
     bool operator==(const SearchSettings&) const = default;
 
+    // Whether the pieces need samples (segment/score/sampled_piece.h).
+    bool takes_samples() const { return stop.max_unreachable.has_value(); }
     // Whether a search must save more than its segmentation to go on as if it had not been interrupted.
     bool has_state() const { return beam > 1 || stop.max_unreachable; }
 };

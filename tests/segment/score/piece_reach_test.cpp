@@ -56,7 +56,7 @@ TEST(PieceReach, ACutCubeLiesOnItsCapAndIsReachedWhole) {
             EXPECT_NEAR(reach.best().area_mm2, 1'600 + 4 * 800, 1e-3);
             EXPECT_FALSE(reach.best().directions.further.has_value());
             EXPECT_LE(reach.best().directions.chosen.size(), 5U);  // up and one per wall, or fewer
-            for (const SurfaceSample& s : reach.samples.scan.samples.sample) {
+            for (const SurfaceSample& s : reach.samples->scan->samples.sample) {
                 EXPECT_EQ(cap_of(*piece.mesh, s.triangle), no_cap);
             }
         }
@@ -84,7 +84,7 @@ TEST(PieceReach, AHorizontalSlotIsReachedAsFarAsItsDirectionsSee) {
             std::size_t all = 0;
             std::size_t open = 0;
             for (std::size_t row = 0; row < reach.best().directions.samples.size(); ++row) {
-                const SurfaceSample& s = reach.samples.judged().sample(row);
+                const SurfaceSample& s = reach.samples->judged().sample(row);
                 if (s.normal.z < 0.9 || std::abs(s.point.z - 10) > 1e-6 || std::abs(s.point.y) > 2'500) continue;
                 ++all;
                 open += reach.best().directions.samples[row] == SampleReach::reached ? 1 : 0;
@@ -94,8 +94,8 @@ TEST(PieceReach, AHorizontalSlotIsReachedAsFarAsItsDirectionsSee) {
             EXPECT_NEAR(found, seen_along(chosen), 0.03) << tilt << " " << most;
             if (most < 300) continue;
             std::vector<Vec3> allowed;
-            for (const std::uint32_t k : allowed_directions(reach.samples.scan.directions, below.base.up, tilt)) {
-                allowed.push_back(reach.samples.scan.directions[k]);
+            for (const std::uint32_t k : allowed_directions(reach.samples->scan->directions, below.base.up, tilt)) {
+                allowed.push_back(reach.samples->scan->directions[k]);
             }
             EXPECT_NEAR(seen_along(chosen), seen_along(allowed), 1e-9) << tilt;
             if (tilt > 45) {  // one of the directions leans by 45 degrees, none by 60 or 70
@@ -238,7 +238,7 @@ auto bytes_of(const PieceReach& reach) {
         for (const double v : {b.area_mm2, b.unreachable_mm2}) numbers.push_back(v);
         samples.insert(samples.end(), b.directions.samples.begin(), b.directions.samples.end());
     }
-    return std::tuple(numbers, samples, reach.samples.accessibility.distance);
+    return std::tuple(numbers, samples, reach.samples->accessibility.distance);
 }
 
 TEST(PieceReach, IsTheSameForAnyNumberOfThreads) {

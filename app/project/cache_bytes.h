@@ -1,0 +1,109 @@
+// Values in the files of a project's cache: in the byte order of the machine, and at the end a SHA-256 of the rest, by
+// which a damaged file is known.
+
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "base/file.h"
+#include "base/sha256.h"
+#include "segment/mesh/plane.h"
+
+namespace qchopper {
+
+class CacheWriter {
+ public:
+    template <typename T>
+    void put(T value) {
+        static_assert(std::is_arithmetic_v<T>);
+        add(&value, sizeof value);
+    }
+    template <typename T>
+    void put_all(const std::vector<T>& values) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        put(values.size());
+        add(values.data(), values.size() * sizeof(T));
+    }
+    void put(const Plane& p) {
+        for (const double x : {p.normal.x, p.normal.y, p.normal.z, p.offset}) put(x);
+    }
+    void put(const std::string& text) { put_all(std::vector<char>(text.begin(), text.end())); }
+    Bytes& bytes() { return bytes_; }
+
+ private:
+    void add(const void* from, std::size_t count) {
+        if (count == 0) return;
+        const std::size_t before = bytes_.size();
+        bytes_.resize(before + count);
+        std::memcpy(bytes_.data() + before, from, count);
+    }
+
+    Bytes bytes_;
+};
+
+// Never reads beyond the end, but returns zeros; is_whole() is then false.
+class CacheReader {
+ public:
+    explicit CacheReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+    template <typename T>
+    T get() {
+        T value{};
+        if (bytes_.size() < sizeof value) {
+            is_short_ = true;
+            return value;
+        }
+        std::memcpy(&value, bytes_.data(), sizeof value);
+        bytes_ = bytes_.subspan(sizeof value);
+        return value;
+    }
+    // All elements of a list; none if the bytes do not hold so many.
+    template <typename T>
+    std::vector<T> get_all() {
+        const auto n = get<std::size_t>();
+        if (n > bytes_.size() / sizeof(T)) {
+            is_short_ = true;
+            return {};
+        }
+        std::vector<T> values(n);
+        if (n > 0) std::memcpy(values.data(), bytes_.data(), n * sizeof(T));
+        bytes_ = bytes_.subspan(n * sizeof(T));
+        return values;
+    }
+    // A count of elements of at least one byte each.
+    std::size_t count() {
+        const auto n = get<std::size_t>();
+        if (n <= bytes_.size()) return n;
+        is_short_ = true;
+        return 0;
+    }
+    bool is_whole() const { return !is_short_ && bytes_.empty(); }
+
+ private:
+    std::span<const std::uint8_t> bytes_;
+    bool is_short_ = false;
+};
+
+inline Bytes sealed(Bytes bytes) {
+    const Sha256 digest = sha256(bytes);
+    bytes.insert(bytes.end(), digest.bytes.begin(), digest.bytes.end());
+    return bytes;
+}
+
+// What was sealed; nothing if the bytes are not as they were sealed.
+inline std::optional<std::span<const std::uint8_t>> unsealed(std::span<const std::uint8_t> bytes) {
+    if (bytes.size() < sizeof(Sha256)) return std::nullopt;
+    const auto body = bytes.first(bytes.size() - sizeof(Sha256));
+    const Sha256 digest = sha256(body);
+    if (!std::equal(digest.bytes.begin(), digest.bytes.end(), bytes.last(sizeof(Sha256)).begin())) return std::nullopt;
+    return body;
+}
+
+}  // namespace qchopper
