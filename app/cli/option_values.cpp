@@ -47,6 +47,7 @@ std::optional<double>* weight_named(GivenWeights& weights, const std::string& na
     if (name == "fragility") return &weights.fragility;
     if (name == "piece_count") return &weights.piece_count;
     if (name == "undercut") return &weights.undercut;
+    if (name == "unreachable") return &weights.unreachable;
     return nullptr;
 }
 

@@ -13,7 +13,8 @@ namespace qchopper {
 
 Weights GivenWeights::over(const Weights& weights) const {
     return {face_ratio.value_or(weights.face_ratio), fragility.value_or(weights.fragility),
-            piece_count.value_or(weights.piece_count), undercut.value_or(weights.undercut)};
+            piece_count.value_or(weights.piece_count), undercut.value_or(weights.undercut),
+            unreachable.value_or(weights.unreachable)};
 }
 
 std::string describe(const Decision& decision) {
@@ -36,7 +37,9 @@ std::string cut_line(const Cut& cut) {
                                   : (is_best ? "best of " : "one of ") + std::to_string(cut.candidates) + " planes";
     return "cut " + std::to_string(cut.number) + " on piece " + cut.piece + ": " + which + ", total " +
            fixed(t.total, 3) + " (face ratio " + fixed(t.face_ratio, 2) + ", fragility " + fixed(t.fragility, 3) +
-           ", piece count " + fixed(t.piece_count, 0) + ", undercut " + fixed(t.undercut, 3) + "); makes " + makes(cut);
+           ", piece count " + fixed(t.piece_count, 0) + ", undercut " + fixed(t.undercut, 3) +
+           (t.unreachable > 0 ? ", unreachable " + fixed(100 * t.unreachable, 2) + " %" : "") + "); makes " +
+           makes(cut);
 }
 
 std::string makes(const Cut& cut) {

@@ -29,6 +29,7 @@ struct GivenWeights {
     std::optional<double> fragility;
     std::optional<double> piece_count;
     std::optional<double> undercut;
+    std::optional<double> unreachable;
     Weights over(const Weights& weights) const;
 };
 

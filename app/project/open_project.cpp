@@ -109,7 +109,7 @@ PieceChecks OpenProject::checks() {
 
 OpenProject::Next OpenProject::next(const PieceChecks& checks) {
     const StopRules& rules = project_.settings.stop;
-    StopJudge judge(rules, checks, [this](const Piece& p) { return cache().box(p).size(); });
+    StopJudge judge = judge_for(project_.settings, checks, cache());
     const std::vector<Piece>& pieces = segmentation().pieces;
     const NextPiece by_rules = judge.next(segmentation(), {});
     Next next{by_rules.piece, by_rules.is_finished && rules.is_any_set()};
@@ -166,10 +166,16 @@ void OpenProject::adopt(const Segmentation& segmentation, std::optional<BeamStat
 bool OpenProject::decide_weights(const Weights& weights) {
     if (weights == project_.settings.objectives.weights) return false;
     decide(project_.history, WeightsChange{weights});
-    project_.settings.objectives.weights = weights;
+    set_weights(weights);
     project_.beam.reset();
     save();
     return true;
+}
+
+void OpenProject::set_weights(const Weights& weights) {
+    const bool had_samples = project_.settings.takes_samples();
+    project_.settings.objectives.weights = weights;
+    if (project_.settings.takes_samples() != had_samples) segmentation_.reset();
 }
 
 bool OpenProject::decide_discard(const std::string& piece) {
@@ -232,7 +238,7 @@ std::optional<Decision> OpenProject::change_committed(const Decision* changed, s
 // Everything that follows from the decisions in force is made anew, as after loading them.
 void OpenProject::commit_first(std::size_t committed) {
     project_.history.committed = committed;
-    project_.settings.objectives.weights = committed_weights(project_.history);
+    set_weights(committed_weights(project_.history));
     project_.beam.reset();
     std::vector<Cut> cuts = committed_cuts(project_.history);
     std::vector<Discard> discards = committed_discards(project_.history);

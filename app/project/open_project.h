@@ -115,6 +115,8 @@ class OpenProject {
 
  private:
     void adopt(const Segmentation& segmentation, std::optional<BeamState> beam);
+    // The pieces are made again, with samples or without, if that follows from them.
+    void set_weights(const Weights& weights);
     void record_end(const SearchEnd& end);
     std::optional<Decision> change_committed(const Decision* changed, std::size_t committed);
     void commit_first(std::size_t committed);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/project/enum_names.h"
+#include "segment/score/tool_directions.h"
 
 namespace qchopper {
 namespace {
@@ -26,28 +27,33 @@ Vec3 vec3_from(const Json& json) {
 }
 
 Json json_of(const Weights& w) {
-    return {{"face_ratio", w.face_ratio},
-            {"fragility", w.fragility},
-            {"piece_count", w.piece_count},
-            {"undercut", w.undercut}};
+    Json json{{"face_ratio", w.face_ratio},
+              {"fragility", w.fragility},
+              {"piece_count", w.piece_count},
+              {"undercut", w.undercut}};
+    if (w.unreachable != 0) json["unreachable"] = w.unreachable;
+    return json;
 }
 
 Weights weights_from(const Json& json) {
     return {json.at("face_ratio").get<double>(), json.at("fragility").get<double>(),
-            json.at("piece_count").get<double>(), json.at("undercut").get<double>()};
+            json.at("piece_count").get<double>(), json.at("undercut").get<double>(), json.value("unreachable", 0.0)};
 }
 
 Json json_of(const Terms& t) {
-    return {{"face_ratio", t.face_ratio},
-            {"fragility", t.fragility},
-            {"piece_count", t.piece_count},
-            {"undercut", t.undercut},
-            {"total", t.total}};
+    Json json{{"face_ratio", t.face_ratio},
+              {"fragility", t.fragility},
+              {"piece_count", t.piece_count},
+              {"undercut", t.undercut}};
+    if (t.unreachable != 0) json["unreachable"] = t.unreachable;
+    json["total"] = t.total;
+    return json;
 }
 
 Terms terms_from(const Json& json) {
-    return {json.at("face_ratio").get<double>(), json.at("fragility").get<double>(),
-            json.at("piece_count").get<double>(), json.at("undercut").get<double>(), json.at("total").get<double>()};
+    return {json.at("face_ratio").get<double>(),  json.at("fragility").get<double>(),
+            json.at("piece_count").get<double>(), json.at("undercut").get<double>(),
+            json.value("unreachable", 0.0),       json.at("total").get<double>()};
 }
 
 Json json_of(const SolidRecord& solid) {
@@ -75,17 +81,20 @@ Json json_of(const SearchSettings& s) {
     if (s.stop.max_obb) stop["max_obb_mm"] = json_of(*s.stop.max_obb);
     if (s.stop.max_unreachable) stop["max_unreachable"] = *s.stop.max_unreachable;
     if (s.stop.count_narrow) stop["count_narrow"] = true;
-    return {{"weights", json_of(o.weights)},
-            {"face_ratio_threshold", o.face_ratio_threshold},
-            {"fragility_form", name_of_value(fragility_names, o.fragility_form)},
-            {"fragility_distance_mm", o.fragility_distance},
-            {"undercut_by_area", o.undercut_by_area},
-            {"fragment_volume_mm3", o.fragment_volume_mm3},
-            {"offsets_per_normal", s.candidates.offsets_per_normal},
-            {"runners_up", s.runners_up},
-            {"beam", s.beam},
-            {"near", s.near},
-            {"stop", stop}};
+    Json json{{"weights", json_of(o.weights)},
+              {"face_ratio_threshold", o.face_ratio_threshold},
+              {"fragility_form", name_of_value(fragility_names, o.fragility_form)},
+              {"fragility_distance_mm", o.fragility_distance},
+              {"undercut_by_area", o.undercut_by_area},
+              {"fragment_volume_mm3", o.fragment_volume_mm3},
+              {"offsets_per_normal", s.candidates.offsets_per_normal},
+              {"runners_up", s.runners_up},
+              {"beam", s.beam},
+              {"near", s.near},
+              {"stop", stop}};
+    if (o.scope == TermScope::cut) json["terms_over"] = "cut";
+    if (o.tilt_deg != default_tilt_deg) json["tilt_deg"] = o.tilt_deg;
+    return json;
 }
 
 SearchSettings settings_from(const Json& json) {
@@ -96,6 +105,8 @@ SearchSettings settings_from(const Json& json) {
     s.objectives.fragility_distance = json.at("fragility_distance_mm").get<double>();
     s.objectives.undercut_by_area = json.at("undercut_by_area").get<bool>();
     s.objectives.fragment_volume_mm3 = json.at("fragment_volume_mm3").get<double>();
+    if (json.value("terms_over", "whole") == "cut") s.objectives.scope = TermScope::cut;
+    s.objectives.tilt_deg = json.value("tilt_deg", default_tilt_deg);
     s.candidates.offsets_per_normal = json.at("offsets_per_normal").get<int>();
     s.runners_up = json.at("runners_up").get<std::size_t>();
     s.beam = json.at("beam").get<std::size_t>();

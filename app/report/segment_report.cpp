@@ -22,7 +22,8 @@ std::string describe(Vec3 v, int digits) {
 
 std::string describe_weights(const Weights& w) {
     return "face ratio " + fixed(w.face_ratio, 3) + ", fragility " + fixed(w.fragility, 3) + ", piece count " +
-           fixed(w.piece_count, 3) + ", undercut " + fixed(w.undercut, 3);
+           fixed(w.piece_count, 3) + ", undercut " + fixed(w.undercut, 3) +
+           (w.unreachable > 0 ? ", unreachable " + fixed(w.unreachable, 3) : "");
 }
 
 bool is_fragment(const SolidEvaluation& solid, const Project& project) {

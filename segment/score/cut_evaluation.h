@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace qchopper {
@@ -32,10 +33,17 @@ struct SolidEvaluation {
     std::vector<BaseShare> bases;  // of the cuts whose cap the solid owns, ascending
 };
 
+// What no tool reaches of the two sides of a plane, in mm2, on samples.
+struct CutReach {
+    double unreachable_mm2 = 0;
+    double scan_area_mm2 = 0;  // above 0
+};
+
 struct CutEvaluation {
     std::vector<SolidEvaluation> solids;  // those above first
     double cap_area_mm2 = 0;
     double fragility = 0;  // in the form of the objectives
+    std::optional<CutReach> reach;
 };
 
 }  // namespace qchopper

@@ -20,17 +20,19 @@ double undercut(const SolidEvaluation& solid, bool by_area) {
 }
 
 PieceShare share(const SolidEvaluation& solid, const Objectives& objectives) {
-    return {solid.faces, undercut(solid, objectives.undercut_by_area)};
+    return {solid.faces, undercut(solid, objectives.undercut_by_area), 0};
 }
 
 std::optional<Terms> terms(const CutEvaluation& evaluation, std::span<const PieceShare> others,
                            const Objectives& objectives) {
-    std::vector<PieceShare> pieces(others.begin(), others.end());
+    std::vector<PieceShare> pieces;
     for (const SolidEvaluation& solid : evaluation.solids) {
         if (solid.volume_mm3 >= objectives.fragment_volume_mm3) pieces.push_back(share(solid, objectives));
     }
-    const std::size_t made = pieces.size() - others.size();
+    const std::size_t made = pieces.size();
     if (made < 2 || evaluation.cap_area_mm2 <= 0) return std::nullopt;
+    // Before those made, so that sums are taken in the order of the segmentation.
+    if (objectives.scope == TermScope::whole) pieces.insert(pieces.begin(), others.begin(), others.end());
     std::size_t most = pieces.front().faces;
     std::size_t fewest = most;
     double undercut_sum = 0;
@@ -46,9 +48,15 @@ std::optional<Terms> terms(const CutEvaluation& evaluation, std::span<const Piec
     result.fragility = evaluation.fragility;
     result.piece_count = static_cast<double>(made) - 2;
     result.undercut = undercut_sum / static_cast<double>(pieces.size());
+    if (evaluation.reach) {
+        double unreachable = evaluation.reach->unreachable_mm2;
+        for (const PieceShare& other : others) unreachable += other.unreachable_mm2;
+        result.unreachable = unreachable / evaluation.reach->scan_area_mm2;
+    }
     const Weights& w = objectives.weights;
     result.total = w.face_ratio * result.face_ratio + w.fragility * result.fragility +
-                   w.piece_count * result.piece_count + w.undercut * result.undercut;
+                   w.piece_count * result.piece_count + w.undercut * result.undercut +
+                   w.unreachable * result.unreachable;
     return result;
 }
 

@@ -1,4 +1,5 @@
-// The four objectives of a cut and their weighted sum; lower is better (Nicholson 2016, section 4.2).
+// The objectives of a cut and their weighted sum; lower is better: the four of the thesis (Nicholson 2016, section 4.2)
+// and the surface that no tool reaches (unreachable.h).
 //
 // Invariants: tests/segment/score/objectives_test.cpp.
 
@@ -17,7 +18,14 @@ struct Weights {
     double fragility = 5;
     double piece_count = 50;
     double undercut = 10;
+    double unreachable = 0;  // above 0 the pieces need samples (sampled_piece.h)
     bool operator==(const Weights&) const = default;
+};
+
+// Over which pieces face ratio and undercut are taken.
+enum class TermScope {
+    whole,  // all of the segmentation, as in the thesis
+    cut     // those that the newest cut makes: a small solid elsewhere does not drown every other term
 };
 
 enum class FragilityForm {
@@ -31,6 +39,8 @@ struct Objectives {
     FragilityForm fragility_form = FragilityForm::thinness;
     double fragility_distance = 20;  // d, mm: surface nearer to a plane counts
     bool undercut_by_area = true;    // false: every triangle counts 1 (thesis 5.3.1)
+    TermScope scope = TermScope::whole;
+    double tilt_deg = 60;            // largest tilt of the tool, for unreachable
     double fragment_volume_mm3 = 0;  // smaller solids are fragments and enter no objective
     bool operator==(const Objectives&) const = default;
 };
@@ -41,6 +51,7 @@ struct Terms {
     double fragility = 0;
     double piece_count = 0;
     double undercut = 0;
+    double unreachable = 0;  // share of the scan's area, over all pieces; 0 without samples
     double total = 0;
     bool operator==(const Terms&) const = default;
 };
@@ -49,6 +60,7 @@ struct Terms {
 struct PieceShare {
     std::size_t faces = 0;
     double undercut = 0.5;
+    double unreachable_mm2 = 0;
 };
 
 // The share of downward surface on one base, downward / all, by area or by count; 0 if there is none. In [0, 1/2) by

@@ -7,21 +7,35 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "segment/score/sampled_piece.h"
 #include "segment/search/trial.h"
 
 namespace qchopper {
 namespace {
 
-double of_cuts(const Segmentation& segmentation, const Weights& w) {
+double of_cuts(const Segmentation& segmentation, const Objectives& objectives) {
+    const Weights& w = objectives.weights;
     double sum = 0;
     for (const Cut& cut : segmentation.cuts) {
-        sum += w.fragility * cut.chosen.terms.fragility + w.piece_count * cut.chosen.terms.piece_count;
+        const Terms& terms = cut.chosen.terms;
+        sum += w.fragility * terms.fragility + w.piece_count * terms.piece_count;
+        if (objectives.scope == TermScope::cut) sum += w.face_ratio * terms.face_ratio + w.undercut * terms.undercut;
     }
     return sum;
 }
 
+double of_reach(const Segmentation& segmentation, const Objectives& objectives, EvaluationCache& cache) {
+    if (objectives.weights.unreachable == 0 || !segmentation.pieces.front().samples) return 0;
+    double sum = 0;
+    for (const Piece& piece : segmentation.pieces) sum += cache.unreachable_mm2(piece, objectives.tilt_deg);
+    const SurfaceSamples& samples = segmentation.pieces.front().samples->scan->samples;
+    return objectives.weights.unreachable * sum / (samples.area_each_mm2 * static_cast<double>(samples.sample.size()));
+}
+
 double of_pieces(const Segmentation& segmentation, const Objectives& objectives, EvaluationCache& cache) {
     if (segmentation.pieces.empty()) return 0;
+    const double reach = of_reach(segmentation, objectives, cache);
+    if (objectives.scope == TermScope::cut) return reach;
     std::size_t most = 0;
     std::size_t fewest = segmentation.pieces.front().mesh->triangles.size();
     double undercuts = 0;
@@ -33,7 +47,7 @@ double of_pieces(const Segmentation& segmentation, const Objectives& objectives,
     }
     const double ratio = static_cast<double>(most) / static_cast<double>(fewest);
     return objectives.weights.face_ratio * std::max(ratio - objectives.face_ratio_threshold, 0.0) +
-           objectives.weights.undercut * undercuts / static_cast<double>(segmentation.pieces.size());
+           objectives.weights.undercut * undercuts / static_cast<double>(segmentation.pieces.size()) + reach;
 }
 
 // The head of one list of the merge: a BSP that ended, or else one child of a BSP.
@@ -84,7 +98,7 @@ std::optional<Segmentation> better_by_trial(const Segmentation& segmentation, co
 }  // namespace
 
 double cost(const Segmentation& segmentation, const Objectives& objectives, EvaluationCache& cache) {
-    return of_cuts(segmentation, objectives.weights) + of_pieces(segmentation, objectives, cache);
+    return of_cuts(segmentation, objectives) + of_pieces(segmentation, objectives, cache);
 }
 
 Bsp bsp(Segmentation segmentation, std::vector<std::string> passed_over, std::vector<RevertedTrial> reverted,
@@ -93,7 +107,7 @@ Bsp bsp(Segmentation segmentation, std::vector<std::string> passed_over, std::ve
     b.segmentation = std::move(segmentation);
     b.passed_over = std::move(passed_over);
     b.reverted = std::move(reverted);
-    b.of_cuts = of_cuts(b.segmentation, objectives.weights);
+    b.of_cuts = of_cuts(b.segmentation, objectives);
     b.cost = b.of_cuts + of_pieces(b.segmentation, objectives, cache);
     return b;
 }

@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/timings.h"
 #include "segment/score/evaluate.h"
+#include "segment/score/sampled_piece.h"
 
 namespace qchopper {
 namespace {
@@ -62,6 +63,13 @@ const SolidEvaluation& EvaluationCache::solid_evaluation(const Piece& piece) {
     Entry& e = entry(piece);
     if (!e.solid) e.solid = measure(piece);
     return *e.solid;
+}
+
+double EvaluationCache::unreachable_mm2(const Piece& piece, double tilt_deg) {
+    if (!piece.samples) return 0;
+    Entry& e = entry(piece);
+    if (!e.unreachable_mm2) e.unreachable_mm2 = qchopper::unreachable_mm2(piece, tilt_deg);
+    return *e.unreachable_mm2;
 }
 
 bool EvaluationCache::is_known(const Piece& piece, Entry& e) {

@@ -11,7 +11,9 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/context.h"
@@ -28,6 +30,15 @@ struct PieceEvaluations {
     std::vector<std::optional<CutEvaluation>> evaluations;  // one per candidate; nothing: the plane misses
 };
 
+// What is known of the planes of a piece that are ranked by reach (reach_rank.h). Areas in mm2, of both sides.
+struct ReachEvaluations {
+    std::vector<Vec3> normals;                          // none: not swept yet
+    std::vector<std::vector<double>> offsets;           // per normal
+    std::vector<std::vector<double>> unreachable_mm2;   // per normal and offset
+    std::map<std::size_t, PieceEvaluations> evaluated;  // per normal of which all terms are known
+    std::set<std::pair<int, int>> really_cut;           // normal and offset of planes that were cut to be judged
+};
+
 // Where evaluations are kept beyond the end of the program (app/project/evaluation_store.h). Both functions may be
 // empty; they are called from one thread.
 struct EvaluationStore {
@@ -42,6 +53,11 @@ class EvaluationCache {
     // References stay valid until keep_only() removes the piece.
     const OrientedBox& box(const Piece& piece);
     const SolidEvaluation& solid_evaluation(const Piece& piece);  // of the piece as it is: measure() in reference.h
+
+    // What no tool reaches of a piece that has samples, with a largest tilt of the tool; 0 of one that has none.
+    double unreachable_mm2(const Piece& piece, double tilt_deg);
+    // Of a piece that has samples; reach_rank.h fills it.
+    ReachEvaluations& reach(const Piece& piece) { return entry(piece).reach; }
 
     // Evaluates all of the pieces that are neither evaluated nor stored, together, so that all cores are busy.
     // Afterwards evaluations() may be called for each; it must not be called before. Throws Cancelled, and then keeps
@@ -67,6 +83,8 @@ class EvaluationCache {
         std::optional<OrientedBox> box;
         std::optional<SolidEvaluation> solid;
         std::shared_ptr<const PieceEvaluations> evaluations;
+        std::optional<double> unreachable_mm2;
+        ReachEvaluations reach;
     };
 
     Entry& entry(const Piece& piece);

@@ -7,6 +7,9 @@
 #include <cstdlib>
 #include <utility>
 
+#include "segment/score/cut_reach.h"
+#include "segment/search/reach_rank.h"
+
 namespace qchopper {
 namespace {
 
@@ -32,7 +35,12 @@ std::vector<PieceShare> shares_of_others(const Segmentation& segmentation, std::
     assert(piece < segmentation.pieces.size());
     std::vector<PieceShare> shares;
     for (std::size_t p = 0; p < segmentation.pieces.size(); ++p) {
-        if (p != piece) shares.push_back(share(cache.solid_evaluation(segmentation.pieces[p]), objectives));
+        if (p == piece) continue;
+        const Piece& other = segmentation.pieces[p];
+        shares.push_back(share(cache.solid_evaluation(other), objectives));
+        if (objectives.weights.unreachable > 0) {
+            shares.back().unreachable_mm2 = cache.unreachable_mm2(other, objectives.tilt_deg);
+        }
     }
     return shares;
 }
@@ -70,6 +78,9 @@ std::vector<std::size_t> without_near_duplicates(const std::vector<Ranked>& rank
 std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
                          EvaluationCache& cache, const Context& context) {
     assert(piece < segmentation.pieces.size());
+    if (is_ranked_by_reach(segmentation.pieces[piece], settings)) {
+        return rank_by_reach(segmentation, piece, settings, cache, context);
+    }
     const Piece* target = &segmentation.pieces[piece];
     cache.evaluate(std::span(&target, 1), context);
     const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, cache);
@@ -78,7 +89,11 @@ std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, co
 
 std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t piece, const Candidate& plane,
                                  const SearchSettings& settings, EvaluationCache& cache, const Context& context) {
-    const PieceEvaluations alone{{plane}, {cache.evaluation_of(segmentation.pieces[piece], plane, context)}};
+    const Piece& target = segmentation.pieces[piece];
+    PieceEvaluations alone{{plane}, {cache.evaluation_of(target, plane, context)}};
+    if (alone.evaluations.front() && is_ranked_by_reach(target, settings)) {
+        alone.evaluations.front()->reach = cut_reach(target, plane.plane, settings.objectives.tilt_deg);
+    }
     const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, cache);
     const std::vector<Ranked> ranked = rank(alone, others, settings.objectives);
     return ranked.empty() ? std::nullopt : std::optional(ranked.front());

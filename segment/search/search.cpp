@@ -9,6 +9,7 @@
 
 #include "base/timings.h"
 #include "segment/search/beam.h"
+#include "segment/search/reach_rank.h"
 #include "segment/search/trial.h"
 
 namespace qchopper {
@@ -32,7 +33,7 @@ class Search {
            BeamProgress* progress)
         : settings_(settings),
           cache_(cache),
-          judge_(settings.stop, checks, [&cache](const Piece& p) { return cache.box(p).size(); }),
+          judge_(judge_for(settings, checks, cache)),
           context_(context),
           progress_(settings.has_state() ? progress : nullptr) {}
 
@@ -147,6 +148,7 @@ class Search {
                 const Piece& piece = b.segmentation.pieces[b.next.waiting[i]];
                 // The next piece is evaluated already: no reason to evaluate others early.
                 if (i > 0 && cache_.is_evaluated(b.segmentation.pieces[b.next.waiting.front()])) break;
+                if (is_ranked_by_reach(piece, settings_)) continue;  // evaluated as far as needed, by rank()
                 if (!contains(pieces, piece)) pieces.push_back(&piece);
             }
         }
@@ -220,6 +222,16 @@ class Search {
 };
 
 }  // namespace
+
+StopJudge judge_for(const SearchSettings& settings, const PieceChecks& checks, EvaluationCache& cache) {
+    std::function<double(const Piece&)> priority;
+    if (settings.objectives.weights.unreachable > 0) {
+        priority = [&cache, tilt = settings.objectives.tilt_deg](const Piece& p) {
+            return cache.unreachable_mm2(p, tilt);
+        };
+    }
+    return {settings.stop, checks, [&cache](const Piece& p) { return cache.box(p).size(); }, std::move(priority)};
+}
 
 SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, EvaluationCache& cache,
                  const PieceChecks& checks, const std::function<void(const Segmentation&)>& on_round,

@@ -47,6 +47,10 @@ struct BeamProgress {
     std::optional<BeamState> saved() const { return state.branches.empty() ? std::nullopt : std::optional(state); }
 };
 
+// What decides whether a search is finished and which piece is cut next: by faces, or where surface out of reach has a
+// weight, by that surface. Both references must outlive it.
+StopJudge judge_for(const SearchSettings& settings, const PieceChecks& checks, EvaluationCache& cache);
+
 // Continues from the cuts of `segmentation` and returns the best BSP in it. `on_round` is called with the best so far
 // after every round that changes it, so that it can be saved: at b = 1 after every decision. The search ends with the
 // round in which `time_limit_s` passes; at least one round is made unless the limit is 0. Throws Cancelled if the

@@ -21,7 +21,7 @@ struct SearchSettings {
     bool operator==(const SearchSettings&) const = default;
 
     // Whether the pieces need samples (segment/score/sampled_piece.h).
-    bool takes_samples() const { return stop.max_unreachable.has_value(); }
+    bool takes_samples() const { return stop.max_unreachable.has_value() || objectives.weights.unreachable > 0; }
     // Whether a search must save more than its segmentation to go on as if it had not been interrupted.
     bool has_state() const { return beam > 1 || stop.max_unreachable; }
 };

@@ -38,8 +38,12 @@ bool fits_in(Vec3 size, Vec3 limit) {
     return a[0] <= b[0] && a[1] <= b[1] && a[2] <= b[2];
 }
 
-StopJudge::StopJudge(StopRules rules, PieceChecks checks, std::function<Vec3(const Piece&)> box_size)
-    : rules_(rules), checks_(std::move(checks)) {
+StopJudge::StopJudge(StopRules rules, PieceChecks checks, std::function<Vec3(const Piece&)> box_size,
+                     std::function<double(const Piece&)> priority)
+    : rules_(rules), priority_(std::move(priority)), checks_(std::move(checks)) {
+    if (!priority_) {
+        priority_ = [](const Piece& piece) { return static_cast<double>(piece.mesh->triangles.size()); };
+    }
     if (rules.max_faces) {
         piece_rules_.push_back({[most = *rules.max_faces](const Piece& p) { return p.mesh->triangles.size() < most; },
                                 [most = *rules.max_faces](const Piece& p) {
@@ -123,7 +127,7 @@ NextPiece StopJudge::next(const Segmentation& segmentation, const std::vector<st
         if ((any_piece || failing[p]) && !is_passed_over) next.waiting.push_back(p);
     }
     std::stable_sort(next.waiting.begin(), next.waiting.end(), [&](std::size_t a, std::size_t b) {
-        return segmentation.pieces[a].mesh->triangles.size() > segmentation.pieces[b].mesh->triangles.size();
+        return priority_(segmentation.pieces[a]) > priority_(segmentation.pieces[b]);
     });
     if (next.waiting.empty()) return next;
     next.piece = next.waiting.front();

@@ -63,7 +63,9 @@ struct NextPiece {
 class StopJudge {
  public:
     // `box_size` returns the size of a piece's oriented box; called only if max_obb is set.
-    StopJudge(StopRules rules, PieceChecks checks, std::function<Vec3(const Piece&)> box_size);
+    // `priority`: of the pieces that break a rule the one with the largest is next; empty: the number of faces.
+    StopJudge(StopRules rules, PieceChecks checks, std::function<Vec3(const Piece&)> box_size,
+              std::function<double(const Piece&)> priority = {});
 
     // `passed_over`: names of pieces for which no candidate was found, or no cuts that make them better. Where all
     // rules must hold, a piece that breaks another rule is not asked what of it is out of reach.
@@ -92,6 +94,7 @@ class StopJudge {
     bool is_out_of_reach(const Piece& piece) { return unreachable(piece).share > *rules_.max_unreachable; }
 
     StopRules rules_;
+    std::function<double(const Piece&)> priority_;
     PieceChecks checks_;
     std::vector<PieceRule> piece_rules_;  // the rules on single pieces without max_unreachable, which is asked last
     std::map<const TriangleMesh*, Verdict> verdicts_;

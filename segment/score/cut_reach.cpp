@@ -1,0 +1,32 @@
+// Sums over what the sweep gives.
+
+#include "segment/score/cut_reach.h"
+
+#include "segment/score/piece_reach.h"
+
+namespace qchopper {
+
+std::vector<TiltBase> cap_bases(const Piece& piece) {
+    std::vector<TiltBase> bases;
+    for (const PieceBase& base : bases_of(piece)) {
+        if (base.base.cut) bases.push_back(base.base);
+    }
+    return bases;
+}
+
+double scan_area_mm2(const Piece& piece) {
+    const SurfaceSamples& samples = piece.samples->scan->samples;
+    return samples.area_each_mm2 * static_cast<double>(samples.sample.size());
+}
+
+double unreachable_mm2(const PlaneReach& plane) {
+    return least_unreachable_mm2(plane.above) + least_unreachable_mm2(plane.below);
+}
+
+CutReach cut_reach(const Piece& piece, const Plane& plane, double tilt_deg) {
+    const JudgedPiece judged = piece.samples->judged();
+    const ReachSweep sweep(judged, cap_bases(piece), tilt_deg);
+    return {unreachable_mm2(sweep.sweep(plane.normal, {&plane.offset, 1}).front()), scan_area_mm2(piece)};
+}
+
+}  // namespace qchopper

@@ -1,0 +1,28 @@
+// What no tool reaches of the two sides of a plane: the ingredients of the objective `unreachable`.
+//
+// mm2, on the samples of a piece (sampled_piece.h), for a tool of radius zero. Preconditions of all functions that take
+// a piece: it has samples.
+
+#pragma once
+
+#include <vector>
+
+#include "segment/score/cut_evaluation.h"
+#include "segment/score/reach_sweep.h"
+#include "segment/score/sampled_piece.h"
+
+namespace qchopper {
+
+// The caps of a piece that can carry it (piece_reach.h); none if it has only the sides of its box.
+std::vector<TiltBase> cap_bases(const Piece& piece);
+
+// The area of the uncut scan, all its pieces together.
+double scan_area_mm2(const Piece& piece);
+
+// Of both sides, each on its best base.
+double unreachable_mm2(const PlaneReach& plane);
+
+// Of one plane. O(samples x directions).
+CutReach cut_reach(const Piece& piece, const Plane& plane, double tilt_deg);
+
+}  // namespace qchopper
