@@ -14,6 +14,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -24,6 +25,10 @@ namespace {
 
 constexpr std::size_t word_bits = 64;
 constexpr std::size_t lanes = 16;  // samples of a block
+
+// Four numbers, for which compilers take one instruction; their own vectorising gives up here.
+using Four = float __attribute__((vector_size(4 * sizeof(float))));
+static_assert(lanes % 4 == 0);
 constexpr std::uint32_t no_row = std::numeric_limits<std::uint32_t>::max();
 
 // A set of samples of the piece: bit r % 64 of word r / 64.
@@ -43,37 +48,60 @@ class OffsetCounts {
     explicit OffsetCounts(std::span<const double> offsets) : offsets_(offsets) {
         assert(!offsets.empty() && std::is_sorted(offsets.begin(), offsets.end()));
         const double range = offsets.back() - offsets.front();
-        cells_ = cells_per_offset * offsets.size();
-        scale_ = range > 0 ? static_cast<double>(cells_ - 1) / range : 0;
-        first_.assign(cells_ + 1, 0);
-        for (const double offset : offsets) ++first_[cell(offset) + 1];
-        for (std::size_t c = 0; c < cells_; ++c) first_[c + 1] += first_[c];
+        const std::size_t cells = cells_per_offset * offsets.size();
+        low_ = offsets.front();
+        last_ = static_cast<double>(cells - 1);
+        scale_ = range > 0 ? last_ / range : 0;
+        first_.assign(cells + 1, 0);
+        for (const double offset : offsets) ++first_[static_cast<std::size_t>(cell(offset)) + 1];
+        for (std::size_t c = 0; c < cells; ++c) first_[c + 1] += first_[c];
     }
     std::uint32_t at_most(double value) const {
-        return count(value, [value](double offset) { return offset <= value; });
+        return count(cell(value), [value](double offset) { return offset <= value; });
     }
     std::uint32_t less_than(double value) const {
-        return count(value, [value](double offset) { return offset < value; });
+        return count(cell(value), [value](double offset) { return offset < value; });
+    }
+    // The same for many values. Both spans have the same size.
+    void at_most(std::span<const double> values, std::span<std::uint32_t> result) const {
+        many(values, result, [](double offset, double value) { return offset <= value; });
+    }
+    void less_than(std::span<const double> values, std::span<std::uint32_t> result) const {
+        many(values, result, [](double offset, double value) { return offset < value; });
     }
 
  private:
-    static constexpr std::size_t cells_per_offset = 8;
+    static constexpr std::size_t cells_per_offset = 16;
 
     // Never less for a larger value.
-    std::size_t cell(double value) const {
-        return static_cast<std::size_t>(
-            std::clamp((value - offsets_.front()) * scale_, 0.0, static_cast<double>(cells_ - 1)));
+    std::int32_t cell(double value) const {
+        return static_cast<std::int32_t>(std::min(std::max((value - low_) * scale_, 0.0), last_));
     }
     template <class Counts>
-    std::uint32_t count(double value, const Counts& counts) const {
-        const std::size_t c = cell(value);
+    std::uint32_t count(std::int32_t in, const Counts& counts) const {
+        const auto c = static_cast<std::size_t>(in);
         std::uint32_t result = first_[c];
         while (result < first_[c + 1] && counts(offsets_[result])) ++result;
         return result;
     }
+    template <class Counts>
+    void many(std::span<const double> values, std::span<std::uint32_t> result, const Counts& counts) const {
+        assert(values.size() == result.size());
+        constexpr std::size_t at_once = 64;
+        std::array<std::int32_t, at_once> cells;
+        for (std::size_t first = 0; first < values.size(); first += at_once) {
+            const std::size_t size = std::min(at_once, values.size() - first);
+            for (std::size_t i = 0; i < size; ++i) cells[i] = cell(values[first + i]);
+            for (std::size_t i = 0; i < size; ++i) {
+                const double value = values[first + i];
+                result[first + i] = count(cells[i], [&](double offset) { return counts(offset, value); });
+            }
+        }
+    }
 
     std::span<const double> offsets_;
-    std::size_t cells_ = 0;
+    double low_ = 0;
+    double last_ = 0;  // cell
     double scale_ = 0;
     std::vector<std::uint32_t> first_;  // per cell: the offsets in earlier ones
 };
@@ -377,7 +405,7 @@ class ReachSweep::PlaneSweep {
     PlaneSweep(const Prepared& prepared, Vec3 normal, std::span<const double> offsets)
         : p_(prepared), normal_(normal), offsets_(offsets), counts_(offsets), height_(p_.rows), planes_(p_.rows) {
         for (std::size_t row = 0; row < p_.rows; ++row) height_[row] = height(normal, p_.point[row]);
-        for (std::size_t row = 0; row < p_.rows; ++row) planes_[row] = counts_.at_most(height_[row]);
+        counts_.at_most(height_, planes_);
         for (const CapOutline& c : p_.caps) cap_below_.push_back(c.area_below(normal, offsets));
     }
 
@@ -598,31 +626,54 @@ class ReachSweep::PlaneSweep {
         for (const Vec3& d : base.directions) slope.push_back(static_cast<float>(dot(normal_, d)));
         Blocked result{std::vector<std::uint32_t>(offsets_.size() + 1),
                        std::vector<std::uint32_t>(offsets_.size() + 1)};
+        // Heights at which the rays of the blocked samples end, at the most and at the least.
+        std::vector<double> highest(base.row.size());
+        std::vector<double> lowest(base.row.size());
         for (std::size_t block = 0; block + 1 < base.first_slot.size(); ++block) {
-            // Along the normal, mm: how far above and below the samples their rays end.
-            std::array<float, lanes> highest{};
-            std::array<float, lanes> lowest{};
-            for (std::uint32_t slot = base.first_slot[block]; slot < base.first_slot[block + 1]; ++slot) {
-                const float* distance = base.distance.data() + slot * lanes;
-                const float of_slot = slope[base.direction[slot]];
-                for (std::size_t lane = 0; lane < lanes; ++lane) {
-                    const float end = of_slot * distance[lane];
-                    highest[lane] = end > highest[lane] ? end : highest[lane];
-                    lowest[lane] = end < lowest[lane] ? end : lowest[lane];
-                }
-            }
+            const Ends ends = ends_of_block(base, block, slope);
             for (std::size_t lane = 0; lane < lanes; ++lane) {
-                const std::uint32_t row = base.row[block * lanes + lane];
-                if (row == no_row) break;
-                const std::uint32_t own = planes_[row];
-                // With 0 the rays end no nearer to the plane.
-                const double above = static_cast<double>(highest[lane]);
-                const double below = static_cast<double>(lowest[lane]);
-                ++result.below[above > 0 ? std::max(own, counts_.less_than(height_[row] + above)) : own];
-                ++result.above[below < 0 ? std::min(own, counts_.at_most(height_[row] + below)) : own];
+                const std::size_t i = block * lanes + lane;
+                const double own = base.row[i] == no_row ? 0 : height_[base.row[i]];
+                highest[i] = own + static_cast<double>(ends.highest[lane]);
+                lowest[i] = own + static_cast<double>(ends.lowest[lane]);
             }
         }
+        std::vector<std::uint32_t> from(base.row.size());
+        std::vector<std::uint32_t> before(base.row.size());
+        counts_.less_than(highest, from);
+        counts_.at_most(lowest, before);
+        for (std::size_t i = 0; i < base.row.size() && base.row[i] != no_row; ++i) {
+            const std::uint32_t own = planes_[base.row[i]];
+            ++result.below[std::max(own, from[i])];
+            ++result.above[std::min(own, before[i])];
+        }
         return result;
+    }
+
+    // Along the normal, mm: how far above and below the samples of a block their rays end, at least 0.
+    struct Ends {
+        std::array<float, lanes> highest;
+        std::array<float, lanes> lowest;
+    };
+
+    static Ends ends_of_block(const OldBase& base, std::size_t block, std::span<const float> slope) {
+        std::array<Four, lanes / 4> highest{};
+        std::array<Four, lanes / 4> lowest{};
+        for (std::uint32_t slot = base.first_slot[block]; slot < base.first_slot[block + 1]; ++slot) {
+            const float* distance = base.distance.data() + slot * lanes;
+            const float of_slot = slope[base.direction[slot]];
+            for (std::size_t i = 0; i < lanes / 4; ++i) {
+                Four end;
+                std::memcpy(&end, distance + 4 * i, sizeof end);
+                end *= of_slot;
+                highest[i] = end > highest[i] ? end : highest[i];
+                lowest[i] = end < lowest[i] ? end : lowest[i];
+            }
+        }
+        Ends ends{};
+        std::memcpy(ends.highest.data(), highest.data(), sizeof highest);
+        std::memcpy(ends.lowest.data(), lowest.data(), sizeof lowest);
+        return ends;
     }
 
     double area_each() const { return p_.judged.scan.samples.area_each_mm2; }
