@@ -92,10 +92,14 @@ std::vector<Step> profile(const Measured& m, int runs) {
 
 }  // namespace
 
+double first_decision_s(const Measured& measured, int runs) {
+    return best_of(runs, cpu_s, [&] { return decide(measured); });
+}
+
 void measure_decision(const Measured& m, const Baseline& base, const Effort& effort, Figures& figures) {
     const ThreadLimit one_thread(1);
     const int runs = std::min(effort.runs, 3);
-    const double whole = best_of(runs, cpu_s, [&] { return decide(m); });
+    const double whole = first_decision_s(m, runs);
     figures.record(m.name, "first decision", time_text(whole));
     double known = 0;
     double box = 0;

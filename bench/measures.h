@@ -38,6 +38,8 @@ void measure_growth(const Measured& small, const Baseline& small_base, std::size
 // Peak memory of a program of its own that reads a scan and decides one cut.
 void measure_memory(const std::filesystem::path& program, std::size_t faces, Figures& figures);
 
+// Seconds of the first decision, from a mesh in memory: the best of `runs`.
+double first_decision_s(const Measured& measured, int runs);
 // Seconds of one evaluation, the best of `runs`.
 double evaluation_s(const Measured& measured, int runs);
 

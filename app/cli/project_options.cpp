@@ -46,8 +46,8 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
         ->check(one_of({"mm", "cm", "m", "in"}));
     add_scale(c, a.scale);
     c->add_option("--cell", a.cell, "the cell file (docs/cell-file.md)");
-    c->add_option("--preset", a.preset, "weights and stop rule by name: bunny, femur, vertebrae, skull")
-        ->check(one_of({"bunny", "femur", "vertebrae", "skull"}));
+    c->add_option("--preset", a.preset, "weights and stop rule by name: carve, bunny, femur, vertebrae, skull")
+        ->check(one_of({"carve", "bunny", "femur", "vertebrae", "skull"}));
     c->add_option("--min-cuts", a.min_cuts, "stop rule: make at least N cuts")
         ->check(number_between(0, 1e6, "a count of cuts"));
     c->add_option("--max-faces", a.max_faces, "stop rule: every piece has fewer than N faces")
