@@ -2,15 +2,11 @@
 
 #include "segment/score/cut_reach.h"
 
-#include "segment/score/piece_reach.h"
-
 namespace qchopper {
 
 std::vector<TiltBase> cap_bases(const Piece& piece) {
     std::vector<TiltBase> bases;
-    for (const PieceBase& base : bases_of(piece)) {
-        if (base.base.cut) bases.push_back(base.base);
-    }
+    for (const OwnedCap& cap : piece.samples->caps) bases.push_back({-cap.outward, cap.cut});
     return bases;
 }
 
@@ -25,7 +21,7 @@ double unreachable_mm2(const PlaneReach& plane) {
 
 CutReach cut_reach(const Piece& piece, const Plane& plane, double tilt_deg) {
     const JudgedPiece judged = piece.samples->judged();
-    const ReachSweep sweep(judged, cap_bases(piece), tilt_deg);
+    const ReachSweep sweep(piece, judged, cap_bases(piece), tilt_deg);
     return {unreachable_mm2(sweep.sweep(plane.normal, {&plane.offset, 1}).front()), scan_area_mm2(piece)};
 }
 

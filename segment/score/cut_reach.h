@@ -13,7 +13,7 @@
 
 namespace qchopper {
 
-// The caps of a piece that can carry it (piece_reach.h); none if it has only the sides of its box.
+// The caps of a piece, also those too small to carry it: they may carry a part of it.
 std::vector<TiltBase> cap_bases(const Piece& piece);
 
 // The area of the uncut scan, all its pieces together.

@@ -29,7 +29,7 @@ ReachEvaluations swept(const Piece& piece, const OrientedBox& box, const SearchS
     result.unreachable_mm2.resize(result.normals.size());
     const SampledPiece& samples = *piece.samples;
     const JudgedPiece judged = samples.judged();
-    const ReachSweep sweep(judged, cap_bases(piece), settings.objectives.tilt_deg);
+    const ReachSweep sweep(piece, judged, cap_bases(piece), settings.objectives.tilt_deg);
     const int count = settings.candidates.offsets_per_normal;
     parallel_for(0, result.normals.size(), [&](std::size_t n) {
         context.check_cancelled();
