@@ -30,6 +30,10 @@ Project searched_project(const TriangleMesh& mesh, Segmentation& segmentation) {
     project.preset = "bunny";
     project.settings.candidates.offsets_per_normal = 5;
     project.settings.objectives.fragility_form = FragilityForm::thesis;
+    project.settings.objectives.weights.unreachable = 100;
+    project.settings.objectives.scope = TermScope::cut;
+    project.settings.objectives.tilt_deg = 30;
+    project.settings.stop.count_narrow = true;
     project.settings.objectives.fragment_volume_mm3 = 1e-5 * volume_mm3(mesh);
     project.settings.stop.min_cuts = 3;
     project.settings.stop.max_obb = Vec3{1, 2, 3};

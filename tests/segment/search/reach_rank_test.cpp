@@ -1,0 +1,147 @@
+#include "segment/search/reach_rank.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/parallel.h"
+#include "segment/sample/sample.h"
+#include "segment/score/cut_reach.h"
+#include "segment/search/search.h"
+#include "tests/shapes.h"
+
+namespace qchopper {
+namespace {
+
+SearchSettings carving() {
+    SearchSettings settings;
+    settings.objectives.weights = {0.05, 1, 0.3, 0, 100};
+    settings.objectives.scope = TermScope::cut;
+    settings.candidates.offsets_per_normal = 12;
+    return settings;
+}
+
+Segmentation sampled(const TriangleMesh& scan, std::size_t count = 2'000) {
+    Segmentation segmentation = uncut(scan, 0);
+    sample_uncut(segmentation.pieces, {}, count);
+    return segmentation;
+}
+
+TriangleMesh bone(Specimen specimen) {
+    SampleOptions options;
+    options.faces = 6'000;
+    return sample(specimen, options);
+}
+
+// All planes of all normals with all their terms, nothing left out.
+std::vector<Ranked> rank_all(const Segmentation& segmentation, SearchSettings settings) {
+    settings.beam = 1'000'000;
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    return rank_by_reach(segmentation, 0, settings, cache, {});
+}
+
+TEST(ReachRank, TheBestPlanesAreThoseOfAllOfThem) {
+    for (const TriangleMesh& scan : {bone(Specimen::femur), shapes::ball({0, 0, 0}, 30, 24)}) {
+        const Segmentation segmentation = sampled(scan);
+        SearchSettings settings = carving();
+        const std::vector<Ranked> all = rank_all(segmentation, settings);
+        EXPECT_GT(all.size(), 1'000U);
+        for (const std::size_t beam : {std::size_t{1}, std::size_t{4}}) {
+            settings.beam = beam;
+            EvaluationCache cache(settings.objectives, settings.candidates);
+            const std::vector<Ranked> best = rank_by_reach(segmentation, 0, settings, cache, {});
+            ASSERT_GE(best.size(), beam);
+            for (std::size_t i = 0; i < beam; ++i) EXPECT_EQ(best[i], all[i]) << i;
+        }
+    }
+}
+
+TEST(ReachRank, FewNormalsAreEvaluatedWhole) {
+    const Segmentation segmentation = sampled(bone(Specimen::femur));
+    const SearchSettings settings = carving();
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    rank_by_reach(segmentation, 0, settings, cache, {});
+    EXPECT_EQ(cache.reach(segmentation.pieces[0]).normals.size(), 132U);
+    EXPECT_LT(cache.reach(segmentation.pieces[0]).evaluated.size(), 66U);
+}
+
+// The plane is nudged by less than the samples notice.
+TEST(ReachRank, WhatAPlaneLeavesOutOfReachIsWhatItsPiecesDo) {
+    for (const Specimen specimen : {Specimen::femur, Specimen::vertebra, Specimen::skull}) {
+        Segmentation segmentation = sampled(bone(specimen));
+        const SearchSettings settings = carving();
+        for (int round = 0; round < 3; ++round) {
+            EvaluationCache cache(settings.objectives, settings.candidates);
+            const std::vector<Ranked> ranked = rank(segmentation, segmentation.pieces.size() - 1, settings, cache, {});
+            ASSERT_FALSE(ranked.empty());
+            const double wanted = ranked.front().terms.unreachable;
+            ASSERT_TRUE(apply(segmentation, cut_by(segmentation, segmentation.pieces.size() - 1, ranked, 0, 9), 0));
+            double sum = 0;
+            for (const Piece& piece : segmentation.pieces) sum += unreachable_mm2(piece, settings.objectives.tilt_deg);
+            EXPECT_NEAR(sum / scan_area_mm2(segmentation.pieces[0]), wanted, 0.004);
+        }
+    }
+}
+
+TEST(ReachRank, AnOwnPlaneCostsWhatTheSameCandidateCosts) {
+    const Segmentation segmentation = sampled(bone(Specimen::femur));
+    const SearchSettings settings = carving();
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    const Ranked best = rank(segmentation, 0, settings, cache, {}).front();
+    const Candidate same{best.plane, best.wanted_offset, -1, -1};
+    const std::optional<Ranked> own = rank_plane(segmentation, 0, same, settings, cache, {});
+    ASSERT_TRUE(own);
+    EXPECT_NEAR(own->terms.unreachable, best.terms.unreachable, 0.002);
+    EXPECT_NEAR(own->terms.fragility, best.terms.fragility, 1e-9);
+}
+
+TEST(ReachRank, WithoutSamplesOrWeightThePlanesOfTheBoxAreRanked) {
+    SearchSettings settings = carving();
+    EXPECT_FALSE(is_ranked_by_reach(uncut(bone(Specimen::femur), 0).pieces[0], settings));
+    settings.objectives.weights.unreachable = 0;
+    const Segmentation segmentation = sampled(bone(Specimen::femur), 200);
+    EXPECT_FALSE(is_ranked_by_reach(segmentation.pieces[0], settings));
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    for (const Ranked& r : rank(segmentation, 0, settings, cache, {})) {
+        EXPECT_LT(r.normal_index, 3);
+        EXPECT_EQ(r.terms.unreachable, 0);
+    }
+}
+
+TEST(ReachRank, ASearchTakesThePieceOfWhichMostIsOutOfReachAndItsCostAddsUp) {
+    Segmentation segmentation = sampled(bone(Specimen::skull));
+    SearchSettings settings = carving();
+    settings.stop.min_cuts = 3;
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    const auto on_round = [&](const Segmentation& s) {
+        const Cut& cut = s.cuts.back();
+        EXPECT_GT(cut.chosen.terms.unreachable, 0);
+        if (s.cuts.size() < 3) return;
+        // The piece that was cut had more out of reach than those that were left.
+        EXPECT_EQ(s.pieces.size(), 4U);
+    };
+    const SearchEnd end = search(segmentation, settings, cache, {}, on_round, {});
+    double cost = 0;
+    for (const Cut& cut : segmentation.cuts) {
+        const Terms& t = cut.chosen.terms;
+        cost += 0.05 * t.face_ratio + t.fragility + 0.3 * t.piece_count;
+    }
+    double unreachable = 0;
+    for (const Piece& piece : segmentation.pieces) unreachable += unreachable_mm2(piece, 60);
+    cost += 100 * unreachable / scan_area_mm2(segmentation.pieces[0]);
+    EXPECT_NEAR(end.cost, cost, 1e-9);
+}
+
+TEST(ReachRank, IsTheSameForAnyNumberOfThreads) {
+    const SearchSettings settings = carving();
+    const auto ranking = [&] {
+        EvaluationCache cache(settings.objectives, settings.candidates);
+        return rank(sampled(bone(Specimen::vertebra)), 0, settings, cache, {});
+    };
+    const std::vector<Ranked> several = ranking();
+    const ThreadLimit one(1);
+    EXPECT_EQ(ranking(), several);
+}
+
+}  // namespace
+}  // namespace qchopper
