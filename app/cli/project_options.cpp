@@ -70,7 +70,7 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
                   "solids of less than so many mm3 are no pieces (a hundred-thousandth of the scan's volume)")
         ->check(number_between(0, many, "a volume in mm3"));
     c->add_option("--weights", a.weights,
-                  "of the four terms: face_ratio=10,fragility=5,piece_count=50,undercut=10 (any of them)")
+                  "of the terms: face_ratio=10,fragility=5,piece_count=50,undercut=10,unreachable=0 (any of them)")
         ->check(
             read_by(weights_from, "not like face_ratio=10,fragility=5,piece_count=50,undercut=10, nor four numbers"));
     c->add_option("--beam", a.beam, "how many segmentations the search keeps (1: greedy)")

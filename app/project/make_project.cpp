@@ -3,6 +3,8 @@
 
 #include "app/project/make_project.h"
 
+#include <numbers>
+
 #include "base/timings.h"
 #include "cam/cell/cell.h"
 
@@ -13,7 +15,10 @@ ProjectDraft draft_project(ProjectChoices choices, const ProjectContext& context
     ProjectDraft draft;
     draft.folder = choices.folder;
     if (choices.cell_file) {
-        read_cell(*choices.cell_file);  // an impossible one is refused before anything is made
+        const Cell cell = read_cell(*choices.cell_file);  // an impossible one is refused before anything is made
+        if (cell.machine && choices.settings.objectives.weights.unreachable > 0) {
+            choices.settings.objectives.tilt_deg = cell.machine->max_tilt * 180 / std::numbers::pi;
+        }
         draft.cell_file = read_file(*choices.cell_file, settings_limit);
     }
     if (choices.plan) draft.plan = read_plan(*choices.plan);

@@ -22,7 +22,8 @@ constexpr std::size_t longest_text = 1000;  // bytes; the name of a file has at 
 constexpr std::array<std::string_view, 5> plan_keys{"schema", "scan", "weights", "cut", "discard"};
 constexpr std::array<std::string_view, 9> scan_keys{"name",  "sha256",     "units",      "scale",     "centre_mm",
                                                     "faces", "volume_mm3", "box_min_mm", "box_max_mm"};
-constexpr std::array<std::string_view, 4> weight_keys{"face_ratio", "fragility", "piece_count", "undercut"};
+constexpr std::array<std::string_view, 5> weight_keys{"face_ratio", "fragility", "piece_count", "undercut",
+                                                      "unreachable"};
 constexpr std::array<std::string_view, 9> cut_keys{
     "number", "piece", "path", "normal", "offset_mm", "offset_from_centre_mm", "inside_mm", "volume_mm3", "makes_mm3"};
 constexpr std::array<std::string_view, 5> discard_keys{"after", "piece", "path", "inside_mm", "volume_mm3"};
@@ -154,7 +155,8 @@ Plan plan_from(const TomlReader& top) {
     plan.scan = scan_from(top.table("scan", scan_keys));
     const TomlReader w = top.table("weights", weight_keys);
     plan.weights = {w.number("face_ratio", -most, most), w.number("fragility", -most, most),
-                    w.number("piece_count", -most, most), w.number("undercut", -most, most)};
+                    w.number("piece_count", -most, most), w.number("undercut", -most, most),
+                    w.has("unreachable") ? w.number("unreachable", 0, most) : 0};
     plan.cuts = cuts_from(top, plan.scan.centre);
     plan.discards = discards_from(top, plan.cuts.size());
     return plan;
@@ -177,6 +179,7 @@ std::string to_text(const Plan& plan) {
         << "\nfragility = " << in_digits(plan.weights.fragility)
         << "\npiece_count = " << in_digits(plan.weights.piece_count)
         << "\nundercut = " << in_digits(plan.weights.undercut) << "\n";
+    if (plan.weights.unreachable > 0) out << "unreachable = " << in_digits(plan.weights.unreachable) << "\n";
     for (const PlanCut& cut : plan.cuts) {
         out << "\n[[cut]]\nnumber = " << cut.number << "\npiece = " << quoted(cut.piece)
             << "\npath = " << describe(cut.path) << "\nnormal = " << in_digits(cut.plane.normal)

@@ -23,7 +23,7 @@ constexpr std::size_t shown = 10;
 // Where one plane is better or worse than another, in what is added to the total.
 std::string differences(const Terms& a, const Terms& b, const Weights& weights) {
     std::string text;
-    for (const ObjectiveTerm& term : objective_terms) {
+    for (const ObjectiveTerm& term : objective_terms(weights)) {
         const double more = weights.*term.weight * (b.*term.value - a.*term.value);
         if (std::abs(more) < 0.0005) continue;
         text += (text.empty() ? "" : ", ") + std::string(term.name) + " " + (more > 0 ? "+" : "") + fixed(more, 3);
@@ -43,13 +43,13 @@ Json to_json(const Ranked& r) {
 std::vector<std::vector<std::string>> table(const Explanation& e) {
     const Weights& w = e.objectives.weights;
     std::vector<std::vector<std::string>> rows{{"", "place", "normal", "offset mm", "total"}};
-    for (const ObjectiveTerm& term : objective_terms) {
+    for (const ObjectiveTerm& term : objective_terms(w)) {
         rows[0].push_back(std::string(term.name) + " x " + describe_weight(w.*term.weight));
     }
     const auto add = [&](const std::string& place, const Ranked& r, bool is_chosen) {
         std::vector<std::string> row{is_chosen ? "->" : "", place, in_brackets(r.plane.normal, 3),
                                      fixed(r.plane.offset, 3), fixed(r.terms.total, 4)};
-        for (const ObjectiveTerm& term : objective_terms) row.push_back(fixed(r.terms.*term.value, 4));
+        for (const ObjectiveTerm& term : objective_terms(w)) row.push_back(fixed(r.terms.*term.value, 4));
         rows.push_back(row);
     };
     for (std::size_t i = 0; i < std::min(e.ranked.size(), shown); ++i) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "app/report/columns.h"
 #include "app/report/explanation.h"
@@ -25,8 +26,22 @@ struct Line {
     std::vector<Ranked> planes;
 };
 
+constexpr std::size_t most_lines = 3;
+
+// The normals of the best planes, so many as there is room for.
+std::set<int> shown_normals(const Explanation& e) {
+    std::set<int> normals;
+    if (e.place) normals.insert(e.chosen.normal_index);
+    for (const Ranked& r : e.ranked) {
+        if (normals.size() < most_lines) normals.insert(r.normal_index);
+    }
+    return normals;
+}
+
 std::vector<Line> lines_of(const Explanation& e) {
     std::vector<Ranked> planes = e.ranked;
+    const std::set<int> shown = shown_normals(e);
+    std::erase_if(planes, [&](const Ranked& r) { return !shown.contains(r.normal_index); });
     std::sort(planes.begin(), planes.end(), [](const Ranked& a, const Ranked& b) {
         return std::pair(a.normal_index, a.offset_index) < std::pair(b.normal_index, b.offset_index);
     });
@@ -114,7 +129,7 @@ Plot plot(const Explanation& e, const std::string& project) {
         plot.columns.push_back(std::move(column));
     }
     add_totals(plot, e, lines);
-    for (const ObjectiveTerm& term : objective_terms) {
+    for (const ObjectiveTerm& term : objective_terms(e.objectives.weights)) {
         const double weight = e.objectives.weights.*term.weight;
         const double factor = weight != 0 ? weight : 1;
         const std::string title =

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string>
 
 #include "base/text.h"
@@ -21,11 +22,18 @@ struct ObjectiveTerm {
     double step;         // the least range of its axis
 };
 
-inline constexpr std::array<ObjectiveTerm, 4> objective_terms{
+inline constexpr std::array<ObjectiveTerm, 5> all_objective_terms{
     {{"face ratio", "Face ratio", &Terms::face_ratio, &Weights::face_ratio, 0, false, 0.01},
      {"fragility", "Fragility", &Terms::fragility, &Weights::fragility, 6, true, 0.01},
      {"piece count", "Piece count", &Terms::piece_count, &Weights::piece_count, 9, false, 1},
-     {"undercut", "Undercut", &Terms::undercut, &Weights::undercut, 3, true, 0.01}}};
+     {"undercut", "Undercut", &Terms::undercut, &Weights::undercut, 3, true, 0.01},
+     {"unreachable", "Unreachable", &Terms::unreachable, &Weights::unreachable, 1, true, 0.001}}};
+
+// Those of the thesis, and what is out of reach where it has a weight: without, it is not computed.
+inline std::span<const ObjectiveTerm> objective_terms(const Weights& weights) {
+    const std::span<const ObjectiveTerm> all = all_objective_terms;
+    return weights.unreachable > 0 ? all : all.first(all.size() - 1);
+}
 
 // "10", "0.5": at most three decimals.
 inline std::string describe_weight(double weight) {

@@ -182,7 +182,11 @@ bool is_ranked_by_reach(const Piece& piece, const SearchSettings& settings) {
 std::vector<Vec3> reach_normals(const OrientedBox& box) {
     std::vector<Vec3> normals;
     for (const Vec3& axis : box.axis) normals.push_back(canonical({axis, 0}).normal);
-    for (const Vec3& normal : octahedron_normals()) normals.push_back(canonical({normal, 0}).normal);
+    for (const Vec3& normal : octahedron_normals()) {
+        const Vec3 n = canonical({normal, 0}).normal;
+        const auto is_there = [&](Vec3 other) { return norm(cross(n, other)) < 1e-9; };
+        if (std::none_of(normals.begin(), normals.begin() + 3, is_there)) normals.push_back(n);
+    }
     return normals;
 }
 

@@ -19,7 +19,8 @@ namespace qchopper {
 // Whether the settings and the piece's samples ask for this ranking.
 bool is_ranked_by_reach(const Piece& piece, const SearchSettings& settings);
 
-// The three axes of the piece's box, then the 129 normals of the octahedron: what Candidate::normal_index counts.
+// The three axes of the piece's box, then those of the 129 normals of the octahedron that are none of them: what
+// Candidate::normal_index counts.
 std::vector<Vec3> reach_normals(const OrientedBox& box);
 
 // So many planes that make more than two solids are really cut before the best one is taken as it is.
