@@ -1,6 +1,6 @@
 // Measures what a direction of a setup costs with all its figures, from a height map: CPU time of one thread beside
 // OpenMesh's reading of the same piece as a binary PLY, and the memory beside the mesh. Also the directions that an arm
-// holds.
+// holds, and all setups of a project beside the search that made its pieces.
 
 #include <malloc.h>
 
@@ -18,12 +18,14 @@
 #include "bench/figures.h"
 #include "bench/other_readers.h"
 #include "bench/specimens.h"
+#include "cam/setup/choose_setup.h"
 #include "cam/setup/foam_points.h"
 #include "cam/setup/held_directions.h"
 #include "cam/setup/mapped_reach.h"
 #include "segment/io/write_ply.h"
 #include "segment/mesh/measure.h"
 #include "segment/score/tool_directions.h"
+#include "segment/search/search.h"
 
 namespace {
 
@@ -32,7 +34,7 @@ using namespace qchopper::bench;
 
 constexpr const char* usage = R"(bench_setup [--small] [--only GROUP]...
   --small  100,000 faces instead, to check that it runs; the targets do not apply
-  --only   map, memory or arm; all if none is named
+  --only   map, memory, arm or project; all if none is named
 )";
 
 constexpr int runs = 5;
@@ -149,12 +151,15 @@ void measure_memory(const TriangleMesh& mesh, const std::string& name, Figures& 
     figures.record(name, "bytes a face, with the map", number_text(coarse / faces));
 }
 
+Cell ready_cell(const std::string& name) {
+    return read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / (name + ".toml"));
+}
+
 void measure_arm(Figures& figures) {
     std::vector<Vec3> directions = dense_directions(1528);
     std::erase_if(directions, [](Vec3 d) { return d.z < 0; });
     for (const char* const name : {"kr60-ha", "irb6640-185-2.8", "kr120-r2500-pro-rotary"}) {
-        const Cell ready =
-            read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / (std::string(name) + ".toml"));
+        const Cell ready = ready_cell(name);
         for (const double side : {300.0, 900.0}) {
             const Box box{{-side / 2, -side / 2, 0}, {side / 2, side / 2, side}};
             const std::string what = ", box of " + number_text(side) + " mm";
@@ -168,8 +173,39 @@ void measure_arm(Figures& figures) {
     }
 }
 
+// CPU time of one thread.
+void measure_project(std::size_t faces, Figures& figures) {
+    const Measured m = one_shell("sample skull", Specimen::skull, faces);
+    SearchSettings settings;
+    settings.objectives.fragment_volume_mm3 = m.fragment_volume_mm3;
+    settings.stop.min_cuts = 19;
+    Segmentation s;
+    const double search = best_of(1, cpu_s, [&] {
+        s = uncut(*m.piece.mesh, m.fragment_volume_mm3);
+        EvaluationCache cache(settings.objectives, settings.candidates);
+        return qchopper::search(s, settings, cache, {}, [](const Segmentation&) {}, {}).cost;
+    });
+    const Cell ready = ready_cell("irb6640-185-2.8");
+    std::size_t maps = 0;
+    const double setups = best_of(1, cpu_s, [&] {
+        for (const Piece& piece : s.pieces) {
+            const SetupChoice choice = choose_setup(piece, ready);
+            maps += static_cast<std::size_t>(
+                std::count_if(choice.setups.begin(), choice.setups.end(),
+                              [](const Setup& setup) { return setup.reach.method == ReachMethod::mapped; }));
+        }
+        return maps;
+    });
+    const std::string name = "sample skull, " + number_text(static_cast<double>(m.faces()));
+    figures.record(name, "search for " + std::to_string(s.pieces.size()) + " pieces, and all their setups",
+                   time_text(search) + " and " + time_text(setups));
+    figures.record(name, "- of them judged by height maps", std::to_string(maps));
+    figures.at_most(name, "all setups / search", setups / search, 2);
+}
+
 void measure(const Choice& choice, Figures& figures) {
     const ThreadLimit one(1);
+    if (choice.wants("project")) measure_project(choice.is_small ? 100'000 : 1'900'000, figures);
     if (choice.wants("arm")) measure_arm(figures);
     if (!choice.wants("map") && !choice.wants("memory")) return;
     const TriangleMesh mesh = piece(choice.is_small ? 100'000 : 1'900'000);

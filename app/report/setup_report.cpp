@@ -84,7 +84,11 @@ void add_piece(const PieceSetups& p, const SetupAnswer& answer, std::vector<std:
                         share_word(reach.further->gained_share) + " more.");
     }
     for (const std::string& warning : chosen.warnings) lines.push_back("Note: " + warning + ".");
-    if (!p.carving.envelope.fits()) lines.push_back(describe_envelope(p.piece, p.carving.envelope) + ".");
+    if (!p.carving.envelope.fits()) {
+        lines.push_back(describe_envelope(p.piece, p.carving.envelope) + ".");
+        lines.push_back("To do: cut it, qchopper segment " + shell_word(answer.folder) + " --piece " + p.piece +
+                        " --step, or enter a larger block in the cell file.");
+    }
 }
 
 Json setup_json(const Setup& setup, const Cell& cell) {

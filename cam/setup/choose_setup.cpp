@@ -1,12 +1,13 @@
 // Every base is laid out in its block and judged on samples with its own few directions; the best ones are judged again
-// by height maps. Rays of the samples (segment/score/piece_reach.h) and O(directions x triangles) for each base that is
-// mapped.
+// by height maps, until the best of all is one of them. Rays of the samples (segment/score/piece_reach.h) and
+// O(directions x triangles) for each base that is mapped.
 
 #include "cam/setup/choose_setup.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <tuple>
 
@@ -50,6 +51,14 @@ void place(const TriangleMesh& mesh, Setup& setup) {
     assert(std::abs(setup.box.min.z) < 1e-6);
 }
 
+// By a quarter turn about z: the short side along x.
+void turn(Setup& setup) {
+    Pose& pose = setup.piece_in_setup;
+    pose = {{pose.row[1], -pose.row[0], pose.row[2]}, {pose.shift.y, -pose.shift.x, pose.shift.z}};
+    const Box box = setup.box;
+    setup.box = {{box.min.y, -box.max.x, box.min.z}, {box.max.y, -box.min.x, box.max.z}};
+}
+
 void describe(Setup& setup) {
     if (setup.base) {
         setup.base_description = "the cap of cut " + std::to_string(*setup.base);
@@ -60,7 +69,8 @@ void describe(Setup& setup) {
     setup.warnings.push_back("the piece has no flat cap to lie on: keep it held from below");
 }
 
-// The piece on one base in its block, before anything is asked of the tool.
+// The piece on one base in its block, before anything is asked of the tool. It is turned by a quarter where its block
+// fits into the cell only so.
 Setup laid_out(const Piece& piece, const PieceBase& base, const Cell& cell) {
     Setup setup;
     setup.base_number = base.number;
@@ -72,7 +82,11 @@ Setup laid_out(const Piece& piece, const PieceBase& base, const Cell& cell) {
     place(*piece.mesh, setup);
     setup.spoil = margins_of(cell).spoil;
     setup.block = choose_block(cell, setup.box.size());
-    return setup;
+    if (check_envelope(setup, cell).fits()) return setup;
+    Setup turned = setup;
+    turn(turned);
+    turned.block = choose_block(cell, turned.box.size());
+    return check_envelope(turned, cell).fits() ? turned : setup;
 }
 
 Box block_box(const Setup& setup) {
@@ -128,20 +142,22 @@ class Choice {
 
     SetupChoice run() {
         judge_on_samples();
-        rank(setups_.begin(), setups_.end());
-        const auto mapped = std::min(options_.mapped, setups_.size());
-        std::vector<std::vector<SurfaceState>> states;
-        for (std::size_t i = 0; i < mapped; ++i) states.push_back(judge_by_maps(setups_[i]));
-        // The states follow their setup by its number.
-        std::vector<int> number;
-        for (std::size_t i = 0; i < mapped; ++i) number.push_back(setups_[i].base_number);
-        rank(setups_.begin(), setups_.begin() + static_cast<std::ptrdiff_t>(mapped));
-        SetupChoice result;
-        for (std::size_t i = 0; i < mapped; ++i) {
-            if (number[i] == setups_.front().base_number) result.states = std::move(states[i]);
+        rank();
+        std::map<int, std::vector<SurfaceState>> states;  // by the number of the base
+        const auto judge = [&](Setup& setup) { states[setup.base_number] = judge_by_maps(setup); };
+        // Samples know of no holder and no foam, so another base may turn out to be the better one.
+        while (const auto next = next_to_map(states.size())) {
+            judge(setups_[*next]);
+            rank();
         }
+<<<<<<< HEAD
         if (!result.states.empty())
             paint_narrow(*piece_.mesh, reach_->samples->scan->samples, is_narrow_, result.states);
+=======
+        SetupChoice result;
+        if (!states.empty()) result.states = std::move(states[setups_.front().base_number]);
+        if (!result.states.empty()) paint_narrow(*piece_.mesh, reach_->samples.scan.samples, is_narrow_, result.states);
+>>>>>>> table
         result.setups = std::move(setups_);
         return result;
     }
@@ -198,7 +214,7 @@ class Choice {
         mapped.tool = deepest_tool(cell_);
         mapped.smallest_ball_radius = smallest_radius(cell_);
         mapped.steep_counts = setup.reach.steep_counts;
-        MappedReach result = mapped_reach(mapped);
+        MappedReach result = mapped_reach(mapped, options_.map);
         SurfaceReach& reach = result.reach;
         reach.too_narrow_mm2 = setup.reach.too_narrow_mm2;
         reach.narrow_counts = setup.reach.narrow_counts;
@@ -209,18 +225,37 @@ class Choice {
         return std::move(result.states);
     }
 
-    // Equal shares are compared as whole steps, because a comparison with a tolerance is no order.
-    template <class Iterator>
-    void rank(Iterator first, Iterator last) const {
-        const auto steps = [](double share) { return std::lround(share / equal_share); };
+    static long steps(double share) { return std::lround(share / equal_share); }
+    // What counts for the order before what only maps tell.
+    auto before_foam(const Setup& s) const {
+        return std::tuple(options_.base != s.base_number, !check_envelope(s, cell_).fits(),
+                          steps(s.reach.unreachable_share()));
+    }
+
+    // Index of the setup that is judged by maps next: the first, or one as good, as long as fewer are mapped than
+    // wanted.
+    std::optional<std::size_t> next_to_map(std::size_t mapped) const {
+        if (options_.mapped == 0) return std::nullopt;
+        if (setups_.front().reach.method == ReachMethod::sampled) return 0;
+        if (mapped >= options_.mapped) return std::nullopt;
+        const auto next = std::find_if(setups_.begin(), setups_.end(),
+                                       [](const Setup& s) { return s.reach.method == ReachMethod::sampled; });
+        if (next == setups_.end() || before_foam(*next) != before_foam(setups_.front())) return std::nullopt;
+        return static_cast<std::size_t>(next - setups_.begin());
+    }
+
+    // Equal shares are compared as whole steps, because a comparison with a tolerance is no order. Of two, what is
+    // known by maps comes first: of samples no foam is known.
+    void rank() {
         const auto key = [&](const Setup& s) {
             const Vec3 size = s.block.size;
             const double block_mm3 = size.x * size.y * size.z;
-            return std::tuple(options_.base != s.base_number, !check_envelope(s, cell_).fits(),
-                              steps(s.reach.unreachable_share()), steps(s.reach.foam_mm3 / block_mm3),
-                              steps(s.reach.residue_mm3 / block_mm3), block_mm3, s.base_number);
+            return std::tuple_cat(
+                before_foam(s), std::tuple(s.reach.method == ReachMethod::sampled, steps(s.reach.foam_mm3 / block_mm3),
+                                           steps(s.reach.residue_mm3 / block_mm3), block_mm3, s.base_number));
         };
-        std::stable_sort(first, last, [&](const Setup& a, const Setup& b) { return key(a) < key(b); });
+        std::stable_sort(setups_.begin(), setups_.end(),
+                         [&](const Setup& a, const Setup& b) { return key(a) < key(b); });
     }
 
     const Piece& piece_;

@@ -3,7 +3,8 @@
 //
 // Values only; lengths in mm. Setup coordinates: z up, the piece's base plane (its lowest point, without a base) at z =
 // 0, the underside of the block at z = -spoil, the block's middle and the middle of the piece's box at x = y = 0, x
-// along the long side of the piece's smallest rectangle on the table.
+// along the long side of the piece's smallest rectangle on the table, or across it where the block fits into the cell
+// only so.
 
 #pragma once
 

@@ -36,6 +36,11 @@ void add_bits(std::span<Word> bits, std::span<const Word> others) {
     for (std::size_t w = 0; w < bits.size(); ++w) bits[w] |= others[w];
 }
 
+bool is_steep(Vec3 normal, std::span<const Vec3> directions) {
+    return std::any_of(directions.begin(), directions.end(),
+                       [&](Vec3 d) { return std::abs(dot(normal, d)) < least_facing; });
+}
+
 // What directions reach: the rows of the piece as bits, and from the next whole word on its caps. The base's cap is
 // never reached.
 class ReachedSets {
@@ -83,14 +88,23 @@ class ReachedSets {
             caps_area([&](std::size_t c) { return has_bit(set, cap_bit(c)) && !has_bit(covered, cap_bit(c)); });
         return piece_.scan.samples.area_each_mm2 * static_cast<double>(count) + on_caps;
     }
-    // mm2 of the caps but the base that are not in the set.
-    double caps_left(std::span<const Word> covered) const {
-        return caps_area(
-            [&](std::size_t c) { return !is_base(piece_.caps[c], base_) && !has_bit(covered, cap_bit(c)); });
+    // The caps but the base that are not in the set: steep to one of the directions, or turned away from all.
+    UnreachableArea caps_left(std::span<const Word> covered, std::span<const Vec3> directions) const {
+        const auto is_left = [&](std::size_t c) {
+            return !is_base(piece_.caps[c], base_) && !has_bit(covered, cap_bit(c));
+        };
+        UnreachableArea left;
+        left.caps_mm2 = caps_area(is_left);
+        left.steep_mm2 =
+            caps_area([&](std::size_t c) { return is_left(c) && is_steep(piece_.caps[c].outward, directions); });
+        left.caps_mm2 -= left.steep_mm2;
+        return left;
     }
+    // Like a sample, a cap is not reached by a direction that it is steep to.
     void add_caps(Vec3 direction, std::span<Word> set) const {
         for (std::size_t c = 0; c < piece_.caps.size(); ++c) {
-            if (!is_base(piece_.caps[c], base_) && !faces_away(piece_.caps[c], direction)) set_bit(set, cap_bit(c));
+            const bool faces = dot(piece_.caps[c].outward, direction) >= least_facing;
+            if (faces && !is_base(piece_.caps[c], base_)) set_bit(set, cap_bit(c));
         }
     }
 
@@ -226,15 +240,11 @@ struct Unreached {
     std::size_t hidden = 0;
     std::size_t steep = 0;
     void add(bool is_steep) { ++(is_steep ? steep : hidden); }
-    UnreachableArea area(double each_mm2, double caps_mm2) const {
-        return {each_mm2 * static_cast<double>(hidden), each_mm2 * static_cast<double>(steep), caps_mm2};
+    UnreachableArea area(double each_mm2, const UnreachableArea& caps) const {
+        return {each_mm2 * static_cast<double>(hidden), each_mm2 * static_cast<double>(steep) + caps.steep_mm2,
+                caps.caps_mm2};
     }
 };
-
-bool is_steep(Vec3 normal, std::span<const Vec3> directions) {
-    return std::any_of(directions.begin(), directions.end(),
-                       [&](Vec3 d) { return std::abs(dot(normal, d)) < least_facing; });
-}
 
 // The dense direction that reaches most of what is unreached; the first of several. No gain if none reaches anything.
 ChosenDirection best_further(const JudgedPiece& piece, const ReachedSets& sets, std::span<const Word> covered,
@@ -292,9 +302,9 @@ ChosenDirections choose_directions(const JudgedPiece& piece, const TiltBase& bas
         if (!has_bit(by_all, row) && !unreached.opens_along_some(i)) of_all.add(is_steep(normal, sets.directions()));
     }
     const double each = piece.scan.samples.area_each_mm2;
-    result.by_chosen = of_chosen.area(each, sets.caps_left(by_chosen));
+    result.by_chosen = of_chosen.area(each, sets.caps_left(by_chosen, chosen));
     for (const Vec3& d : dense) sets.add_caps(d, by_all);
-    result.by_all = of_all.area(each, sets.caps_left(by_all));
+    result.by_all = of_all.area(each, sets.caps_left(by_all, sets.directions()));
     const ChosenDirection further = best_further(piece, sets, by_chosen, unreached, dense);
     if (further.gained_mm2 > 0 && further.gained_mm2 >= least_mm2) result.further = further;
     return result;

@@ -4,7 +4,8 @@
 // that of Mahdavi-Amiri et al., "VDAC: volume decompose-and-carve for subtractive manufacturing" (2020). After each
 // addition every direction but up, in turn, gives way to that with which all reach most, if this is more. So neither an
 // exchange nor a larger max_directions makes the unreachable area larger. Area is that of samples and of caps but the
-// base. The same for any number of threads (tests/segment/score/chosen_directions_test.cpp).
+// base; both are reached along directions that they face by at least least_facing, as by height maps. The same for any
+// number of threads (tests/segment/score/chosen_directions_test.cpp).
 
 #pragma once
 

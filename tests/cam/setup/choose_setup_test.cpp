@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "cam/setup/envelope.h"
 #include "cam/setup/undercut.h"
@@ -100,8 +101,7 @@ TEST(ChooseSetup, EveryCapThatCarriesIsRankedByWhatIsOutOfReach) {
         EXPECT_EQ(check_envelope(best, cell()).fits(), any_fits);
         for (std::size_t i = 1; i < choice.setups.size(); ++i) {
             const qchopper::Setup& other = choice.setups[i];
-            EXPECT_EQ(other.reach.method, i < 2 ? ReachMethod::mapped : ReachMethod::sampled);
-            if (i >= 2 || check_envelope(other, cell()).fits() != any_fits) continue;
+            if (check_envelope(other, cell()).fits() != any_fits) continue;
             EXPECT_LE(best.reach.unreachable_share(), other.reach.unreachable_share() + 0.001) << piece.name;
         }
     }
@@ -264,6 +264,45 @@ TEST(ChooseSetup, StockIsTheSmallestThatHoldsThePieceEitherWayRound) {
     EXPECT_TRUE(turned.block.is_turned);
     EXPECT_EQ(turned.block.size, (Vec3{100, 60, 50}));
     EXPECT_TRUE(turned.block.holds);
+}
+
+TEST(ChooseSetup, APieceIsTurnedWhereItsBlockFitsIntoTheCellOnlySo) {
+    const Piece piece = standing_box({0, 0, 0}, {90, 50, 45}, 0);
+    Cell in = cell();
+    in.table.size_x = 80;
+    const qchopper::Setup across = choose_setup(piece, in).setups.front();
+    EXPECT_NEAR(across.box.size().x, 50, 1e-9);
+    EXPECT_NEAR(across.box.size().y, 90, 1e-9);
+    expect_rotation(across.piece_in_setup);
+    EXPECT_EQ(bounds(apply(across.piece_in_setup, *piece.mesh)), across.box);
+    EXPECT_EQ(across.block.size, (Vec3{60, 100, 50}));
+    EXPECT_TRUE(check_envelope(across, in).fits());
+    EXPECT_TRUE(fits_cell(piece, in));
+    in.table.size_y = 80;
+    const qchopper::Setup neither = choose_setup(piece, in).setups.front();
+    EXPECT_NEAR(neither.box.size().x, 90, 1e-9) << "the long side stays along x";
+    EXPECT_FALSE(fits_cell(piece, in));
+}
+
+// Height maps know of the holder, samples do not.
+TEST(ChooseSetup, TheOneThatIsTakenIsJudgedByMapsAndNoOtherLooksBetter) {
+    const Cell short_tools = [] {
+        Cell in = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "irb6640-185-2.8.toml");
+        for (CarvingTool& tool : in.machine->tools) tool.stick_out = 10;
+        return in;
+    }();
+    for (const Piece& piece : cut_shapes()) {
+        SetupOptions options;
+        options.mapped = 1;
+        options.samples = 500;
+        options.map = {.cell = 1, .foam_points = 1U << 12U};
+        const std::vector<qchopper::Setup> setups = choose_setup(piece, short_tools, options).setups;
+        EXPECT_EQ(setups.front().reach.method, ReachMethod::mapped);
+        for (const qchopper::Setup& setup : setups) {
+            if (!check_envelope(setup, short_tools).fits()) continue;
+            EXPECT_GE(setup.reach.unreachable_share(), setups.front().reach.unreachable_share() - 0.001) << piece.name;
+        }
+    }
 }
 
 TEST(ChooseSetup, WithoutAHoldingBlockTheOneThatLacksLeastIsNamed) {
