@@ -94,6 +94,7 @@ std::vector<SetupOrder> committed_setup_orders(const History& history) {
         if (order->base || order->max_directions) orders.emplace(order->piece, *order);
     }
     std::vector<SetupOrder> list;
+    list.reserve(orders.size());
     for (auto& [piece, order] : orders) list.push_back(std::move(order));
     return list;
 }

@@ -162,7 +162,10 @@ std::string block_section(const JobInput& input) {
     const CarvingBlock& block = input.setup.block;
     std::string html = paragraph("Take block \"" + stock.name + "\" (" + to_word(stock.material) + "), " +
                                  size_text(stock.size) + " mm.");
-    if (block.is_sawn) {
+    if (block.is_sawn && block.offcuts.empty()) {
+        html += paragraph("Not sawn: what could be sawn off is no wider than the saw cut. It stands as " +
+                          size_text(block.size) + " mm along x, y and z.");
+    } else if (block.is_sawn) {
         html += paragraph("Saw it down to " + size_text(block.size) + " mm; a saw cut takes " +
                           significant(stock.kerf, 6) + " mm of foam.");
         Rows rows{{word("offcut that is left"), right("x"), right("y"), right("z")}};
@@ -170,7 +173,7 @@ std::string block_section(const JobInput& input) {
             rows.push_back(
                 {right(std::to_string(rows.size())), number(offcut.x, 1), number(offcut.y, 1), number(offcut.z, 1)});
         }
-        html += block.offcuts.empty() ? paragraph("No offcut is left.") : table(rows);
+        html += table(rows);
     } else if (block.is_turned) {
         html += paragraph("Not sawn. It stands turned by a quarter about the vertical from how the list gives it.");
     } else {
@@ -364,7 +367,7 @@ std::string alternative_section(const JobInput& input) {
                         is_mapped ? number(other.residue_mm3 / 1000, 1) : right("-"), word(size_text(other.block)),
                         right(std::to_string(other.directions))});
     }
-    return section("9. Other bases", table(rows) + paragraph("qchopper prepare --base takes the number of a base."));
+    return section("9. Other bases", table(rows) + paragraph("qchopper setup --base takes the number of a base."));
 }
 
 std::string margin_section(const EnvelopeReport& envelope) {

@@ -109,11 +109,7 @@ double smallest_radius(const Cell& cell) {
 
 std::optional<ToolBody> deepest_tool(const Cell& cell) {
     if (!cell.machine) return std::nullopt;
-    const std::vector<CarvingTool>& tools = cell.machine->tools;
-    const auto longest = std::max_element(tools.begin(), tools.end(), [](const CarvingTool& a, const CarvingTool& b) {
-        return a.stick_out < b.stick_out;
-    });
-    return tool_body(*longest, cell.machine->spindle);
+    return tool_body(longest_tool(cell.machine->tools), cell.machine->spindle);
 }
 
 SetupDirection described(const ChosenDirection& chosen, const Setup& setup, double area_mm2) {
@@ -130,6 +126,17 @@ double too_narrow_mm2(const ChosenDirections& directions, const std::vector<bool
         if (is_narrow[row] && directions.samples[row] == SampleReach::reached) ++count;
     }
     return area_each_mm2 * static_cast<double>(count);
+}
+
+// Of what the maps found to be reached: what the holder keeps out is not counted a second time.
+double too_narrow_mm2(const MappedReach& mapped, const SurfaceSamples& samples, const std::vector<bool>& is_narrow) {
+    double count = 0;
+    for (std::size_t row = 0; row < is_narrow.size(); ++row) {
+        if (is_narrow[row]) count += static_cast<double>(mapped.reached[samples.sample[row].triangle]);
+    }
+    const SurfaceReach& reach = mapped.reach;
+    const double reached_mm2 = reach.area_mm2 - reach.hidden_mm2 - reach.steep_mm2 - reach.holder_mm2;
+    return std::min(samples.area_each_mm2 * count, std::max(0.0, reached_mm2));
 }
 
 // One piece while its setup is chosen.
@@ -216,7 +223,7 @@ class Choice {
         mapped.steep_counts = setup.reach.steep_counts;
         MappedReach result = mapped_reach(mapped, options_.map);
         SurfaceReach& reach = result.reach;
-        reach.too_narrow_mm2 = setup.reach.too_narrow_mm2;
+        reach.too_narrow_mm2 = too_narrow_mm2(result, reach_->samples.scan.samples, is_narrow_);
         reach.narrow_counts = setup.reach.narrow_counts;
         reach.all_directions_share = setup.reach.all_directions_share;
         reach.further = setup.reach.further;

@@ -85,16 +85,31 @@ double between(const HeightMap& map, double column, double row, float own) {
            y * ((1 - x) * static_cast<double>(h[2]) + x * static_cast<double>(h[3]));
 }
 
+// How many steps each side of a box is divided into for about `count` points. What is thinner than a step is one step,
+// and the other sides have larger ones: else a thin box would have many more columns than points.
+std::array<std::size_t, 3> steps_of(Vec3 size, double count) {
+    std::array<int, 3> order{0, 1, 2};
+    std::sort(order.begin(), order.end(), [&](int a, int b) { return size[a] < size[b]; });
+    std::array<std::size_t, 3> steps{1, 1, 1};
+    const double least = size[order[0]];
+    const double middle = size[order[1]];
+    const double most = size[order[2]];
+    double step = std::cbrt(least * middle * most / count);
+    if (least < step) step = std::sqrt(middle * most / count);
+    if (middle < step) step = most / count;
+    for (int i = 0; i < 3; ++i) {
+        steps[static_cast<std::size_t>(i)] = static_cast<std::size_t>(std::max(1.0, std::ceil(size[i] / step)));
+    }
+    return steps;
+}
+
 }  // namespace
 
 FoamPoints::FoamPoints(const TriangleMesh& mesh, const Pose& piece_in_setup, const Box& box, std::size_t count)
     : piece_in_setup_(piece_in_setup), box_(box) {
     const Vec3 size = box.size();
     assert(is_consistent(mesh) && count > 0 && size.x > 0 && size.y > 0 && size.z > 0);
-    const double step = std::cbrt(size.x * size.y * size.z / static_cast<double>(count));
-    for (int i = 0; i < 3; ++i) {
-        counts_[static_cast<std::size_t>(i)] = static_cast<std::size_t>(std::ceil(size[i] / step));
-    }
+    counts_ = steps_of(size, static_cast<double>(count));
     step_ = {size.x / static_cast<double>(counts_[0]), size.y / static_cast<double>(counts_[1]),
              size.z / static_cast<double>(counts_[2])};
     words_ = (counts_[2] + bits_per_word - 1) / bits_per_word;

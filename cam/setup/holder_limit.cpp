@@ -29,7 +29,9 @@ void raise_to_disc(HeightMap& limit, const HeightMap& map, double radius, double
     std::vector<std::vector<DiscRow>> by_level(static_cast<std::size_t>(std::bit_width(2 * reach + 1)));
     for (std::ptrdiff_t row = -static_cast<std::ptrdiff_t>(reach); row <= static_cast<std::ptrdiff_t>(reach); ++row) {
         const double across = static_cast<double>(row) * map.cell;
-        const auto half = static_cast<std::size_t>(std::sqrt(radius * radius - across * across) / map.cell);
+        // The outermost row may lie beyond the radius by rounding.
+        const double square = std::max(0.0, radius * radius - across * across);
+        const auto half = static_cast<std::size_t>(std::sqrt(square) / map.cell);
         by_level[static_cast<std::size_t>(std::bit_width(2 * half + 1)) - 1].push_back({row, half});
     }
     // Highest surface in the 2^level cells from each one on; a border on both sides, so that windows may begin there.
@@ -75,11 +77,11 @@ class FloorLimit {
     }
 
     // At the middle of a cell.
-    double height(std::size_t column, std::size_t row) const {
+    float height(std::size_t column, std::size_t row) const {
         const double z = shift_ + cell_ * (upright_.x * (static_cast<double>(column) + 0.5) +
                                            upright_.y * (static_cast<double>(row) + 0.5));
-        if (upright_.z > 1e-6) return (least_z_ - z) / upright_.z;
-        return z < least_z_ ? std::numeric_limits<double>::max() : std::numeric_limits<double>::lowest();
+        if (upright_.z > 1e-6) return static_cast<float>((least_z_ - z) / upright_.z);
+        return z < least_z_ ? std::numeric_limits<float>::max() : std::numeric_limits<float>::lowest();
     }
 
  private:
@@ -129,7 +131,7 @@ bool raise_to_holder_limit(HeightMap& map, const ToolBody& tool, const Pose& pie
         const float* under = &limit.height[row / factor * limit.columns];
         for (std::size_t column = 0; column < map.columns; ++column) {
             float& own = map.height[row * map.columns + column];
-            const auto least = std::max(under[column / factor], static_cast<float>(floor.height(column, row)));
+            const auto least = std::max(under[column / factor], floor.height(column, row));
             if (own == HeightMap::nothing || !(least > own)) continue;
             own = least;
             is_row_raised[row] = 1;

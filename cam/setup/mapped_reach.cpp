@@ -180,6 +180,9 @@ class Reaching {
 
     void finish(MappedReach& result) const {
         result.states.assign(surfaces_.size(), SurfaceState::reached);
+        result.reached.resize(surfaces_.size());
+        std::transform(surfaces_.begin(), surfaces_.end(), result.reached.begin(),
+                       [](const Surface& surface) { return surface.reached; });
         Depths depths(norm(bounds(mesh_).size()), area_);
         const StateSums sums = summed<StateSums>(surfaces_.size(), [&](StateSums& block, std::size_t t) {
             if (is_base(t)) return;

@@ -39,6 +39,7 @@ struct MapOptions {
 struct MappedReach {
     SurfaceReach reach;                // method mapped; all_directions_share, further, too_narrow_mm2 are left at 0
     std::vector<SurfaceState> states;  // per triangle, of the largest part of it; the base's are `reached`
+    std::vector<float> reached;        // per triangle, the share that is reached with the holder
 };
 
 // Of a triangle the part that no map reaches is steep if it is steep to one of the directions, else hidden; the part

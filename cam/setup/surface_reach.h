@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -53,7 +54,8 @@ struct SurfaceReach {
     double unreachable_mm2() const {
         return hidden_mm2 + holder_mm2 + (steep_counts ? steep_mm2 : 0) + (narrow_counts ? too_narrow_mm2 : 0);
     }
-    double unreachable_share() const { return area_mm2 > 0 ? unreachable_mm2() / area_mm2 : 0; }
+    // 0..1: sums that rounding makes a little larger than the area are no more than all of it.
+    double unreachable_share() const { return area_mm2 > 0 ? std::min(1.0, unreachable_mm2() / area_mm2) : 0; }
     bool operator==(const SurfaceReach&) const = default;
 };
 

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -45,7 +46,8 @@ struct BaseReach {
     ChosenDirections directions;
     double area_mm2 = 0;  // of the piece without this base
     double unreachable_mm2 = 0;
-    double share() const { return area_mm2 > 0 ? unreachable_mm2 / area_mm2 : 0; }
+    // 0..1: sums that rounding makes a little larger than the area are no more than all of it.
+    double share() const { return area_mm2 > 0 ? std::min(1.0, unreachable_mm2 / area_mm2) : 0; }
 };
 
 struct PieceReach {

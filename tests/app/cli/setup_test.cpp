@@ -5,7 +5,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "segment/io/write_ply.h"
 #include "tests/app/cli/program.h"
+#include "tests/shapes.h"
 
 namespace qchopper {
 namespace {
@@ -101,6 +103,26 @@ TEST_F(SetupCommand, WhatDoesNotExistIsRefused) {
     EXPECT_EQ(run({"setup", "p.qch", "--base", "1"}).code, 64) << "of which piece?";
     EXPECT_EQ(run({"setup", "p.qch", "--piece", name, "--base", "1", "--auto"}).code, 64);
     EXPECT_EQ(project().dump(), before);
+}
+
+// Two balls, the larger one wider than every block.
+TEST_F(SetupCommand, APieceThatNoBlockHoldsIsNamedAndTheOthersGoOn) {
+    const Bytes ply = to_ply(shapes::joined({shapes::ball({0, 0, 0}, 1100, 12), shapes::ball({2000, 0, 0}, 60, 8)}));
+    program::put(folder.path / "balls.ply", {ply.begin(), ply.end()});
+    const program::Ended made = run({"prepare", "balls.ply", "--units", "mm", "--cell", program::foam_cell().string(),
+                                     "--max-faces", "100000", "-o", "balls.qch"});
+    EXPECT_EQ(made.code, 1) << made.err;
+    EXPECT_NE(made.err.find("piece A does not fit: "), std::string::npos) << made.err;
+    EXPECT_NE(made.err.find(" mm too long for block long (2000 x 1000 x 1000 mm)"), std::string::npos) << made.err;
+    EXPECT_FALSE(fs::exists(folder.path / "balls.qch" / "jobs" / "A.qjob"));
+    EXPECT_TRUE(fs::exists(folder.path / "balls.qch" / "jobs" / "B.qjob"));
+    const json shown = document_of({"setup", "balls.qch"});
+    ASSERT_EQ(shown["pieces"].size(), 2U);
+    EXPECT_EQ(shown["pieces"][0]["setups"][0]["fits"], false);
+    EXPECT_EQ(shown["pieces"][1]["setups"][0]["fits"], true);
+    const program::Ended table = run({"setup", "balls.qch", "--piece", "A"});
+    EXPECT_NE(table.out.find("  no\n"), std::string::npos) << table.out;
+    EXPECT_NE(table.out.find("piece A does not fit: "), std::string::npos) << table.out;
 }
 
 }  // namespace

@@ -149,6 +149,14 @@ TEST(MappedReach, AHolderKeepsAShortToolOutOfADeepShaft) {
     EXPECT_LT(reach_of(setup).reach.holder_mm2, 0.35 * floor);
 }
 
+// 30.5 / (61 / 22) is 11 by rounding, but 11 cells of that width are more than the radius.
+TEST(MappedReach, AHolderAsWideAsAWholeNumberOfCellsIsNoWider) {
+    const TriangleMesh mesh = shaft();
+    MappedSetup setup = standing(mesh);
+    setup.tool = ToolBody{80, {{61, 50}}};
+    EXPECT_NEAR(reach_of(setup, 61.0 / 44).reach.holder_mm2, 40 * 40, 0.05 * 40 * 40) << "cells at its outline";
+}
+
 // A tool that lies flat: its holder would dip into the spoil layer.
 TEST(MappedReach, AHolderMayNotComeBelowTheSpoilLayersTop) {
     const TriangleMesh mesh = cell_solid(steps(0, 40, 20), steps(0, 40, 1), steps(0, 60, 1), [](Vec3) { return true; });
