@@ -536,6 +536,30 @@ TEST(ReachSweep, AreasOfABarAreKnown) {
     EXPECT_TRUE(ReachSweep(bar.pieces[0].piece, bar.judged(), {}, 60).sweep({0, 0, 1}, {}).empty());
 }
 
+// cut_accessibility and cut() count height == offset as above.
+TEST(ReachSweep, ASampleOnThePlaneBelongsToTheSideAbove) {
+    const SampledScan scan = sampled(shapes::box({0, 0, 0}, {40, 40, 40}), 3'000);
+    std::vector<TrackedPiece> pieces = uncut_pieces(scan);
+    ASSERT_EQ(cut_along(scan, pieces, 0, {{0, 0, 1}, 10}, 1), 2U);
+    const TrackedPiece& lower = pieces[1];
+    ASSERT_FALSE(lower.piece.half_spaces[0].above);
+    const std::vector<OwnedCap> caps = owned_caps(lower.piece);
+    // Its foot lies at height 0 to the last bit; it is the top on the old base.
+    const ReachSweep sweep(lower.piece, {scan, lower.accessibility, caps}, all_caps(caps), 60);
+    const PlaneReach at_foot = sweep.sweep({0, 0, 1}, std::array{0.0})[0];
+    ASSERT_EQ(at_foot.above.size(), 2U);
+    ASSERT_EQ(at_foot.below.size(), 1U);
+    EXPECT_EQ(at_foot.below[0].projected_mm2, 0);
+    EXPECT_NEAR(at_foot.above[1].projected_mm2, 1'600, 4 * scan.samples.area_each_mm2);
+    EXPECT_NEAR(at_foot.above[0].unreachable_mm2, 1'600, 4 * scan.samples.area_each_mm2);
+    // The same upside down: the side that the normal points away from loses it.
+    const PlaneReach from_under = sweep.sweep({0, 0, -1}, std::array{0.0})[0];
+    ASSERT_EQ(from_under.below.size(), 2U);
+    EXPECT_EQ(from_under.below[1].projected_mm2, 0);
+    EXPECT_NEAR(from_under.above[0].unreachable_mm2, 0, 1e-9);
+    EXPECT_NEAR(from_under.above[0].projected_mm2, 1'600, 4 * scan.samples.area_each_mm2);
+}
+
 // An old cap that faces down, beside the new base, and parts of it on both sides.
 TEST(ReachSweep, CapsThatFaceAwayCountByTheirAreaOnTheSide) {
     const SampledScan scan = sampled(shapes::box({0, 0, 0}, {40, 40, 40}), 3'000);
