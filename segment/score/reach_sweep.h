@@ -6,7 +6,8 @@
 // to rays cast on the really cut piece where each side is one solid, but for rays that pass the plane within the flush
 // tolerance of accessibility.h (tests/segment/score/reach_sweep_test.cpp). Where a side is several solids its area is
 // neither a bound above nor below. Areas of old caps are exact; that of the new cap follows from the samples, because
-// the area vectors of a closed surface add up to zero.
+// the area vectors of a closed surface add up to zero: with 20,000 of them it errs by up to 0.2 % of the piece's area
+// (bench/carve.cpp).
 
 #pragma once
 

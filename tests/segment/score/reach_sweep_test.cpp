@@ -124,30 +124,23 @@ std::ostream& operator<<(std::ostream& out, const Comparison& c) {
                << " others; " << c.wrongly_open << " wrongly open";
 }
 
-// A piece with its caps alone as mesh, and one sample.
-struct OneSample {
-    Piece piece;
-    PieceAccessibility accessibility;
-};
-
-OneSample one_sample(const TrackedPiece& piece, std::size_t row) {
-    OneSample one{piece.piece, piece.accessibility};
-    one.accessibility.sample = {piece.accessibility.sample[row]};
-    const std::span<const float> distances = piece.accessibility.distances(row);
-    one.accessibility.distance.assign(distances.begin(), distances.end());
-    return one;
+// The accessibility of a piece, to be filled in for single samples.
+PieceAccessibility without_samples(const PieceAccessibility& piece) {
+    return {piece.solid, piece.half_spaces, piece.scan_triangle, {}, {}};
 }
 
 // Per row of the parent whether it is unreachable on each base of its side, by a sweep of this sample alone.
 void compare_samples(const SampledScan& scan, const CutPiece& cut, double tilt, Comparison& result) {
     const std::vector<OwnedCap> parent_caps = owned_caps(cut.parent.piece);
-    auto caps_alone = std::make_shared<TriangleMesh>();
-    caps_alone->points = cut.parent.piece.mesh->points;
+    TriangleMesh caps_alone;
+    caps_alone.points = cut.parent.piece.mesh->points;
     for (std::size_t t = 0; t < cut.parent.piece.mesh->triangles.size(); ++t) {
         if (cap_of(*cut.parent.piece.mesh, t) == no_cap) continue;
-        caps_alone->triangles.push_back(cut.parent.piece.mesh->triangles[t]);
-        caps_alone->cap_of.push_back(cap_of(*cut.parent.piece.mesh, t));
+        caps_alone.triangles.push_back(cut.parent.piece.mesh->triangles[t]);
+        caps_alone.cap_of.push_back(cap_of(*cut.parent.piece.mesh, t));
     }
+    const Piece flat = piece_of(std::move(caps_alone));
+    PieceAccessibility one = without_samples(cut.parent.accessibility);
     const PlaneReach all = swept(scan, cut.parent, cut.plane, tilt);
     const double each = scan.samples.area_each_mm2;
     std::vector<double> sums(2 * (parent_caps.size() + 1));  // of single samples, per side and base
@@ -161,10 +154,10 @@ void compare_samples(const SampledScan& scan, const CutPiece& cut, double tilt, 
             const auto parent_row = static_cast<std::size_t>(
                 std::lower_bound(of_parent.begin(), of_parent.end(), made.accessibility.sample[row]) -
                 of_parent.begin());
-            OneSample one = one_sample(cut.parent, parent_row);
-            one.piece.mesh = caps_alone;
-            const JudgedPiece judged{scan, one.accessibility, parent_caps};
-            const PlaneReach reach = ReachSweep(one.piece, judged, all_caps(parent_caps), tilt)
+            one.sample = {made.accessibility.sample[row]};
+            const std::span<const float> distances = cut.parent.accessibility.distances(parent_row);
+            one.distance.assign(distances.begin(), distances.end());
+            const PlaneReach reach = ReachSweep(flat, {scan, one, parent_caps}, all_caps(parent_caps), tilt)
                                          .sweep(cut.plane.normal, std::array{cut.plane.offset})[0];
             const Vec3 normal = scan.samples.sample[made.accessibility.sample[row]].normal;
             for (const OwnedCap& cap : caps) {
@@ -288,6 +281,32 @@ TEST(ReachSweep, EqualsRaysCastOnReallyCutPiecesSampleForSample) {
         }
     }
     expect_equal(all, "shapes and specimens");
+}
+
+// Planes within the flush tolerance of flat regions, which nudge() would move away: only samples whose rays end at the
+// plane may differ.
+TEST(ReachSweep, BesideFlatRegionsDiffersOnlyWhereRaysEndAtThePlane) {
+    Comparison all;
+    for (const auto& mesh : {shapes::stairs(), shapes::nested(), shapes::rotated(shapes::nested(), {1, 2, 3}, 0.4)}) {
+        const SampledScan scan = sampled(mesh, 60);
+        for (std::uint32_t i = 0; i < 6; ++i) {
+            const std::size_t t = i * (mesh.triangles.size() / 6);
+            const Vec3 normal = normalized(area_vector(mesh, t));
+            const Plane flat = canonical({normal, dot(normal, corners_of(mesh, t)[0])});
+            for (const double beside : {-1e-6, -3e-8, -1e-9, 1e-9, 3e-8, 1e-6}) {
+                CutPiece cut;
+                cut.parent = uncut_pieces(scan)[0];
+                cut.plane = {flat.normal, flat.offset + beside * scan.diagonal_mm};
+                cut.number = 1;
+                cut.made = {cut.parent};
+                if (cut_along(scan, cut.made, 0, cut.plane, 1) > 0) compare_samples(scan, cut, 60, all);
+            }
+        }
+    }
+    std::cout << "flush planes: " << all << std::endl;
+    EXPECT_GT(all.states, 1'000U);
+    EXPECT_EQ(all.wrong, 0U);
+    EXPECT_EQ(all.wrongly_open, 0U);
 }
 
 // Cuts along random planes, and compares both sides of each that makes two solids.
@@ -515,6 +534,30 @@ TEST(ReachSweep, AreasOfABarAreKnown) {
     EXPECT_EQ(beside[1].above[0].unreachable_mm2, 0);
     EXPECT_NEAR(beside[0].above[0].unreachable_mm2, 1'600, 4 * each);  // the whole bar, and its foot
     EXPECT_TRUE(ReachSweep(bar.pieces[0].piece, bar.judged(), {}, 60).sweep({0, 0, 1}, {}).empty());
+}
+
+// cut_accessibility and cut() count height == offset as above.
+TEST(ReachSweep, ASampleOnThePlaneBelongsToTheSideAbove) {
+    const SampledScan scan = sampled(shapes::box({0, 0, 0}, {40, 40, 40}), 3'000);
+    std::vector<TrackedPiece> pieces = uncut_pieces(scan);
+    ASSERT_EQ(cut_along(scan, pieces, 0, {{0, 0, 1}, 10}, 1), 2U);
+    const TrackedPiece& lower = pieces[1];
+    ASSERT_FALSE(lower.piece.half_spaces[0].above);
+    const std::vector<OwnedCap> caps = owned_caps(lower.piece);
+    // Its foot lies at height 0 to the last bit; it is the top on the old base.
+    const ReachSweep sweep(lower.piece, {scan, lower.accessibility, caps}, all_caps(caps), 60);
+    const PlaneReach at_foot = sweep.sweep({0, 0, 1}, std::array{0.0})[0];
+    ASSERT_EQ(at_foot.above.size(), 2U);
+    ASSERT_EQ(at_foot.below.size(), 1U);
+    EXPECT_EQ(at_foot.below[0].projected_mm2, 0);
+    EXPECT_NEAR(at_foot.above[1].projected_mm2, 1'600, 4 * scan.samples.area_each_mm2);
+    EXPECT_NEAR(at_foot.above[0].unreachable_mm2, 1'600, 4 * scan.samples.area_each_mm2);
+    // The same upside down: the side that the normal points away from loses it.
+    const PlaneReach from_under = sweep.sweep({0, 0, -1}, std::array{0.0})[0];
+    ASSERT_EQ(from_under.below.size(), 2U);
+    EXPECT_EQ(from_under.below[1].projected_mm2, 0);
+    EXPECT_NEAR(from_under.above[0].unreachable_mm2, 0, 1e-9);
+    EXPECT_NEAR(from_under.above[0].projected_mm2, 1'600, 4 * scan.samples.area_each_mm2);
 }
 
 // An old cap that faces down, beside the new base, and parts of it on both sides.
