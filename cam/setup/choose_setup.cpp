@@ -157,14 +157,10 @@ class Choice {
             judge(setups_[*next]);
             rank();
         }
-<<<<<<< HEAD
-        if (!result.states.empty())
-            paint_narrow(*piece_.mesh, reach_->samples->scan->samples, is_narrow_, result.states);
-=======
         SetupChoice result;
         if (!states.empty()) result.states = std::move(states[setups_.front().base_number]);
-        if (!result.states.empty()) paint_narrow(*piece_.mesh, reach_->samples.scan.samples, is_narrow_, result.states);
->>>>>>> table
+        if (!result.states.empty())
+            paint_narrow(*piece_.mesh, reach_->samples->scan->samples, is_narrow_, result.states);
         result.setups = std::move(setups_);
         return result;
     }
@@ -223,7 +219,7 @@ class Choice {
         mapped.steep_counts = setup.reach.steep_counts;
         MappedReach result = mapped_reach(mapped, options_.map);
         SurfaceReach& reach = result.reach;
-        reach.too_narrow_mm2 = too_narrow_mm2(result, reach_->samples.scan.samples, is_narrow_);
+        reach.too_narrow_mm2 = too_narrow_mm2(result, reach_->samples->scan->samples, is_narrow_);
         reach.narrow_counts = setup.reach.narrow_counts;
         reach.all_directions_share = setup.reach.all_directions_share;
         reach.further = setup.reach.further;

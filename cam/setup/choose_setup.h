@@ -22,15 +22,10 @@ struct SetupOptions {
     std::optional<double> max_tilt_deg;  // nothing: that of the cell, or without a machine default_tilt_deg
     bool count_narrow = false;           // surface too narrow for the smallest tool is unreachable
     std::size_t samples = 4000;          // of the piece's surface, per piece
-<<<<<<< HEAD
     // Piece::samples serve if they are as many. Only with mapped = 0 and without count_narrow, and then without states.
     bool takes_kept_samples = false;
-    // So many of the best bases are judged by height maps. With 0 and without count_narrow, no surface is judged too
-    // narrow.
-=======
     // So many of the best bases are judged by height maps if they are as good as the first, which always is. With 0 and
     // without count_narrow, no surface is judged too narrow.
->>>>>>> table
     std::size_t mapped = 2;
     MapOptions map;
 };
