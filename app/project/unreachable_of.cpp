@@ -10,6 +10,7 @@ UnreachableOf unreachable_of(double tilt_deg) {
     PieceReachOptions options;
     options.tilt_deg = tilt_deg;
     options.takes_kept = true;
+    options.asks_dense = false;
     return [options](const Piece& piece) {
         const std::vector<PieceBase> bases = bases_of(piece);
         const PieceReach reach = piece_reach(piece, bases, options);

@@ -157,6 +157,7 @@ class Choice {
             judge(setups_[*next]);
             rank();
         }
+        if (options_.mapped > 0) ask_dense(setups_.front());
         SetupChoice result;
         if (!states.empty()) result.states = std::move(states[setups_.front().base_number]);
         if (!result.states.empty())
@@ -166,16 +167,44 @@ class Choice {
     }
 
  private:
-    void judge_on_samples() {
-        const PieceReachOptions options{
-            tilt_of(cell_, options_), {options_.max_directions}, options_.samples, options_.takes_kept_samples};
-        const auto held = [&](const PieceBase& base, std::span<const Vec3> directions) {
-            const Setup& setup = setups_[static_cast<std::size_t>(&base - bases_.data())];
+    PieceReachOptions reach_options(bool asks_dense) const {
+        return {tilt_of(cell_, options_),
+                {options_.max_directions},
+                options_.samples,
+                options_.takes_kept_samples,
+                asks_dense};
+    }
+
+    // Which directions the arm holds over a piece that lies on one of bases_.
+    HeldDirections held_of_base() const {
+        return [this](const PieceBase& base, std::span<const Vec3> directions) {
+            const auto laid = std::find_if(setups_.begin(), setups_.end(),
+                                           [&](const Setup& s) { return s.base_number == base.number; });
             std::vector<Vec3> in_setup;
-            for (const Vec3& d : directions) in_setup.push_back(rotate(setup.piece_in_setup, d));
-            return held_directions(cell_, setup.box, setup.spoil, in_setup);
+            for (const Vec3& d : directions) in_setup.push_back(rotate(laid->piece_in_setup, d));
+            return held_directions(cell_, laid->box, laid->spoil, in_setup);
         };
-        reach_ = piece_reach(piece_, bases_, options, held);
+    }
+
+    // Dense directions take the most time, so they are asked for the base that is taken alone.
+    void ask_dense(Setup& setup) const {
+        const auto base = std::find_if(bases_.begin(), bases_.end(),
+                                       [&](const PieceBase& b) { return b.number == setup.base_number; });
+        const BaseReach reach = base_reach(*reach_->samples, *base, reach_options(true), held_of_base());
+        describe_further(setup, reach);
+    }
+
+    void describe_further(Setup& setup, const BaseReach& of_base) const {
+        const double area_mm2 = of_base.area_mm2;
+        const double unreachable = of_base.directions.by_all.total_mm2(tilt_of(cell_, options_));
+        setup.reach.all_directions_share = area_mm2 > 0 ? unreachable / area_mm2 : 0;
+        setup.reach.further.reset();
+        if (of_base.directions.further) setup.reach.further = described(*of_base.directions.further, setup, area_mm2);
+    }
+
+    void judge_on_samples() {
+        const PieceReachOptions options = reach_options(false);
+        reach_ = piece_reach(piece_, bases_, options, held_of_base());
         const SampledScan& scan = *reach_->samples->scan;
         is_narrow_.assign(scan.samples.sample.size(), false);
         if (options_.mapped > 0 || options_.count_narrow) {
@@ -198,8 +227,7 @@ class Choice {
         reach.too_narrow_mm2 = too_narrow_mm2(directions, is_narrow_, reach_->samples->scan->samples.area_each_mm2);
         reach.steep_counts = tilt_deg >= steep_counts_from_deg;
         reach.narrow_counts = options_.count_narrow;
-        reach.all_directions_share = reach.area_mm2 > 0 ? directions.by_all.total_mm2(tilt_deg) / reach.area_mm2 : 0;
-        if (directions.further) reach.further = described(*directions.further, setup, reach.area_mm2);
+        describe_further(setup, of_base);
         reach.is_arm_checked = cell_.machine.has_value();
         const Facing sums = facing(*piece_.mesh, setup.up, setup.base);
         setup.undercut = sums.undercut();

@@ -44,7 +44,8 @@ struct SurfaceReach {
     double too_narrow_mm2 = 0;        // reached, but not by the ball
     bool steep_counts = true;         // false for a tool that hardly tilts (unreachable.h)
     bool narrow_counts = false;       // on request
-    double all_directions_share = 0;  // unreachable with all directions that can be held; sampled
+    double all_directions_share = 0;  // unreachable with all directions that can be held; sampled; in the setup that is
+                                      // taken with dense directions too
     double foam_mm3 = 0;              // that no tool of these directions removes; mapped only
     double foam_depth_mm = 0;         // largest height of it over a surface point, along the best direction; mapped
     double residue_mm3 = 0;           // that the smallest tool's radius leaves besides; mapped only

@@ -69,30 +69,33 @@ const BaseReach& PieceReach::best() const {
                              [](const BaseReach& a, const BaseReach& b) { return a.share() < b.share(); });
 }
 
+BaseReach base_reach(const SampledPiece& samples, const PieceBase& base, const PieceReachOptions& options,
+                     const HeldDirections& held) {
+    const JudgedPiece judged = samples.judged();
+    const std::vector<Vec3>& all = judged.scan.directions;
+    std::vector<Vec3> allowed;
+    for (const std::uint32_t k : allowed_directions(all, base.base.up, options.tilt_deg)) allowed.push_back(all[k]);
+    std::vector<std::uint32_t> possible;
+    for (const Vec3& d : those_held(base, std::move(allowed), held)) {
+        possible.push_back(static_cast<std::uint32_t>(index_of(all, d)));
+    }
+    std::vector<Vec3> further;
+    if (options.asks_dense) {
+        further = dense_directions();
+        std::erase_if(further, [&](Vec3 d) { return !is_allowed(d, base.base.up, options.tilt_deg); });
+    }
+    BaseReach reach{base, choose_directions(judged, base.base, possible, those_held(base, std::move(further), held),
+                                            options.directions)};
+    reach.area_mm2 = judged.area_without_base_mm2(base.base);
+    reach.unreachable_mm2 = reach.directions.by_chosen.total_mm2(options.tilt_deg);
+    return reach;
+}
+
 PieceReach piece_reach(const Piece& piece, std::span<const PieceBase> bases, const PieceReachOptions& options,
                        const HeldDirections& held) {
     assert(!bases.empty());
     PieceReach result{samples_of(piece, bases, options), {}};
-    const JudgedPiece judged = result.samples->judged();
-    const std::vector<Vec3>& all = judged.scan.directions;
-    const std::vector<Vec3> dense = dense_directions();
-    for (const PieceBase& base : bases) {
-        std::vector<Vec3> allowed;
-        for (const std::uint32_t k : allowed_directions(all, base.base.up, options.tilt_deg)) allowed.push_back(all[k]);
-        std::vector<std::uint32_t> possible;
-        for (const Vec3& d : those_held(base, std::move(allowed), held)) {
-            possible.push_back(static_cast<std::uint32_t>(index_of(all, d)));
-        }
-        std::vector<Vec3> further;
-        for (const Vec3& d : dense) {
-            if (is_allowed(d, base.base.up, options.tilt_deg)) further.push_back(d);
-        }
-        BaseReach reach{base, choose_directions(judged, base.base, possible, those_held(base, std::move(further), held),
-                                                options.directions)};
-        reach.area_mm2 = judged.area_without_base_mm2(base.base);
-        reach.unreachable_mm2 = reach.directions.by_chosen.total_mm2(options.tilt_deg);
-        result.bases.push_back(std::move(reach));
-    }
+    for (const PieceBase& base : bases) result.bases.push_back(base_reach(*result.samples, base, options, held));
     return result;
 }
 

@@ -35,6 +35,7 @@ struct PieceReachOptions {
     DirectionOptions directions;
     std::size_t samples = 4000;
     bool takes_kept = false;  // the piece's own Piece::samples serve if they are as many
+    bool asks_dense = true;   // dense directions too; the chosen ones and what they leave do not depend on them
 };
 
 // Per direction 1 if it can be held when the piece lies on a base, else 0.
@@ -55,6 +56,10 @@ struct PieceReach {
     std::vector<BaseReach> bases;   // one per base that was given, in their order; at least one
     const BaseReach& best() const;  // the one with the least share; the first of several
 };
+
+// Of one base, on samples that are there already.
+BaseReach base_reach(const SampledPiece& samples, const PieceBase& base, const PieceReachOptions& options,
+                     const HeldDirections& held = {});
 
 // `held` may be empty: every direction is held. Preconditions: there is a base.
 PieceReach piece_reach(const Piece& piece, std::span<const PieceBase> bases, const PieceReachOptions& options = {},

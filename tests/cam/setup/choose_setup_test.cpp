@@ -169,7 +169,7 @@ TEST(ChooseSetup, TheBaseLiesFlatOnTheTable) {
 TEST(ChooseSetup, TurningPieceAndBoundsTogetherChangesOnlyWhatDependsOnTheDirectionSet) {
     const Cell in = cell();
     SetupOptions sampled;
-    sampled.mapped = 0;
+    sampled.mapped = 1;
     for (const Piece& piece : cut_shapes()) {
         const std::vector<qchopper::Setup> before = choose_setup(piece, in, sampled).setups;
         if (!before.front().base) continue;  // the oriented box is a search, and may end elsewhere
