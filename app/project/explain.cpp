@@ -1,5 +1,5 @@
-// Cuts the scan again up to the cut, then ranks (segment/search/rank.h): O(cuts before) times the cost of a cut, and an
-// evaluation of the piece if the cache has none.
+// Cuts the scan again up to the cut, then ranks (segment/search/rank_piece.h): O(cuts before) times the cost of a cut,
+// and an evaluation of the piece if the cache has none.
 
 #include "app/project/explain.h"
 

@@ -33,15 +33,6 @@ std::vector<Ranked> rank(const PieceEvaluations& evaluations, std::span<const Pi
 std::vector<std::size_t> without_near_duplicates(const std::vector<Ranked>& ranked, int offsets_per_normal,
                                                  double near);
 
-// All candidates of one piece, best first, evaluated if they are not in the cache. Throws Cancelled.
-std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
-                         EvaluationCache& cache, const Context& context);
-
-// The terms of one plane that is no candidate of the piece. Nothing if it misses, or leaves fewer than two pieces,
-// fragments not counted. Throws Cancelled.
-std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t piece, const Candidate& plane,
-                                 const SearchSettings& settings, EvaluationCache& cache, const Context& context);
-
 // The cut by the k-th of a ranking (from 0), with up to `runners_up` of the others. Its number follows those of the
 // cuts that are made. Precondition: k < ranked.size().
 Cut cut_by(const Segmentation& segmentation, std::size_t piece, const std::vector<Ranked>& ranked, std::size_t k,

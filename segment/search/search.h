@@ -22,7 +22,7 @@
 #include "segment/search/beam_state.h"
 #include "segment/search/end_reason.h"
 #include "segment/search/evaluation_cache.h"
-#include "segment/search/rank.h"
+#include "segment/search/rank_piece.h"
 #include "segment/search/segmentation.h"
 #include "segment/search/settings.h"
 

@@ -8,7 +8,7 @@
 
 #include "base/text.h"
 #include "segment/mesh/triangle_mesh.h"
-#include "segment/search/rank.h"
+#include "segment/search/rank_piece.h"
 
 namespace qchopper {
 namespace {

@@ -1,0 +1,36 @@
+// The cost is that of the evaluations that are not in the cache.
+
+#include "segment/search/rank_piece.h"
+
+#include <cassert>
+
+#include "segment/score/cut_reach.h"
+#include "segment/search/reach_rank.h"
+
+namespace qchopper {
+
+std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
+                         EvaluationCache& cache, const Context& context) {
+    assert(piece < segmentation.pieces.size());
+    if (is_ranked_by_reach(segmentation.pieces[piece], settings)) {
+        return rank_by_reach(segmentation, piece, settings, cache, context);
+    }
+    const Piece* target = &segmentation.pieces[piece];
+    cache.evaluate(std::span(&target, 1), context);
+    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, cache);
+    return rank(cache.evaluations(*target), others, settings.objectives);
+}
+
+std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t piece, const Candidate& plane,
+                                 const SearchSettings& settings, EvaluationCache& cache, const Context& context) {
+    const Piece& target = segmentation.pieces[piece];
+    PieceEvaluations alone{{plane}, {cache.evaluation_of(target, plane, context)}};
+    if (alone.evaluations.front() && is_ranked_by_reach(target, settings)) {
+        alone.evaluations.front()->reach = cut_reach(target, plane.plane, settings.objectives.tilt_deg);
+    }
+    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, cache);
+    const std::vector<Ranked> ranked = rank(alone, others, settings.objectives);
+    return ranked.empty() ? std::nullopt : std::optional(ranked.front());
+}
+
+}  // namespace qchopper

@@ -1,0 +1,25 @@
+// Ranks the planes of one piece of a segmentation: those of its box (rank.h), or where surface out of reach has a
+// weight those of many normals (reach_rank.h).
+//
+// Ties and preconditions as in rank.h (tests/segment/search/search_test.cpp, reach_rank_test.cpp beside it).
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "segment/search/rank.h"
+
+namespace qchopper {
+
+// All candidates of one piece, best first, evaluated if they are not in the cache. Throws Cancelled.
+std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
+                         EvaluationCache& cache, const Context& context);
+
+// The terms of one plane that is no candidate of the piece. Nothing if it misses, or leaves fewer than two pieces,
+// fragments not counted. Throws Cancelled.
+std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t piece, const Candidate& plane,
+                                 const SearchSettings& settings, EvaluationCache& cache, const Context& context);
+
+}  // namespace qchopper
