@@ -51,9 +51,17 @@ void expect_rotation(const Pose& pose) {
     EXPECT_NEAR(dot(pose.row[0], cross(pose.row[1], pose.row[2])), 1, 1e-12);
 }
 
+// Coarser than the program's own, where a test looks at many pieces.
+SetupOptions quick() {
+    SetupOptions options;
+    options.samples = 1'000;
+    options.map.foam_points = 1U << 16U;
+    return options;
+}
+
 TEST(ChooseSetup, EveryPieceLiesOnZeroInTheMiddleTurnedNotMirrored) {
     for (const Piece& piece : cut_shapes()) {
-        const qchopper::Setup setup = choose_setup(piece, cell()).setups.front();
+        const qchopper::Setup setup = choose_setup(piece, cell(), quick()).setups.front();
         const Pose& pose = setup.piece_in_setup;
         expect_rotation(pose);
         const double size = norm(setup.box.size());
@@ -80,7 +88,7 @@ bool can_carry(const Piece& piece, const HalfSpace& half_space) {
 TEST(ChooseSetup, EveryCapThatCarriesIsRankedByWhatIsOutOfReach) {
     int with_base = 0;
     for (const Piece& piece : cut_shapes()) {
-        const SetupChoice choice = choose_setup(piece, cell());
+        const SetupChoice choice = choose_setup(piece, cell(), quick());
         const qchopper::Setup& best = choice.setups.front();
         std::size_t carrying = 0;
         for (const HalfSpace& half_space : piece.half_spaces) {
@@ -110,10 +118,12 @@ TEST(ChooseSetup, EveryCapThatCarriesIsRankedByWhatIsOutOfReach) {
 
 TEST(ChooseSetup, MapsAndSamplesAgree) {
     for (const Piece& piece : cut_shapes()) {
+        SetupOptions mapped;
+        mapped.map.foam_points = 1U << 16U;
         SetupOptions sampled;
         sampled.mapped = 0;
         const std::vector<qchopper::Setup> by_samples = choose_setup(piece, cell(), sampled).setups;
-        const qchopper::Setup by_map = choose_setup(piece, cell()).setups.front();
+        const qchopper::Setup by_map = choose_setup(piece, cell(), mapped).setups.front();
         const auto same = std::find_if(by_samples.begin(), by_samples.end(),
                                        [&](const qchopper::Setup& s) { return s.base_number == by_map.base_number; });
         ASSERT_NE(same, by_samples.end());
@@ -123,8 +133,8 @@ TEST(ChooseSetup, MapsAndSamplesAgree) {
 
 TEST(ChooseSetup, TheOperatorsBaseComesFirstAndFewerDirectionsReachLess) {
     for (const Piece& piece : cut_shapes()) {
-        const SetupChoice free = choose_setup(piece, cell());
-        SetupOptions options;
+        const SetupChoice free = choose_setup(piece, cell(), quick());
+        SetupOptions options = quick();
         options.base = free.setups.back().base_number;
         const SetupChoice ordered = choose_setup(piece, cell(), options);
         EXPECT_EQ(ordered.setups.front().base_number, *options.base) << piece.name;
@@ -141,7 +151,7 @@ TEST(ChooseSetup, TheOperatorsBaseComesFirstAndFewerDirectionsReachLess) {
 
 TEST(ChooseSetup, StatesBelongToTheSetupThatIsFirst) {
     for (const Piece& piece : cut_shapes()) {
-        const SetupChoice choice = choose_setup(piece, cell());
+        const SetupChoice choice = choose_setup(piece, cell(), quick());
         ASSERT_EQ(choice.states.size(), piece.mesh->triangles.size());
         double hidden = 0;
         for (std::size_t t = 0; t < choice.states.size(); ++t) {
@@ -154,7 +164,7 @@ TEST(ChooseSetup, StatesBelongToTheSetupThatIsFirst) {
 
 TEST(ChooseSetup, TheBaseLiesFlatOnTheTable) {
     for (const Piece& piece : cut_shapes()) {
-        const qchopper::Setup setup = choose_setup(piece, cell()).setups.front();
+        const qchopper::Setup setup = choose_setup(piece, cell(), quick()).setups.front();
         if (!setup.base) continue;
         const TriangleMesh lying = apply(setup.piece_in_setup, *piece.mesh);
         for (std::size_t t = 0; t < lying.triangles.size(); ++t) {
@@ -168,7 +178,8 @@ TEST(ChooseSetup, TheBaseLiesFlatOnTheTable) {
 
 TEST(ChooseSetup, TurningPieceAndBoundsTogetherChangesOnlyWhatDependsOnTheDirectionSet) {
     const Cell in = cell();
-    SetupOptions sampled;
+    SetupOptions sampled = quick();
+    sampled.samples = 4'000;
     sampled.mapped = 1;
     for (const Piece& piece : cut_shapes()) {
         const std::vector<qchopper::Setup> before = choose_setup(piece, in, sampled).setups;
