@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "base/parallel.h"
+#include "segment/score/piece_reach.h"
 
 namespace qchopper {
 
@@ -47,6 +48,7 @@ UnreachableSurface Setups::unreachable(const Piece& piece) {
     SetupOptions options = options_for(piece);
     options.mapped = 0;
     options.takes_kept_samples = !count_narrow_;
+    options.samples = PieceReachOptions{}.samples;
     const SetupChoice choice = choose_setup(piece, cell_, options);
     const SurfaceReach& reach = choice.setups.front().reach;
     return {reach.unreachable_mm2(), reach.unreachable_share()};

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t triangles_at_once = 4096;
 constexpr double smallest_cell = 0.25;  // mm
-constexpr double cells_of_longest_side = 1000;
+constexpr double cells_of_longest_side = 700;
 constexpr double most_cells_per_ball_radius = 6;  // and a half
 
 double cell_of(const TriangleMesh& mesh, const MapOptions& options) {
