@@ -32,7 +32,7 @@ struct MappedSetup {
 };
 
 struct MapOptions {
-    double cell = 0;  // mm; 0: a 700th of the longest side of the piece's box, 0.25 mm at least
+    double cell = 0;                      // mm; 0: a 700th of the longest side of the piece's box, 0.25 mm at least
     std::size_t foam_points = 1U << 20U;  // in the piece's box, to measure foam and residue with
 };
 
