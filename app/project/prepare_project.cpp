@@ -2,6 +2,7 @@
 
 #include "app/project/prepare_project.h"
 
+#include "app/project/presets.h"
 #include "app/project/project_lines.h"
 #include "app/project/shell_word.h"
 #include "base/error.h"
@@ -40,7 +41,9 @@ PreparedProject prepare_scan(const ProjectChoices& choices, const PrepareOptions
                              const ProjectContext& context) {
     ProjectDraft draft = draft_project(choices, context);
     StopRules& stop = draft.project.settings.stop;
-    if (!stop.is_any_set()) stop.fits_cell = true;
+    // A preset sees no cell; what the operator gave in place of its rules stays as it is.
+    const bool is_of_carve = choices.preset == "carve" && stop == preset("carve")->stop;
+    if (!stop.is_any_set() || is_of_carve) stop.fits_cell = true;
     LockedProject open = make_project(std::move(draft), context);
     return finish(open.project, options, context);
 }

@@ -18,9 +18,9 @@ struct PrepareOptions {
     std::optional<double> time_limit_s;  // of the search; the round that is being made is finished
 };
 
-// Makes a project of a scan. Without a stop rule in the choices, every piece must fit the cell. Precondition:
-// choices.cell_file is given. Throws what draft_project and make_project throw, InputError (mesh) for a scan that
-// holds nothing but fragments, and Cancelled.
+// Makes a project of a scan. Without a stop rule in the choices, or with those of the preset carve, every piece must
+// fit the cell. Precondition: choices.cell_file is given. Throws what draft_project and make_project throw, InputError
+// (mesh) for a scan that holds nothing but fragments, and Cancelled.
 PreparedProject prepare_scan(const ProjectChoices& choices, const PrepareOptions& options,
                              const ProjectContext& context);
 

@@ -25,7 +25,6 @@ SearchSettings carve() {
     settings.objectives.scope = TermScope::cut;
     settings.candidates.offsets_per_normal = 80;
     settings.stop.max_unreachable = 0.02;
-    settings.stop.fits_cell = true;  // of a project that knows a cell
     return settings;
 }
 
