@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cassert>
+#include <mutex>
+#include <optional>
 #include <set>
 
 #include "app/project/ordered_job.h"
 #include "app/project/project_folder.h"
 #include "base/file.h"
+#include "base/parallel.h"
 #include "base/timings.h"
 #include "cam/job/read_job.h"
 #include "cam/job/write_job.h"
@@ -78,18 +81,24 @@ double most_unreachable(const Project& project, const Cell& cell) {
     return cell.machine ? cell.machine->max_unreachable : 1;
 }
 
-PieceReport write_job(const fs::path& folder, Project& project, const Segmentation& segmentation, std::size_t index,
-                      Setups& setups, const std::string& program_version) {
+namespace {
+
+struct MadeJob {
+    PieceReport report;
+    std::optional<WrittenJob> written;  // nothing: the piece does not fit, and has no job
+};
+
+// Writes or removes the file of one job.
+MadeJob make_job(const fs::path& folder, const Project& project, const Segmentation& segmentation, std::size_t index,
+                 const Carving& carving, const Cell& cell, const std::string& program_version) {
     const Piece& piece = segmentation.pieces[index];
-    const Carving& carving = setups.of(piece);
-    PieceReport report{piece.name, piece.mesh->triangles.size(), volume_mm3(*piece.mesh), carving, {}};
-    report.carving.mesh.reset();
-    report.carving.choice.states.clear();
-    std::erase_if(project.jobs, [&](const WrittenJob& job) { return job.piece == piece.name; });
+    MadeJob made{{piece.name, piece.mesh->triangles.size(), volume_mm3(*piece.mesh), carving, {}}, std::nullopt};
+    made.report.carving.mesh.reset();
+    made.report.carving.choice.states.clear();
     const fs::path file = folder / "jobs" / job_file_name(piece.name);
     if (!carving.envelope.fits()) {
         fs::remove(file);  // an earlier job of a piece that cannot be carved must not stay
-        return report;
+        return made;
     }
     JobInput input;
     input.piece = piece;
@@ -98,34 +107,57 @@ PieceReport write_job(const fs::path& folder, Project& project, const Segmentati
     input.program_version = program_version;
     input.project_id = project_id(project);
     input.scan_sha256 = project.scan.sha256;
-    input.cell = setups.cell();
+    input.cell = cell;
     input.setup = carving.setup();
     input.envelope = carving.envelope;
     input.alternatives.assign(carving.choice.setups.begin() + 1, carving.choice.setups.end());
     input.states = carving.choice.states;
-    input.max_unreachable = most_unreachable(project, setups.cell());
+    input.max_unreachable = most_unreachable(project, cell);
     input.warnings = project.warnings;
     const Bytes bytes = job_file(input);
     write_file(file, bytes);
+    made.written = written_job(piece.name, bytes, input.project_id);
+    made.report.job = file;
+    return made;
+}
+
+}  // namespace
+
+PieceReport write_job(const fs::path& folder, Project& project, const Segmentation& segmentation, std::size_t index,
+                      Setups& setups, const std::string& program_version) {
+    const Piece& piece = segmentation.pieces[index];
+    MadeJob made = make_job(folder, project, segmentation, index, setups.of(piece), setups.cell(), program_version);
+    std::erase_if(project.jobs, [&](const WrittenJob& job) { return job.piece == piece.name; });
     const auto later = std::find_if(project.jobs.begin(), project.jobs.end(),
                                     [&](const WrittenJob& job) { return place_of(job.piece, segmentation) > index; });
-    project.jobs.insert(later, written_job(piece.name, bytes, input.project_id));
-    report.job = file;
-    return report;
+    if (made.written) project.jobs.insert(later, *made.written);
+    return std::move(made.report);
 }
 
 std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, const Segmentation& segmentation,
                                     Setups& setups, const std::string& program_version, const Context& context) {
     StageTimer stage(context, "setups chosen");
-    context.progress("setups chosen", 0, segmentation.pieces.size());
+    const std::size_t count = segmentation.pieces.size();
+    context.progress("setups chosen", 0, count);
     setups.compute(segmentation.pieces, context);
     stage.next("jobs written");
+    context.progress("jobs written", 0, count);
+    std::vector<const Carving*> carvings;
+    for (const Piece& piece : segmentation.pieces) carvings.push_back(&setups.of(piece));
+    std::vector<MadeJob> made(count);
+    std::mutex reporting;
+    std::size_t done = 0;
+    parallel_for(0, count, [&](std::size_t i) {
+        context.check_cancelled();
+        made[i] = make_job(folder, project, segmentation, i, *carvings[i], setups.cell(), program_version);
+        const std::lock_guard lock(reporting);
+        context.progress("jobs written", ++done, count);
+    });
     project.jobs.clear();
     std::vector<PieceReport> reports;
-    for (std::size_t i = 0; i < segmentation.pieces.size(); ++i) {
-        context.check_cancelled();
-        context.progress("jobs written", i, segmentation.pieces.size());
-        reports.push_back(write_job(folder, project, segmentation, i, setups, program_version));
+    for (MadeJob& job : made) {
+        if (job.written) project.jobs.push_back(*job.written);
+        reports.push_back(std::move(job.report));
     }
     return reports;
 }
