@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/project/presets.h"
 #include "base/parallel.h"
 #include "bench/choice.h"
 #include "bench/clock.h"
@@ -23,6 +24,8 @@
 #include "segment/mesh/oriented_box.h"
 #include "segment/score/candidates.h"
 #include "segment/score/reach_sweep.h"
+#include "segment/score/sampled_piece.h"
+#include "segment/search/rank_piece.h"
 
 namespace {
 
@@ -32,7 +35,7 @@ using namespace qchopper::bench;
 constexpr const char* usage = R"(bench_carve [--small] [--data FOLDER] [--only GROUP]...
   --small  the sample skull with 20,000 faces instead, to check that it runs; the targets do not apply
   --data   where ct_head_1912k.ply lies; without it the sample skull with 1.9 million faces is taken
-  --only   rays, sweep or areas; all if none is named
+  --only   rays, sweep, areas, decision or run; all if none is named
 )";
 
 constexpr int runs = 3;
@@ -199,11 +202,52 @@ void measure_areas(const Measured& measured, const SampledScan& scan, Figures& f
     }
 }
 
+SearchSettings carve_settings(const Measured& measured) {
+    SearchSettings settings = *preset("carve");
+    settings.objectives.fragment_volume_mm3 = measured.fragment_volume_mm3;
+    settings.stop.max_unreachable.reset();
+    return settings;
+}
+
+// Beside the thesis' first decision: with samples and rays made before, because they serve the whole segmentation.
+void measure_decision(const Measured& measured, Figures& figures) {
+    const double thesis = first_decision_s(measured, runs);
+    const SearchSettings settings = carve_settings(measured);
+    Segmentation uncut_scan = uncut(*measured.piece.mesh, measured.fragment_volume_mm3);
+    sample_uncut(uncut_scan.pieces);
+    std::size_t planes = 0;
+    const double carve = best_of(runs, cpu_s, [&] {
+        EvaluationCache cache(settings.objectives, settings.candidates);
+        Segmentation s = uncut_scan;
+        const std::vector<Ranked> ranked = rank(s, 0, settings, cache, Context{});
+        planes = ranked.size();
+        apply(s, cut_by(s, 0, ranked, 0, settings.runners_up), measured.fragment_volume_mm3);
+        return s;
+    });
+    figures.record(measured.name, "first decision of carve; the thesis'", time_text(carve) + "; " + time_text(thesis));
+    figures.record(measured.name, "planes of which all terms were evaluated", std::to_string(planes));
+    figures.at_most(measured.name, "first decision of carve / the thesis'", carve / thesis, 2);
+}
+
+void measure_runs(const Measured& measured, Figures& figures) {
+    constexpr std::size_t pieces = 20;
+    SearchSettings bunny = *preset("bunny");
+    bunny.objectives.fragment_volume_mm3 = measured.fragment_volume_mm3;
+    SearchSettings carve = carve_settings(measured);
+    for (SearchSettings* s : {&bunny, &carve}) s->stop.min_cuts = static_cast<int>(pieces);
+    const double thesis = run_s(measured, bunny, pieces);
+    const double reach = run_s(measured, carve, pieces);
+    figures.record(measured.name, "run to 20 pieces, carve; bunny", time_text(reach) + "; " + time_text(thesis));
+    figures.at_most(measured.name, "run to 20 pieces, carve / bunny", reach / thesis, 2);
+}
+
 void measure(const Choice& choice, Figures& figures) {
     const ThreadLimit one(1);
     const auto head = choice.is_small ? nullptr : scan(choice.data / "ct_head_1912k.ply", 1);
     const Measured measured =
         head ? biggest("ct_head", *head) : one_shell("skull", Specimen::skull, choice.is_small ? 20'000 : 1'900'000);
+    if (choice.wants("decision")) measure_decision(measured, figures);
+    if (choice.wants("run")) measure_runs(measured, figures);
     const std::vector<Vec3> directions = tool_directions(oriented_box(measured.piece.mesh->points).axis);
     if (choice.wants("rays")) measure_rays(measured, directions, figures);
     const std::array<Piece, 1> pieces{measured.piece};

@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "bench/clock.h"
 #include "bench/measures.h"
+#include "segment/score/sampled_piece.h"
 #include "segment/search/search.h"
 
 namespace qchopper::bench {
@@ -19,14 +20,14 @@ struct Run {
 };
 
 template <class Clock>
-Run run_to(const Measured& m, std::size_t pieces, std::size_t threads, Clock clock) {
+Run run_to(const Measured& m, SearchSettings settings, std::size_t pieces, std::size_t threads, Clock clock) {
     const ThreadLimit limit(threads);
-    SearchSettings settings;
     settings.objectives.fragment_volume_mm3 = m.fragment_volume_mm3;
     settings.stop.min_cuts = 10 * static_cast<int>(pieces);
     Run run;
     const double started = clock();
     Segmentation s = uncut(*m.piece.mesh, m.fragment_volume_mm3);
+    if (settings.takes_samples()) sample_uncut(s.pieces);
     // The cache calls find before it evaluates a piece and keep afterwards: the time between is that of the evaluation.
     double started_at = 0;
     EvaluationStore between;
@@ -59,16 +60,20 @@ Run run_to(const Measured& m, std::size_t pieces, std::size_t threads, Clock clo
 }  // namespace
 
 void measure_run(const Measured& m, std::size_t pieces, Figures& figures) {
-    const Run one = run_to(m, pieces, 1, cpu_s);
+    const Run one = run_to(m, {}, pieces, 1, cpu_s);
     figures.record(m.name,
                    "whole run: " + std::to_string(one.cuts) + " cuts, " + std::to_string(one.pieces) + " pieces",
                    time_text(one.whole_s) + ", the first cut after " + time_text(one.first_s));
     figures.at_most(m.name, "whole run / first decision", one.whole_s / one.first_s, 6);
-    const Run alone = run_to(m, pieces, 1, wall_s);
-    const Run two = run_to(m, pieces, 2, wall_s);
+    const Run alone = run_to(m, {}, pieces, 1, wall_s);
+    const Run two = run_to(m, {}, pieces, 2, wall_s);
     figures.record(m.name, "all evaluation of the run, wall",
                    time_text(alone.evaluation_s) + "; two threads " + time_text(two.evaluation_s));
     figures.at_least(m.name, "that: one thread / two threads", alone.evaluation_s / two.evaluation_s, 1.7);
+}
+
+double run_s(const Measured& m, const SearchSettings& settings, std::size_t pieces) {
+    return run_to(m, settings, pieces, 1, cpu_s).whole_s;
 }
 
 }  // namespace qchopper::bench
