@@ -97,8 +97,9 @@ class RequestHandler {
         const std::size_t p = piece();
         const Piece& target = project_.segmentation().pieces[p];
         const StageTimer stage(context_, "planes ranked");
-        Proposal proposal{
-            target.name, target.mesh->triangles.size(), rules_hold_, project_.ranking(p, context_), request_.top, {}};
+        Proposal proposal{target.name,  target.mesh->triangles.size(),
+                          rules_hold_,  project_.ranking(p, request_.top, context_),
+                          request_.top, {}};
         if (proposal.ranked.empty()) refuse("No plane parts piece " + target.name + ".");
         for (std::size_t k = 1; k <= std::min(proposal.top, proposal.ranked.size()); ++k) {
             if (crossing_regions(*target.mesh, proposal.ranked[k - 1].plane) > 0) proposal.crossing.push_back(k);
@@ -119,7 +120,7 @@ class RequestHandler {
 
     void accept() {
         const std::size_t p = piece();
-        const std::vector<Ranked> ranked = project_.ranking(p, context_);
+        const std::vector<Ranked> ranked = project_.ranking(p, *request_.accept, context_);
         place(ranked, *request_.accept);
         cut(p, ranked, *request_.accept - 1);
     }
@@ -164,7 +165,7 @@ class RequestHandler {
         Preview preview;
         preview.piece = target.name;
         if (const auto* k = std::get_if<std::size_t>(&*request_.preview)) {
-            preview.plane = place(project_.ranking(p, context_), *k);
+            preview.plane = place(project_.ranking(p, *k, context_), *k);
         } else {
             const Plane plane = std::get<Plane>(*request_.preview);
             const auto own = project_.own_plane(p, plane, context_);

@@ -121,9 +121,9 @@ OpenProject::Next OpenProject::next(const PieceChecks& checks) {
     return next;
 }
 
-std::vector<Ranked> OpenProject::ranking(std::size_t piece, const Context& context) {
+std::vector<Ranked> OpenProject::ranking(std::size_t piece, std::size_t best, const Context& context) {
     const StageTimer stage(context, "planes ranked");
-    return rank(segmentation(), piece, project_.settings, cache(), context);
+    return rank(segmentation(), piece, project_.settings, cache(), context, best);
 }
 
 std::optional<Ranked> OpenProject::own_plane(std::size_t piece, const Plane& plane, const Context& context) {

@@ -72,7 +72,8 @@ class OpenProject {
 
     // In the following, `piece` is an index in segmentation().pieces. All candidates of the piece, best first.
     // Evaluates those that are not evaluated yet; changes nothing but the cache.
-    std::vector<Ranked> ranking(std::size_t piece, const Context& context);
+    // The first `best` of them are certain to be so (segment/search/rank_piece.h).
+    std::vector<Ranked> ranking(std::size_t piece, std::size_t best, const Context& context);
     // The operator's own plane, nudged once. Nothing if it misses, or leaves fewer than two pieces that are no
     // fragments. The numbers of its normal and offset are -1.
     std::optional<Ranked> own_plane(std::size_t piece, const Plane& plane, const Context& context);

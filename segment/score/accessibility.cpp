@@ -95,12 +95,40 @@ PieceAccessibility without_samples(const PieceAccessibility& parent, const Piece
     return result;
 }
 
+bool contains(const Box& box, Vec3 p) {
+    return p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y && p.z >= box.min.z &&
+           p.z <= box.max.z;
+}
+
+// Where other solids of the same side lie: a ray that met the surface elsewhere met its own solid, and still does.
+class OtherSolids {
+ public:
+    OtherSolids(const SampledScan& scan, std::span<const PieceAccessibility> made, const CutPieces& pieces,
+                std::size_t own) {
+        const double margin = flush * scan.diagonal_mm;
+        for (std::size_t k = 0; k < made.size(); ++k) {
+            if (k == own || made[k].half_spaces.back().above != made[own].half_spaces.back().above) continue;
+            Box box = bounds(*pieces.pieces[k].mesh);
+            box.min = box.min - Vec3{margin, margin, margin};
+            box.max = box.max + Vec3{margin, margin, margin};
+            boxes_.push_back(box);
+        }
+    }
+    bool may_hold(Vec3 point) const {
+        return std::any_of(boxes_.begin(), boxes_.end(), [&](const Box& box) { return contains(box, point); });
+    }
+
+ private:
+    std::vector<Box> boxes_;
+};
+
 // The distances of a row after a cut by the last half-space of the region.
-void update_row(const SampledScan& scan, const PieceRegion& region, const SurfaceSample& sample, bool casts_all,
-                std::span<float> row) {
+void update_row(const SampledScan& scan, const PieceRegion& region, const SurfaceSample& sample,
+                const OtherSolids& others, std::span<float> row) {
     const HalfSpace& cut = region.half_spaces.back();
     const Vec3 outward = -cut.up();
-    const double above = height(cut.plane.normal, ray_origin(scan, sample)) - cut.plane.offset;
+    const Vec3 origin = ray_origin(scan, sample);
+    const double above = height(cut.plane.normal, origin) - cut.plane.offset;
     const double depth = cut.above ? above : -above;  // of the origin under the plane, along the outward normal
     for (std::size_t k = 0; k < row.size(); ++k) {
         if (row[k] == open || row[k] == blocked_at_once) continue;
@@ -109,7 +137,7 @@ void update_row(const SampledScan& scan, const PieceRegion& region, const Surfac
         const bool is_flush = std::abs(left) < flush * scan.diagonal_mm;
         if (!is_flush && along > 0 && left < 0)
             row[k] = open;
-        else if (is_flush || casts_all)
+        else if (is_flush || others.may_hold(origin + static_cast<double>(row[k]) * scan.directions[k]))
             row[k] = cast(scan, region, sample, scan.directions[k]);
     }
 }
@@ -191,13 +219,9 @@ std::vector<PieceAccessibility> cut_accessibility(const SampledScan& scan, const
         result[k].sample.push_back(piece.sample[row]);
         parent_row[k].push_back(row);
     }
-    const auto made_above = std::count_if(result.begin(), result.end(),
-                                          [](const PieceAccessibility& p) { return p.half_spaces.back().above; });
-    const auto made_below = static_cast<std::ptrdiff_t>(result.size()) - made_above;
     for (std::uint32_t k = 0; k < result.size(); ++k) {
         PieceAccessibility& child = result[k];
-        // All that the parent has on this side is one solid, or there are others that must not block it.
-        const bool casts_all = (child.half_spaces.back().above ? made_above : made_below) > 1;
+        const OtherSolids others(scan, result, made, k);
         const PieceRegion region{child.solid, child.half_spaces, {label[child.half_spaces.back().above ? 1 : 0], k}};
         child.distance.resize(child.sample.size() * directions);
         parallel_ranges(0, child.sample.size(), samples_at_once, [&](std::size_t first, std::size_t end) {
@@ -205,7 +229,7 @@ std::vector<PieceAccessibility> cut_accessibility(const SampledScan& scan, const
                 const std::span<float> distances(child.distance.data() + row * directions, directions);
                 const std::span<const float> old = piece.distances(parent_row[k][row]);
                 std::copy(old.begin(), old.end(), distances.begin());
-                update_row(scan, region, scan.samples.sample[child.sample[row]], casts_all, distances);
+                update_row(scan, region, scan.samples.sample[child.sample[row]], others, distances);
             }
         });
     }

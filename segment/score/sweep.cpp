@@ -202,9 +202,9 @@ std::vector<std::optional<CutEvaluation>> sweep_solids(const PreparedPiece& prep
     return evaluations;
 }
 
-std::vector<std::optional<CutEvaluation>> sweep(const PreparedPiece& prepared, Vec3 normal,
-                                                std::span<const double> offsets, const Objectives& objectives) {
-    std::vector<std::optional<CutEvaluation>> evaluations = sweep_solids(prepared, normal, offsets);
+void add_fragility(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
+                   const Objectives& objectives, std::span<std::optional<CutEvaluation>> evaluations) {
+    assert(evaluations.size() == offsets.size());
     const bool by_rays = objectives.fragility_form == FragilityForm::thinness;
     const double d = objectives.fragility_distance;
     const std::vector<double> sums =
@@ -214,6 +214,12 @@ std::vector<std::optional<CutEvaluation>> sweep(const PreparedPiece& prepared, V
         if (!evaluations[j] || evaluations[j]->cap_area_mm2 <= 0) continue;
         evaluations[j]->fragility = by_rays ? sums[j] / evaluations[j]->cap_area_mm2 : sums[j];
     }
+}
+
+std::vector<std::optional<CutEvaluation>> sweep(const PreparedPiece& prepared, Vec3 normal,
+                                                std::span<const double> offsets, const Objectives& objectives) {
+    std::vector<std::optional<CutEvaluation>> evaluations = sweep_solids(prepared, normal, offsets);
+    add_fragility(prepared, normal, offsets, objectives, evaluations);
     return evaluations;
 }
 

@@ -21,8 +21,13 @@ namespace qchopper {
 std::vector<std::optional<CutEvaluation>> sweep(const PreparedPiece& prepared, Vec3 normal,
                                                 std::span<const double> offsets, const Objectives& objectives);
 
-// The same without fragility. Measured by itself in docs/performance.md.
+// The same without fragility. Measured by itself in docs/performance.md. Faces, cap area and fragility of a plane are
+// the same bits whatever other offsets are swept with it; volumes and base sums are not.
 std::vector<std::optional<CutEvaluation>> sweep_solids(const PreparedPiece& prepared, Vec3 normal,
                                                        std::span<const double> offsets);
+
+// Fills in the fragility of evaluations that sweep_solids returned for the same offsets.
+void add_fragility(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
+                   const Objectives& objectives, std::span<std::optional<CutEvaluation>> evaluations);
 
 }  // namespace qchopper

@@ -11,7 +11,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -30,13 +29,23 @@ struct PieceEvaluations {
     std::vector<std::optional<CutEvaluation>> evaluations;  // one per candidate; nothing: the plane misses
 };
 
+// What is known of one plane of a piece that is ranked by reach, beside the reach itself.
+struct ReachPlane {
+    Candidate candidate;
+    bool is_swept = false;
+    std::optional<CutEvaluation> evaluation;  // nothing though it is swept: the plane misses
+    bool has_fragility = false;               // false: the evaluation's is 0 still
+    bool is_really_cut = false;               // its reach is that of the pieces that it really makes
+};
+
 // What is known of the planes of a piece that are ranked by reach (reach_rank.h). Areas in mm2, of both sides.
 struct ReachEvaluations {
-    std::vector<Vec3> normals;                          // none: not swept yet
-    std::vector<std::vector<double>> offsets;           // per normal
-    std::vector<std::vector<double>> unreachable_mm2;   // per normal and offset
-    std::map<std::size_t, PieceEvaluations> evaluated;  // per normal of which all terms are known
-    std::set<std::pair<int, int>> really_cut;           // normal and offset of planes that were cut to be judged
+    std::vector<Vec3> normals;                                            // none: not swept yet
+    std::vector<std::vector<double>> offsets;                             // per normal, not nudged
+    std::vector<std::vector<double>> unreachable_mm2;                     // per normal and offset
+    std::map<std::pair<std::size_t, std::size_t>, ReachPlane> evaluated;  // by normal and offset
+    Objectives objectives;                                                // with these, and for so many best planes
+    std::size_t best = 0;
 };
 
 // Where evaluations are kept beyond the end of the program (app/project/evaluation_store.h). Both functions may be

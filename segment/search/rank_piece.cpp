@@ -2,6 +2,7 @@
 
 #include "segment/search/rank_piece.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "segment/score/cut_reach.h"
@@ -10,15 +11,25 @@
 namespace qchopper {
 
 std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
-                         EvaluationCache& cache, const Context& context) {
+                         EvaluationCache& cache, const Context& context, std::size_t best) {
     assert(piece < segmentation.pieces.size());
     if (is_ranked_by_reach(segmentation.pieces[piece], settings)) {
-        return rank_by_reach(segmentation, piece, settings, cache, context);
+        return rank_by_reach(segmentation, piece, settings, cache, context, std::max(best, least_best_planes));
     }
     const Piece* target = &segmentation.pieces[piece];
     cache.evaluate(std::span(&target, 1), context);
     const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, cache);
     return rank(cache.evaluations(*target), others, settings.objectives);
+}
+
+std::vector<Ranked> rank_whole_normals(const Segmentation& segmentation, std::size_t piece,
+                                       const SearchSettings& settings, EvaluationCache& cache, const Context& context,
+                                       int other) {
+    constexpr std::size_t normals = 3;
+    if (is_ranked_by_reach(segmentation.pieces[piece], settings)) {
+        return rank_whole_normals_by_reach(segmentation, piece, settings, cache, context, normals, other);
+    }
+    return rank(segmentation, piece, settings, cache, context);
 }
 
 std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t piece, const Candidate& plane,

@@ -14,8 +14,15 @@
 namespace qchopper {
 
 // All candidates of one piece, best first, evaluated if they are not in the cache. Throws Cancelled.
+// Of a piece that is ranked by reach at least max(settings.beam, best) of them (reach_rank.h).
 std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
-                         EvaluationCache& cache, const Context& context);
+                         EvaluationCache& cache, const Context& context, std::size_t best = 1);
+
+// The same, of a piece that is ranked by reach with all planes of three normals, those of the best planes, and of the
+// normal with the index `other`, so that they can be plotted.
+std::vector<Ranked> rank_whole_normals(const Segmentation& segmentation, std::size_t piece,
+                                       const SearchSettings& settings, EvaluationCache& cache, const Context& context,
+                                       int other);
 
 // The terms of one plane that is no candidate of the piece. Nothing if it misses, or leaves fewer than two pieces,
 // fragments not counted. Throws Cancelled.

@@ -1,11 +1,14 @@
-// One sweep over the samples per normal, in parallel; then the sweeps over the mesh of the normals that can still win,
-// a few at a time, so that all cores are busy.
+// One sweep over the samples per normal, in parallel; then, a few normals at a time so that all cores are busy, sweeps
+// over the mesh of the planes that can still win: first their solids, then, of those that still can, the fragility. Of
+// 10,560 planes some ten to a few hundred are evaluated.
 
 #include "segment/search/reach_rank.h"
 
 #include <algorithm>
 #include <cassert>
-#include <numeric>
+#include <limits>
+#include <set>
+#include <utility>
 
 #include "base/parallel.h"
 #include "base/timings.h"
@@ -13,13 +16,16 @@
 #include "segment/cut/nudge.h"
 #include "segment/mesh/measure.h"
 #include "segment/score/cut_reach.h"
-#include "segment/score/evaluate.h"
+#include "segment/score/sweep.h"
 #include "segment/score/tool_directions.h"
 
 namespace qchopper {
 namespace {
 
-constexpr std::size_t normals_at_once = 4;
+constexpr std::size_t normals_at_once = 4;  // fixed, so that what is evaluated does not depend on the threads
+constexpr std::size_t first_offsets = 8;
+constexpr std::size_t axes_of_box = 3;
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 ReachEvaluations swept(const Piece& piece, const OrientedBox& box, const SearchSettings& settings,
                        const Context& context) {
@@ -44,114 +50,266 @@ ReachEvaluations swept(const Piece& piece, const OrientedBox& box, const SearchS
     return result;
 }
 
-double least_of(const std::vector<double>& values) {
-    return values.empty() ? 0 : *std::min_element(values.begin(), values.end());
-}
-
-// The ranking of one piece while it grows.
+// The ranking of one piece while it grows. A plane costs at least its reach; once its solids are known, at least all
+// but its fragility. What a plane costs is the same whatever the other pieces are where the terms are those of the cut:
+// then only planes that can win are evaluated, and which these are depends on the piece and the settings alone, so that
+// an interrupted search gives the same bits. Otherwise normals are evaluated whole.
 class ReachRanking {
  public:
     ReachRanking(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
-                 EvaluationCache& cache, const Context& context)
-        : piece_(segmentation.pieces[piece]), settings_(settings), context_(context), reach_(cache.reach(piece_)) {
+                 EvaluationCache& cache, const Context& context, std::size_t best)
+        : piece_(segmentation.pieces[piece]),
+          settings_(settings),
+          context_(context),
+          reach_(cache.reach(piece_)),
+          is_of_cut_(settings.objectives.scope == TermScope::cut && settings.objectives.weights.undercut == 0) {
         if (reach_.normals.empty()) {
             const StageTimer stage(context, "reach swept");
             reach_ = swept(piece_, cache.box(piece_), settings, context);
         }
+        best = std::max(settings.beam, best);
+        if (reach_.objectives != settings.objectives || reach_.best != best) reach_.evaluated.clear();
+        reach_.objectives = settings.objectives;
+        reach_.best = best;
         others_ = shares_of_others(segmentation, piece, settings.objectives, cache);
-        order_.resize(reach_.normals.size());
-        std::iota(order_.begin(), order_.end(), std::size_t{0});
-        std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
-            return least_of(reach_.unreachable_mm2[a]) < least_of(reach_.unreachable_mm2[b]);
-        });
+        for (const PieceShare& other : others_) others_unreachable_mm2_ += other.unreachable_mm2;
+        find_candidates(cache.unreachable_mm2(piece_, settings.objectives.tilt_deg));
+    }
+
+    // All planes of the normals of the best planes, so many normals and another one, beside those that can win.
+    std::vector<Ranked> run_with_whole_normals(std::size_t count, int other) {
+        std::set<int> normals;
+        for (const Ranked& r : run()) {
+            if (normals.size() < count) normals.insert(r.normal_index);
+        }
+        if (other >= 0 && static_cast<std::size_t>(other) < reach_.normals.size()) normals.insert(other);
+        std::vector<Group> groups;
+        for (const int n : normals) groups.push_back({static_cast<std::size_t>(n), {}});
+        takes_whole_normals_ = true;
+        evaluate_solids(groups, infinite);
+        evaluate_fragility(groups, infinite);
+        return ranking(others_);
     }
 
     std::vector<Ranked> run() {
         for (int cuts = 0;; ++cuts) {
             evaluate_what_can_win();
-            const auto in_doubt = first_in_doubt();
-            if (!in_doubt || cuts == most_real_cuts) return ranked_;
+            std::vector<Ranked> ranked = ranking(others_);
+            if (ranked.empty() && std::exchange(is_restricted_, false)) {
+                evaluate_what_can_win();  // no candidate parts the piece: another plane may
+                ranked = ranking(others_);
+            }
+            const auto in_doubt = first_in_doubt(ranked);
+            if (!in_doubt || cuts == most_real_cuts) return ranked;
             cut_really(*in_doubt);
         }
     }
 
  private:
-    // What a plane of this normal costs at least.
-    double bound(std::size_t normal) const {
-        double unreachable = least_of(reach_.unreachable_mm2[normal]);
-        for (const PieceShare& other : others_) unreachable += other.unreachable_mm2;
-        return settings_.objectives.weights.unreachable * unreachable / scan_area_mm2(piece_);
+    using Key = std::pair<std::size_t, std::size_t>;
+
+    // Planes of one normal that are evaluated together.
+    struct Group {
+        std::size_t normal = 0;
+        std::vector<ReachPlane*> planes;
+    };
+
+    // A plane is a candidate if it opens nearly as much as the best one, or nothing is to be gained and it lies along
+    // an axis of the box.
+    void find_candidates(double unreachable_mm2) {
+        double least = infinite;
+        for (const std::vector<double>& planes : reach_.unreachable_mm2) {
+            for (const double unreachable : planes) least = std::min(least, unreachable);
+        }
+        const double gain = unreachable_mm2 - least;
+        is_along_box_only_ = gain < least_gain_of_scan * scan_area_mm2(piece_);
+        most_unreachable_mm2_ = unreachable_mm2 - least_share_of_gain * gain;
     }
 
+    bool is_candidate(std::size_t normal, std::size_t offset) const {
+        if (!is_restricted_) return true;
+        return is_along_box_only_ ? normal < axes_of_box
+                                  : reach_.unreachable_mm2[normal][offset] <= most_unreachable_mm2_;
+    }
+
+    std::span<const PieceShare> counted_others() const {
+        return is_of_cut_ ? std::span<const PieceShare>{} : std::span<const PieceShare>(others_);
+    }
+
+    // What a plane costs at least, without what the other pieces cost where that is the same for all planes.
+    double bound(std::size_t normal, std::size_t offset) const {
+        const auto at = reach_.evaluated.find({normal, offset});
+        if (at == reach_.evaluated.end()) {
+            if (!is_candidate(normal, offset)) return infinite;
+            const double others = is_of_cut_ ? 0 : others_unreachable_mm2_;
+            return settings_.objectives.weights.unreachable * (reach_.unreachable_mm2[normal][offset] + others) /
+                   scan_area_mm2(piece_);
+        }
+        if (!at->second.evaluation) return at->second.is_swept ? infinite : 0;
+        const std::optional<Terms> t = terms(*at->second.evaluation, counted_others(), settings_.objectives);
+        return t ? t->total : infinite;
+    }
+
+    bool is_known(std::size_t normal, std::size_t offset) const {
+        const auto at = reach_.evaluated.find({normal, offset});
+        return at != reach_.evaluated.end() && at->second.is_swept &&
+               (!at->second.evaluation || at->second.has_fragility);
+    }
+
+    // Evaluates until no plane that is not evaluated can be among the best.
     void evaluate_what_can_win() {
-        rank_again();
-        while (taken_ < order_.size()) {
-            const bool is_enough = ranked_.size() >= settings_.beam;
-            if (is_enough && bound(order_[taken_]) > ranked_[settings_.beam - 1].terms.total + tie) return;
-            const std::size_t end = std::min(order_.size(), taken_ + normals_at_once);
-            evaluate(std::span(order_).subspan(taken_, end - taken_));
-            taken_ = end;
-            rank_again();
-        }
-    }
-
-    void evaluate(std::span<const std::size_t> normals) {
         const StageTimer stage(context_, "planes evaluated");
-        std::vector<Candidate> candidates;
-        for (const std::size_t n : normals) {
-            if (reach_.evaluated.contains(n)) continue;
-            reach_.evaluated[n];
-            for (const Candidate& c : candidates_along(piece_, reach_.normals[n], static_cast<int>(n),
-                                                       settings_.candidates.offsets_per_normal)) {
-                candidates.push_back(c);
+        while (true) {
+            const double most = limit();
+            std::vector<std::pair<double, std::size_t>> open;  // least bound of a normal, and the normal
+            for (std::size_t n = 0; n < reach_.normals.size(); ++n) {
+                double least = infinite;
+                for (std::size_t k = 0; k < reach_.offsets[n].size(); ++k) {
+                    if (!is_known(n, k)) least = std::min(least, bound(n, k));
+                }
+                if (least < infinite && least <= most + tie) open.emplace_back(least, n);
             }
-        }
-        if (candidates.empty()) return;
-        std::vector<std::optional<CutEvaluation>> evaluations =
-            evaluate_all(piece_, candidates, settings_.objectives, context_);
-        for (std::size_t i = 0; i < candidates.size(); ++i) {
-            const auto n = static_cast<std::size_t>(candidates[i].normal_index);
-            if (evaluations[i]) {
-                const auto k = static_cast<std::size_t>(candidates[i].offset_index);
-                evaluations[i]->reach = CutReach{reach_.unreachable_mm2[n][k], scan_area_mm2(piece_)};
-            }
-            reach_.evaluated[n].candidates.push_back(candidates[i]);
-            reach_.evaluated[n].evaluations.push_back(std::move(evaluations[i]));
+            if (open.empty()) return;
+            std::sort(open.begin(), open.end());
+            open.resize(std::min(open.size(), normals_at_once));
+            std::vector<Group> groups;
+            for (const auto& [least, n] : open) groups.push_back({n, {}});
+            evaluate_solids(groups, most);
+            evaluate_fragility(groups, limit());
+            context_.progress("planes evaluated", reach_.evaluated.size(), 0);
         }
     }
 
-    void rank_again() {
-        PieceEvaluations all;
-        for (std::size_t i = 0; i < taken_; ++i) {
-            const PieceEvaluations& some = reach_.evaluated[order_[i]];
-            all.candidates.insert(all.candidates.end(), some.candidates.begin(), some.candidates.end());
-            all.evaluations.insert(all.evaluations.end(), some.evaluations.begin(), some.evaluations.end());
+    // The total of the last of the best planes that are evaluated; infinite if there are too few.
+    double limit() const {
+        std::vector<double> totals;
+        for (const auto& [key, plane] : reach_.evaluated) {
+            if (!plane.has_fragility) continue;
+            const double total = bound(key.first, key.second);
+            if (total < infinite) totals.push_back(total);
         }
-        ranked_ = rank(all, others_, settings_.objectives);
+        if (totals.size() < reach_.best) return infinite;
+        const auto last = totals.begin() + static_cast<std::ptrdiff_t>(reach_.best) - 1;
+        std::nth_element(totals.begin(), last, totals.end());
+        return *last;
+    }
+
+    // Offsets of a normal that can win, or so long as nothing is known some that cost least; all where normals are
+    // evaluated whole.
+    std::vector<std::size_t> wanted(std::size_t normal, double most) const {
+        std::vector<std::size_t> offsets;
+        for (std::size_t k = 0; k < reach_.offsets[normal].size(); ++k) {
+            if (is_known(normal, k)) continue;
+            const bool can_win = is_candidate(normal, k) && (!is_of_cut_ || bound(normal, k) <= most + tie);
+            if (can_win || takes_whole_normals_) offsets.push_back(k);
+        }
+        if (is_of_cut_ && !takes_whole_normals_ && most == infinite && offsets.size() > first_offsets) {
+            const std::vector<double>& reach = reach_.unreachable_mm2[normal];
+            std::stable_sort(offsets.begin(), offsets.end(),
+                             [&](std::size_t a, std::size_t b) { return reach[a] < reach[b]; });
+            offsets.resize(first_offsets);
+            std::sort(offsets.begin(), offsets.end());
+        }
+        return offsets;
+    }
+
+    // Adds the planes that are wanted to the groups, with their solids.
+    void evaluate_solids(std::vector<Group>& groups, double most) {
+        std::vector<std::vector<std::size_t>> offsets;
+        for (Group& group : groups) {
+            offsets.push_back(wanted(group.normal, most));
+            for (const std::size_t k : offsets.back()) group.planes.push_back(&reach_.evaluated[{group.normal, k}]);
+        }
+        const PreparedPiece& prepared = prepared_piece();
+        parallel_for(0, groups.size(), [&](std::size_t g) {
+            context_.check_cancelled();
+            const std::size_t n = groups[g].normal;
+            std::vector<double> wanted_offsets;
+            std::vector<ReachPlane*> fresh;
+            for (std::size_t i = 0; i < offsets[g].size(); ++i) {
+                if (groups[g].planes[i]->is_swept) continue;
+                wanted_offsets.push_back(reach_.offsets[n][offsets[g][i]]);
+                fresh.push_back(groups[g].planes[i]);
+                fresh.back()->candidate = {{reach_.normals[n], 0},
+                                           wanted_offsets.back(),
+                                           static_cast<int>(n),
+                                           static_cast<int>(offsets[g][i])};
+            }
+            const std::vector<std::optional<Nudged>> nudged = nudge(piece_, reach_.normals[n], wanted_offsets);
+            std::vector<double> nudged_offsets;
+            std::vector<ReachPlane*> met;
+            for (std::size_t i = 0; i < fresh.size(); ++i) {
+                if (!nudged[i]) continue;
+                fresh[i]->candidate.plane.offset = nudged[i]->offset;
+                nudged_offsets.push_back(nudged[i]->offset);
+                met.push_back(fresh[i]);
+            }
+            std::vector<std::optional<CutEvaluation>> evaluations =
+                sweep_solids(prepared, reach_.normals[n], nudged_offsets);
+            for (std::size_t i = 0; i < met.size(); ++i) {
+                if (!evaluations[i]) continue;
+                const auto k = static_cast<std::size_t>(met[i]->candidate.offset_index);
+                evaluations[i]->reach = CutReach{reach_.unreachable_mm2[n][k], scan_area_mm2(piece_)};
+                met[i]->evaluation = std::move(evaluations[i]);
+            }
+            for (ReachPlane* plane : fresh) plane->is_swept = true;
+        });
+    }
+
+    void evaluate_fragility(const std::vector<Group>& groups, double most) {
+        const PreparedPiece& prepared = prepared_piece();
+        parallel_for(0, groups.size(), [&](std::size_t g) {
+            context_.check_cancelled();
+            std::vector<double> offsets;
+            std::vector<ReachPlane*> planes;
+            std::vector<std::optional<CutEvaluation>> evaluations;
+            for (ReachPlane* plane : groups[g].planes) {
+                if (!plane->evaluation || plane->has_fragility) continue;
+                const double least = bound(groups[g].normal, static_cast<std::size_t>(plane->candidate.offset_index));
+                if (is_of_cut_ && !takes_whole_normals_ && least > most + tie) continue;
+                offsets.push_back(plane->candidate.plane.offset);
+                planes.push_back(plane);
+                evaluations.push_back(std::move(plane->evaluation));
+            }
+            if (planes.empty()) return;
+            add_fragility(prepared, reach_.normals[groups[g].normal], offsets, settings_.objectives, evaluations);
+            for (std::size_t i = 0; i < planes.size(); ++i) {
+                planes[i]->evaluation = std::move(evaluations[i]);
+                planes[i]->has_fragility = true;
+            }
+        });
+    }
+
+    const PreparedPiece& prepared_piece() {
+        if (!prepared_) prepared_ = prepare(piece_, settings_.objectives);
+        return *prepared_;
+    }
+
+    std::vector<Ranked> ranking(std::span<const PieceShare> others) const {
+        PieceEvaluations all;
+        for (const auto& [key, plane] : reach_.evaluated) {
+            if (!plane.has_fragility) continue;
+            all.candidates.push_back(plane.candidate);
+            all.evaluations.push_back(plane.evaluation);
+        }
+        return rank(all, others, settings_.objectives);
     }
 
     // Of the planes that are taken as the best, the first whose sides are several solids and that was not cut yet.
-    std::optional<Ranked> first_in_doubt() {
-        for (std::size_t i = 0; i < std::min(settings_.beam, ranked_.size()); ++i) {
-            const auto n = static_cast<std::size_t>(ranked_[i].normal_index);
-            if (reach_.really_cut.contains({ranked_[i].normal_index, ranked_[i].offset_index})) continue;
-            if (evaluation_of(n, ranked_[i].offset_index).solids.size() > 2) return ranked_[i];
+    ReachPlane* first_in_doubt(const std::vector<Ranked>& ranked) {
+        for (std::size_t i = 0; i < std::min(settings_.beam, ranked.size()); ++i) {
+            ReachPlane& plane = reach_.evaluated.at(
+                {static_cast<std::size_t>(ranked[i].normal_index), static_cast<std::size_t>(ranked[i].offset_index)});
+            if (!plane.is_really_cut && plane.evaluation->solids.size() > 2) return &plane;
         }
-        return std::nullopt;
+        return nullptr;
     }
 
-    CutEvaluation& evaluation_of(std::size_t normal, int offset_index) {
-        PieceEvaluations& some = reach_.evaluated[normal];
-        const auto at = std::find_if(some.candidates.begin(), some.candidates.end(),
-                                     [&](const Candidate& c) { return c.offset_index == offset_index; });
-        return *some.evaluations[static_cast<std::size_t>(at - some.candidates.begin())];
-    }
-
-    void cut_really(const Ranked& plane) {
+    void cut_really(ReachPlane& plane) {
         const StageTimer stage(context_, "cuts made");
         context_.check_cancelled();
-        reach_.really_cut.insert({plane.normal_index, plane.offset_index});
-        std::optional<CutPieces> made = cut_piece(piece_, plane.plane, new_cut);
+        plane.is_really_cut = true;
+        std::optional<CutPieces> made = cut_piece(piece_, plane.candidate.plane, new_cut);
         if (!made) return;
         sample_parts(piece_, *made);
         double unreachable = 0;
@@ -159,18 +317,21 @@ class ReachRanking {
             if (volume_mm3(*part.mesh) < settings_.objectives.fragment_volume_mm3) continue;
             unreachable += unreachable_mm2(part, settings_.objectives.tilt_deg);
         }
-        evaluation_of(static_cast<std::size_t>(plane.normal_index), plane.offset_index).reach->unreachable_mm2 =
-            unreachable;
+        plane.evaluation->reach->unreachable_mm2 = unreachable;
     }
 
     const Piece& piece_;
     const SearchSettings& settings_;
     const Context& context_;
     ReachEvaluations& reach_;
+    bool is_of_cut_;  // the other pieces add the same to the cost of every plane
     std::vector<PieceShare> others_;
-    std::vector<std::size_t> order_;  // of the normals, by their least unreachable area
-    std::size_t taken_ = 0;           // so many of them are evaluated
-    std::vector<Ranked> ranked_;
+    double others_unreachable_mm2_ = 0;
+    bool is_restricted_ = true;  // to the candidates
+    bool is_along_box_only_ = false;
+    double most_unreachable_mm2_ = 0;  // of a candidate
+    bool takes_whole_normals_ = false;
+    std::optional<PreparedPiece> prepared_;
 };
 
 }  // namespace
@@ -191,9 +352,17 @@ std::vector<Vec3> reach_normals(const OrientedBox& box) {
 }
 
 std::vector<Ranked> rank_by_reach(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
-                                  EvaluationCache& cache, const Context& context) {
+                                  EvaluationCache& cache, const Context& context, std::size_t best) {
     assert(is_ranked_by_reach(segmentation.pieces[piece], settings));
-    return ReachRanking(segmentation, piece, settings, cache, context).run();
+    return ReachRanking(segmentation, piece, settings, cache, context, best).run();
+}
+
+std::vector<Ranked> rank_whole_normals_by_reach(const Segmentation& segmentation, std::size_t piece,
+                                                const SearchSettings& settings, EvaluationCache& cache,
+                                                const Context& context, std::size_t normals, int other) {
+    assert(is_ranked_by_reach(segmentation.pieces[piece], settings));
+    return ReachRanking(segmentation, piece, settings, cache, context, least_best_planes)
+        .run_with_whole_normals(normals, other);
 }
 
 }  // namespace qchopper

@@ -1,11 +1,11 @@
-// Ranks the planes of a piece by cost when surface out of reach has a weight: many normals, few of them evaluated
-// whole.
+// Ranks the planes of a piece by cost when surface out of reach has a weight: many normals, few of their planes
+// evaluated whole.
 //
 // The unreachable area of every plane of 132 normals follows from the piece's samples without cutting
-// (segment/score/reach_sweep.h). All other terms are at least 0, so normals are taken in the order of the weighted
-// least unreachable area, and the others are not evaluated once that alone exceeds the best total: the best plane is
-// the one that evaluating all of them would find (tests/segment/search/reach_rank_test.cpp). A side of several solids
-// is not judged by the sweep: the best such plane is really cut before it is chosen.
+// (segment/score/reach_sweep.h). All other terms are at least 0, so a plane is not evaluated once its weighted
+// unreachable area alone exceeds the best total: the best plane is the one that evaluating all candidates would find
+// (tests/segment/search/reach_rank_test.cpp). A side of several solids is not judged by the sweep: the best such plane
+// is really cut before it is chosen. On the order and the candidates: docs/decisions/0022.
 
 #pragma once
 
@@ -23,12 +23,27 @@ bool is_ranked_by_reach(const Piece& piece, const SearchSettings& settings);
 // Candidate::normal_index counts.
 std::vector<Vec3> reach_normals(const OrientedBox& box);
 
+// Candidates are the planes that open at least this share of the surface that the best one opens: further terms decide
+// between planes that serve nearly as well. Where no plane opens this share of the scan's area, only the axes of the
+// piece's box have candidates.
+constexpr double least_share_of_gain = 0.75;
+constexpr double least_gain_of_scan = 0.0002;
+
+// So many planes are certain to be the best, if neither the beam nor what is asked for is more.
+constexpr std::size_t least_best_planes = 4;
+
 // So many planes that make more than two solids are really cut before the best one is taken as it is.
 constexpr int most_real_cuts = 16;
 
-// The planes that were evaluated, best first: the first settings.beam of them are the best of all. Precondition:
-// is_ranked_by_reach. Throws Cancelled.
+// The planes that were evaluated, best first: the first max(settings.beam, best) of them are the best of all
+// candidates. Precondition: is_ranked_by_reach. Throws Cancelled.
 std::vector<Ranked> rank_by_reach(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
-                                  EvaluationCache& cache, const Context& context);
+                                  EvaluationCache& cache, const Context& context, std::size_t best = least_best_planes);
+
+// The same, and with them all planes of so many normals, those of the best planes, and of the normal with the index
+// `other` (none: -1), candidates or not.
+std::vector<Ranked> rank_whole_normals_by_reach(const Segmentation& segmentation, std::size_t piece,
+                                                const SearchSettings& settings, EvaluationCache& cache,
+                                                const Context& context, std::size_t normals, int other);
 
 }  // namespace qchopper
