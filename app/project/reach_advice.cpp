@@ -53,7 +53,7 @@ std::string directions_cure(const AdviceInput& input, const Cell&) {
 }
 
 std::string tilt_cure(const AdviceInput& input, const Cell&) {
-    const std::string cut = "another cut: " + input.segment_command;
+    std::string cut = "another cut: " + input.segment_command;
     if (input.tilt_deg >= largest_tilt_deg) return cut;
     return "a larger tilt than " + fixed(input.tilt_deg, 0) + " degrees, or " + cut;
 }
@@ -80,7 +80,7 @@ struct AdviceKind {
 
 constexpr std::array<AdviceKind, 5> kinds{{
     {ReachFault::holder, "holder", "because of the holder", holder_cure},
-    {ReachFault::few_directions, "few_directions", "for want of directions", directions_cure},
+    {ReachFault::few_directions, "few_directions", "reached by directions that are not chosen", directions_cure},
     {ReachFault::tilt, "tilt", "hidden or steep from all directions that can be held", tilt_cure},
     {ReachFault::narrow, "narrow", "too narrow", narrow_cure},
     {ReachFault::inside, "inside", "inside, where no direction at all reaches", inside_cure},
