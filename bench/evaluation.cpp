@@ -13,6 +13,7 @@
 #include "segment/score/evaluate.h"
 #include "segment/score/reference.h"
 #include "segment/score/sweep.h"
+#include "segment/search/piece_names.h"
 
 namespace qchopper::bench {
 namespace {

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "base/text.h"
+#include "segment/search/cut_list.h"
 #include "segment/search/rank.h"
 
 namespace qchopper {
@@ -23,6 +24,7 @@ std::string describe(const Decision& decision) {
     }
     if (const auto* discard = std::get_if<Discard>(&decision)) return "discard of piece " + discard->piece;
     if (const auto* order = std::get_if<SetupOrder>(&decision)) return "setup of piece " + order->piece;
+    if (const auto* other = std::get_if<Replacement>(&decision)) return "replacement of " + describe(other->cut);
     return std::holds_alternative<WeightsChange>(decision) ? "change of weights" : "reset";
 }
 
@@ -55,8 +57,22 @@ std::vector<Cut> committed_cuts(const History& history) {
         const Decision& decision = history.decisions[i];
         if (std::holds_alternative<Reset>(decision)) cuts.clear();
         if (const Cut* cut = std::get_if<Cut>(&decision)) cuts.push_back(*cut);
+        if (const auto* other = std::get_if<Replacement>(&decision)) replace_cut(cuts, other->cut);
     }
     return cuts;
+}
+
+bool are_replacements_possible(const History& history) {
+    std::vector<Cut> cuts;
+    for (const Decision& decision : history.decisions) {
+        if (std::holds_alternative<Reset>(decision)) cuts.clear();
+        if (const Cut* cut = std::get_if<Cut>(&decision)) cuts.push_back(*cut);
+        const auto* other = std::get_if<Replacement>(&decision);
+        if (other == nullptr) continue;
+        if (!can_replace(cuts, other->cut)) return false;
+        replace_cut(cuts, other->cut);
+    }
+    return true;
 }
 
 std::vector<Discard> committed_discards(const History& history) {

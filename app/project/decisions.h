@@ -53,7 +53,14 @@ struct SetupOrder {
     bool operator==(const SetupOrder&) const = default;
 };
 
-using Decision = std::variant<Cut, WeightsChange, Reset, Discard, SetupOrder>;
+// Another plane for a cut of which no piece was cut since (segment/search/recut.h), because its pieces can be carved
+// better so. No piece is discarded after this cut, and none of it or of a later cut has a setup of the operator's.
+struct Replacement {
+    Cut cut;  // in place of the one with its number
+    bool operator==(const Replacement&) const = default;
+};
+
+using Decision = std::variant<Cut, WeightsChange, Reset, Discard, SetupOrder, Replacement>;
 
 struct History {
     Weights weights_at_start;
@@ -62,7 +69,8 @@ struct History {
     bool operator==(const History&) const = default;
 };
 
-// "cut 3 on piece B", "discard of piece C", "setup of piece B", "change of weights", "reset".
+// "cut 3 on piece B", "discard of piece C", "setup of piece B", "replacement of cut 3 on piece B",
+// "change of weights", "reset".
 std::string describe(const Decision& decision);
 
 // "cut 2 on piece B: best of 120 planes, total 3.929 (...); makes D, E".
@@ -71,7 +79,11 @@ std::string cut_line(const Cut& cut);
 // "D, E and 2 fragments": what a cut made.
 std::string makes(const Cut& cut);
 
-// Those in force: after the last reset, and the last change of weights.
+// Whether every replacement is of a cut that is in force before it and of which no piece was cut since. Of a history
+// that came from a file; the functions below take it for granted.
+bool are_replacements_possible(const History& history);
+
+// Those in force: after the last reset, and the last change of weights; replacements in the place of their cuts.
 std::vector<Cut> committed_cuts(const History& history);
 std::vector<Discard> committed_discards(const History& history);
 Weights committed_weights(const History& history);

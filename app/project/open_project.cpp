@@ -160,6 +160,7 @@ void OpenProject::adopt(const Segmentation& segmentation, std::optional<BeamStat
     project_.ended_because.clear();
     record(project_, *segmentation_);
     project_.beam = std::move(beam);
+    project_.verdict.reset();
     save();
 }
 
@@ -168,6 +169,7 @@ bool OpenProject::decide_weights(const Weights& weights) {
     decide(project_.history, WeightsChange{weights});
     set_weights(weights);
     project_.beam.reset();
+    drop_unfinished_verdict();
     save();
     return true;
 }
@@ -240,11 +242,13 @@ void OpenProject::commit_first(std::size_t committed) {
     project_.history.committed = committed;
     set_weights(committed_weights(project_.history));
     project_.beam.reset();
+    drop_unfinished_verdict();
     std::vector<Cut> cuts = committed_cuts(project_.history);
     std::vector<Discard> discards = committed_discards(project_.history);
     if (cuts != project_.cuts || discards != project_.discards) {
         project_.cuts = std::move(cuts);
         project_.discards = std::move(discards);
+        project_.verdict.reset();
         segmentation_.reset();
         record(project_, segmentation());
     }
@@ -257,6 +261,7 @@ void OpenProject::set_search(const StopRules& stop, std::size_t beam) {
     project_.settings.stop = stop;
     project_.settings.beam = beam;
     project_.beam.reset();
+    drop_unfinished_verdict();
     // Made again with samples, or without: as a project that is opened with these settings.
     if (project_.settings.takes_samples() != had_samples) segmentation_.reset();
     save();

@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -103,6 +104,14 @@ class OpenProject {
     SearchEnd search(const PieceChecks& checks, const std::function<void(const Segmentation&)>& on_round,
                      const Context& context, std::optional<double> time_limit_s);
 
+    // After a search with the weight `unreachable` in a project with a cell: setups judge its cuts, and a cut of which
+    // the pieces can be carved better along another plane is replaced (verdict.h). Every cut is asked once, and saved
+    // before the next; a replacement is a decision. Does nothing where that is done already, or the search has not
+    // ended. Throws Cancelled.
+    void judge_setups(const Context& context);
+    // Whether a search has ended whose cuts are still being judged: it does not go on before that is done.
+    bool is_being_judged() const { return project_.verdict && !project_.verdict->is_done; }
+
     // Writes pieces, jobs and pictures. Of a project whose last search ran out of time too; its stage stays
     // Stage::cutting, so that it can go on. Throws what check_cell throws, and Cancelled.
     PreparedProject prepare(const std::string& program_version, const Context& context);
@@ -118,6 +127,11 @@ class OpenProject {
     void adopt(const Segmentation& segmentation, std::optional<BeamState> beam);
     // The pieces are made again, with samples or without, if that follows from them.
     void set_weights(const Weights& weights);
+    bool asks_for_verdict();
+    void drop_unfinished_verdict();
+    std::map<std::int32_t, Piece> pieces_to_recut(std::vector<std::int32_t> numbers, const Context& context);
+    void judge_cut(std::int32_t number, const std::map<std::int32_t, Piece>& divided, const Context& context);
+    void replace_cut(const Segmentation& alone, CutVerdict verdict);
     void record_end(const SearchEnd& end);
     std::optional<Decision> change_committed(const Decision* changed, std::size_t committed);
     void commit_first(std::size_t committed);

@@ -10,6 +10,7 @@
 
 #include "app/project/ordered_job.h"
 #include "app/project/project_folder.h"
+#include "app/project/shell_word.h"
 #include "base/file.h"
 #include "base/parallel.h"
 #include "base/timings.h"
@@ -88,6 +89,24 @@ struct MadeJob {
     std::optional<WrittenJob> written;  // nothing: the piece does not fit, and has no job
 };
 
+// Empty for a piece of which no more is out of reach than may be.
+std::vector<ReachAdvice> advice_for(const fs::path& folder, const Project& project, const Piece& piece,
+                                    const SurfaceReach& reach, const Cell& cell) {
+    if (reach.unreachable_share() <= most_unreachable(project, cell)) return {};
+    AdviceInput input;
+    input.reach = reach;
+    input.inside_share = inside_share(piece);
+    input.tilt_deg = max_tilt_deg(cell);
+    input.max_directions = SetupOptions{}.max_directions;
+    for (const SetupOrder& order : committed_setup_orders(project.history)) {
+        if (order.piece == piece.name) input.max_directions = order.max_directions.value_or(input.max_directions);
+    }
+    const std::string of_piece = shell_word(folder) + " --piece " + piece.name;
+    input.segment_command = "qchopper segment " + of_piece + " --step";
+    input.setup_command = "qchopper setup " + of_piece;
+    return reach_advice(input, cell);
+}
+
 // Writes or removes the file of one job.
 MadeJob make_job(const fs::path& folder, const Project& project, const Segmentation& segmentation, std::size_t index,
                  const Carving& carving, const Cell& cell, const std::string& program_version) {
@@ -95,6 +114,7 @@ MadeJob make_job(const fs::path& folder, const Project& project, const Segmentat
     MadeJob made{{piece.name, piece.mesh->triangles.size(), volume_mm3(*piece.mesh), carving, {}}, std::nullopt};
     made.report.carving.mesh.reset();
     made.report.carving.choice.states.clear();
+    made.report.advice = advice_for(folder, project, piece, carving.setup().reach, cell);
     const fs::path file = folder / "jobs" / job_file_name(piece.name);
     if (!carving.envelope.fits()) {
         fs::remove(file);  // an earlier job of a piece that cannot be carved must not stay

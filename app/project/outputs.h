@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/project/project.h"
+#include "app/project/reach_advice.h"
 #include "app/project/setups.h"
 #include "base/context.h"
 
@@ -31,7 +32,8 @@ struct PieceReport {
     std::size_t faces = 0;
     double volume_mm3 = 0;
     Carving carving;
-    std::filesystem::path job;  // empty: it does not fit the cell and has no job
+    std::filesystem::path job;             // empty: it does not fit the cell and has no job
+    std::vector<ReachAdvice> advice = {};  // of a piece of which more is out of reach than may be
 };
 
 // Writes jobs/<name>.qjob of one piece if it fits the cell, else removes it, and records it in the project, which is

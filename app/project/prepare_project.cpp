@@ -20,7 +20,7 @@ PreparedProject finish(OpenProject& project, const PrepareOptions& options, cons
         throw InputError(InputFault::mesh, project.project().scan.path.string() + " holds nothing but fragments",
                          "check the scan");
     }
-    if (project.project().stage == Stage::cutting) {
+    if (project.project().stage == Stage::cutting && !project.is_being_judged()) {
         const bool is_beam = project.project().settings.beam > 1;
         std::size_t told = project.project().cuts.size();
         const auto on_round = [&](const Segmentation& s) {
@@ -32,6 +32,7 @@ PreparedProject finish(OpenProject& project, const PrepareOptions& options, cons
         context.warn(project.segmentation().warnings);
         if (!end.is_finished()) context.warn({early_end(end.sentence)});
     }
+    project.judge_setups(context);
     return project.prepare(options.program_version, context);
 }
 

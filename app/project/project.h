@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/project/cut_verdict.h"
 #include "app/project/decisions.h"
 #include "base/sha256.h"
 #include "segment/import/import_scan.h"
@@ -74,8 +75,9 @@ struct Project {
     std::vector<Discard> discards;       // those in force
     std::vector<SolidRecord> discarded;  // the discarded pieces, one per discard
     std::vector<std::string> warnings;
-    std::optional<BeamState> beam;  // of a search that was interrupted and can go on
-    std::vector<WrittenJob> jobs;   // in the order of the pieces; a piece that does not fit has none
+    std::optional<BeamState> beam;        // of a search that was interrupted and can go on
+    std::optional<SetupVerdict> verdict;  // what setups said of the cuts after the search; nothing: they were not asked
+    std::vector<WrittenJob> jobs;         // in the order of the pieces; a piece that does not fit has none
     bool operator==(const Project&) const = default;
 
     bool do_rules_hold() const { return !end_reason || is_finished(*end_reason); }

@@ -91,6 +91,7 @@ Json json_of(const Decision& decision) {
     if (const auto* discard = std::get_if<Discard>(&decision)) {
         return {{"discard", {{"piece", discard->piece}, {"after", discard->after}}}};
     }
+    if (const auto* other = std::get_if<Replacement>(&decision)) return {{"replacement", json_of(other->cut)}};
     if (const auto* order = std::get_if<SetupOrder>(&decision)) {
         Json setup{{"piece", order->piece}};
         if (order->base) setup["base"] = *order->base;
@@ -102,6 +103,7 @@ Json json_of(const Decision& decision) {
 
 Decision decision_from(const Json& json) {
     if (json.contains("cut")) return cut_from(json.at("cut"));
+    if (json.contains("replacement")) return Replacement{cut_from(json.at("replacement"))};
     if (json.contains("weights")) return WeightsChange{weights_from(json.at("weights"))};
     if (json.contains("discard")) {
         const Json& discard = json.at("discard");
@@ -116,7 +118,8 @@ Decision decision_from(const Json& json) {
     }
     if (json.contains("reset")) return Reset{};
     throw InputError(InputFault::config,
-                     "a decision is neither a cut nor a discarded piece nor a setup nor weights nor a reset");
+                     "a decision is neither a cut nor a replacement nor a discarded piece nor a setup nor weights "
+                     "nor a reset");
 }
 
 Json json_of(const RevertedTrial& trial) {
@@ -190,6 +193,9 @@ History history_from(const Json& json) {
     if (history.committed > history.decisions.size()) {
         throw InputError(InputFault::config, "more decisions are in force than there are");
     }
+    if (!are_replacements_possible(history)) {
+        throw InputError(InputFault::config, "a replaced cut of it is not there, or its pieces were cut further");
+    }
     return history;
 }
 
@@ -213,6 +219,19 @@ BeamState beam_from(const Json& json, const History& history) {
     return beam;
 }
 
+Json json_of(const SetupVerdict& verdict) {
+    Json cuts = Json::array();
+    for (const CutVerdict& cut : verdict.cuts) cuts.push_back(json_of(cut));
+    return {{"done", verdict.is_done}, {"cuts", cuts}};
+}
+
+SetupVerdict verdict_from(const Json& json) {
+    SetupVerdict verdict;
+    for (const Json& cut : json.at("cuts")) verdict.cuts.push_back(cut_verdict_from(cut));
+    verdict.is_done = json.at("done").get<bool>();
+    return verdict;
+}
+
 Project from_json(const Json& json) {
     if (json.at("schema") != schema) {
         throw InputError(InputFault::config, "its schema is not " + std::string(schema));
@@ -233,6 +252,7 @@ Project from_json(const Json& json) {
         throw InputError(InputFault::config, "its list of discarded pieces is not that of its decisions");
     }
     if (json.contains("beam")) project.beam = beam_from(json.at("beam"), project.history);
+    if (json.contains("verdict")) project.verdict = verdict_from(json.at("verdict"));
     project.pieces = solids_from(json.at("pieces"));
     project.fragment_list = solids_from(json.at("fragments"));
     project.warnings = json.at("warnings").get<std::vector<std::string>>();
@@ -257,6 +277,7 @@ std::string to_json(const Project& project) {
               {"warnings", project.warnings},
               {"jobs", list_of(project.jobs)}};
     if (project.beam) json["beam"] = json_of(*project.beam);
+    if (project.verdict) json["verdict"] = json_of(*project.verdict);
     return text_of(json) + "\n";
 }
 

@@ -36,4 +36,37 @@ std::vector<std::string> round_lines(const std::vector<Cut>& cuts, std::size_t t
     return lines;
 }
 
+namespace {
+
+std::string percent(const CarvedSurface& surface) {
+    return fixed(100 * surface.share(), 2);
+}
+
+// What follows "cut 7 of piece K: ".
+std::string outcome_of(const CutVerdict& v) {
+    const std::string now =
+        percent(v.before) + " % of what is left of its pieces is out of reach of the setups, more than expected";
+    if (v.outcome == VerdictOutcome::carries_cut) {
+        return now + "; it carries other cuts, which another plane would take back; kept";
+    }
+    if (v.outcome == VerdictOutcome::decided) return now + "; you decided it, or a piece of it or of a later cut; kept";
+    if (v.planes == 0) return now + "; no other plane keeps the rules that hold; kept";
+    if (v.outcome == VerdictOutcome::replaced) {
+        return "by their setups another plane leaves " + percent(v.best) + " instead of " + percent(v.before) +
+               " % of its pieces out of reach; taken";
+    }
+    return "by their setups no other of " + std::to_string(v.planes) + " planes leaves enough less than " +
+           percent(v.before) + " % of its pieces out of reach (the best one " + percent(v.best) + " %); kept";
+}
+
+}  // namespace
+
+std::vector<std::string> verdict_lines(const SetupVerdict& verdict) {
+    std::vector<std::string> lines;
+    for (const CutVerdict& v : verdict.cuts) {
+        lines.push_back("cut " + std::to_string(v.cut) + " of piece " + v.piece + ": " + outcome_of(v));
+    }
+    return lines;
+}
+
 }  // namespace qchopper

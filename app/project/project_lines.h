@@ -22,4 +22,8 @@ std::string kept_cuts(std::size_t cuts, const std::filesystem::path& folder, boo
 // trial. Of a beam, whose cuts may all have changed, the last cut alone.
 std::vector<std::string> round_lines(const std::vector<Cut>& cuts, std::size_t told, bool is_beam);
 
+// "cut 7 of piece K: by their setups another plane leaves 3.1 instead of 10.9 % of its pieces out of reach; taken".
+// One per cut that was asked.
+std::vector<std::string> verdict_lines(const SetupVerdict& verdict);
+
 }  // namespace qchopper

@@ -2,6 +2,7 @@
 
 #include "app/project/replay.h"
 
+#include <algorithm>
 #include <cassert>
 #include <span>
 
@@ -11,10 +12,6 @@
 
 namespace qchopper {
 namespace {
-
-std::int32_t made_by(const Piece& piece) {
-    return piece.half_spaces.empty() ? 0 : piece.half_spaces.back().cut;
-}
 
 SolidRecord record_of(const Piece& piece) {
     return {piece.name, made_by(piece), piece.mesh->triangles.size(), volume_mm3(*piece.mesh),
@@ -29,6 +26,33 @@ void discard_now(Segmentation& segmentation, const std::vector<Discard>& discard
                          "piece " + d.piece + " of the project cannot be discarded: it is not there",
                          "prepare the scan again");
     }
+}
+
+// `before` is called with the segmentation before each cut.
+Segmentation replay_cuts(const Project& project, const TriangleMesh& scan, std::size_t cuts, const Context& context,
+                         const DistanceStore& store,
+                         const std::function<void(const Segmentation&, const Cut&)>& before) {
+    context.progress("cuts made on the scan", 0, cuts);
+    const double fragment_volume = project.settings.objectives.fragment_volume_mm3;
+    Segmentation segmentation = uncut(scan, fragment_volume);
+    if (project.settings.takes_samples()) {
+        const StageTimer stage(context, "rays cast");
+        context.progress("samples asked", 0, default_surface_samples);
+        sample_uncut(segmentation.pieces, store);
+    }
+    discard_now(segmentation, project.discards);
+    for (const Cut& cut : std::span(project.cuts).first(cuts)) {
+        if (before) before(segmentation, cut);
+        if (!apply(segmentation, cut, fragment_volume)) {
+            throw InputError(InputFault::config,
+                             "cut " + std::to_string(cut.number) + " of the project does not part piece " + cut.piece,
+                             "prepare the scan again");
+        }
+        discard_now(segmentation, project.discards);
+        context.check_cancelled();
+        context.progress("cuts made on the scan", segmentation.cuts.size(), cuts);
+    }
+    return segmentation;
 }
 
 }  // namespace
@@ -61,26 +85,20 @@ Segmentation replay(const Project& project, const TriangleMesh& scan, const Cont
 
 Segmentation replay(const Project& project, const TriangleMesh& scan, std::size_t cuts, const Context& context,
                     const DistanceStore& store) {
-    context.progress("cuts made on the scan", 0, cuts);
-    const double fragment_volume = project.settings.objectives.fragment_volume_mm3;
-    Segmentation segmentation = uncut(scan, fragment_volume);
-    if (project.settings.takes_samples()) {
-        const StageTimer stage(context, "rays cast");
-        context.progress("samples asked", 0, default_surface_samples);
-        sample_uncut(segmentation.pieces, store);
-    }
-    discard_now(segmentation, project.discards);
-    for (const Cut& cut : std::span(project.cuts).first(cuts)) {
-        if (!apply(segmentation, cut, fragment_volume)) {
-            throw InputError(InputFault::config,
-                             "cut " + std::to_string(cut.number) + " of the project does not part piece " + cut.piece,
-                             "prepare the scan again");
-        }
-        discard_now(segmentation, project.discards);
-        context.check_cancelled();
-        context.progress("cuts made on the scan", segmentation.cuts.size(), cuts);
-    }
-    return segmentation;
+    return replay_cuts(project, scan, cuts, context, store, {});
+}
+
+std::map<std::int32_t, Piece> divided_pieces(const Project& project, const TriangleMesh& scan,
+                                             const std::vector<std::int32_t>& numbers, const Context& context,
+                                             const DistanceStore& store) {
+    std::map<std::int32_t, Piece> divided;
+    if (numbers.empty()) return divided;
+    const auto last = static_cast<std::size_t>(*std::max_element(numbers.begin(), numbers.end()));
+    replay_cuts(project, scan, last, context, store, [&](const Segmentation& before, const Cut& cut) {
+        if (std::find(numbers.begin(), numbers.end(), cut.number) == numbers.end()) return;
+        if (const auto piece = piece_named(before, cut.piece)) divided[cut.number] = before.pieces[*piece];
+    });
+    return divided;
 }
 
 std::optional<std::size_t> piece_named(const Segmentation& segmentation, const std::string& name) {

@@ -6,9 +6,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/project/project.h"
 #include "base/context.h"
@@ -30,6 +33,11 @@ Segmentation replay(const Project& project, const TriangleMesh& scan, std::size_
 // All of them.
 Segmentation replay(const Project& project, const TriangleMesh& scan, const Context& context = {},
                     const DistanceStore& store = {});
+
+// The pieces that the cuts of these numbers divide, as they were before, by the number. Costs as replay().
+std::map<std::int32_t, Piece> divided_pieces(const Project& project, const TriangleMesh& scan,
+                                             const std::vector<std::int32_t>& numbers, const Context& context = {},
+                                             const DistanceStore& store = {});
 
 // The index of a piece in segmentation.pieces; nothing if no piece has that name. O(pieces).
 std::optional<std::size_t> piece_named(const Segmentation& segmentation, const std::string& name);

@@ -44,6 +44,13 @@ const Carving& Setups::of(const Piece& piece) {
     return it->second;
 }
 
+void Setups::keep_only(std::span<const Piece> pieces) {
+    std::erase_if(carvings_, [&](const auto& carving) {
+        return std::none_of(pieces.begin(), pieces.end(),
+                            [&](const Piece& piece) { return piece.mesh.get() == carving.first; });
+    });
+}
+
 UnreachableSurface Setups::unreachable(const Piece& piece) {
     SetupOptions options = options_for(piece);
     options.mapped = 0;

@@ -41,6 +41,9 @@ class Setups {
     // Valid while this object lives. Pieces are identified by their mesh.
     const Carving& of(const Piece& piece);
 
+    // Forgets those of all other pieces.
+    void keep_only(std::span<const Piece> pieces);
+
     // For the stop rules, cheaper than of(): by boxes, and on samples of the surface from the best base.
     bool fits(const Piece& piece) const { return fits_cell(piece, cell_); }
     UnreachableSurface unreachable(const Piece& piece);

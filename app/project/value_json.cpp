@@ -16,6 +16,19 @@ constexpr EnumName<Stop> stop_names[] = {{Stop::any, "any"}, {Stop::all, "all"}}
 constexpr EnumName<FragilityForm> fragility_names[] = {{FragilityForm::thinness, "thinness"},
                                                        {FragilityForm::thesis, "thesis"}};
 
+constexpr EnumName<VerdictOutcome> outcome_names[] = {{VerdictOutcome::replaced, "replaced"},
+                                                      {VerdictOutcome::kept, "kept"},
+                                                      {VerdictOutcome::carries_cut, "carries_cut"},
+                                                      {VerdictOutcome::decided, "decided"}};
+
+Json json_of(const CarvedSurface& s) {
+    return {{"unreachable_mm2", s.unreachable_mm2}, {"area_mm2", s.area_mm2}};
+}
+
+CarvedSurface carved_surface_from(const Json& json) {
+    return {json.at("unreachable_mm2").get<double>(), json.at("area_mm2").get<double>()};
+}
+
 }  // namespace
 
 Json json_of(Vec3 v) {
@@ -155,6 +168,24 @@ Cut cut_from(const Json& json) {
     cut.fragments = json.at("fragments").get<std::size_t>();
     for (const Json& r : json.at("runners_up")) cut.runners_up.push_back(ranked_from(r));
     return cut;
+}
+
+Json json_of(const CutVerdict& verdict) {
+    return {{"cut", verdict.cut},
+            {"piece", verdict.piece},
+            {"outcome", name_of_value(outcome_names, verdict.outcome)},
+            {"planes", verdict.planes},
+            {"before", json_of(verdict.before)},
+            {"best", json_of(verdict.best)}};
+}
+
+CutVerdict cut_verdict_from(const Json& json) {
+    return {json.at("cut").get<std::int32_t>(),
+            json.at("piece").get<std::string>(),
+            value_of_name(outcome_names, json.at("outcome").get<std::string>()),
+            json.at("planes").get<std::size_t>(),
+            carved_surface_from(json.at("before")),
+            carved_surface_from(json.at("best"))};
 }
 
 std::string text_of(const Json& document) {

@@ -19,6 +19,7 @@ nlohmann::ordered_json json_of(const Terms& terms);
 nlohmann::ordered_json json_of(const SolidRecord& solid);  // a fragment has no name
 nlohmann::ordered_json json_of(const SearchSettings& settings);
 nlohmann::ordered_json json_of(const Cut& cut);
+nlohmann::ordered_json json_of(const CutVerdict& verdict);
 
 Vec3 vec3_from(const nlohmann::ordered_json& json);
 Weights weights_from(const nlohmann::ordered_json& json);
@@ -26,6 +27,7 @@ Terms terms_from(const nlohmann::ordered_json& json);
 SolidRecord solid_from(const nlohmann::ordered_json& json);
 SearchSettings settings_from(const nlohmann::ordered_json& json);
 Cut cut_from(const nlohmann::ordered_json& json);
+CutVerdict cut_verdict_from(const nlohmann::ordered_json& json);
 
 // The text of a document, indented by one space a level; bytes that are not UTF-8 are replaced. No line end.
 std::string text_of(const nlohmann::ordered_json& document);

@@ -32,6 +32,24 @@ Json cut_json(const Cut& cut) {
             {"fragments", cut.fragments}};
 }
 
+Json advice_json(const std::vector<ReachAdvice>& advice) {
+    Json list = Json::array();
+    for (const ReachAdvice& a : advice) {
+        list.push_back({{"kind", to_word(a.fault)}, {"share", a.share}, {"cures", a.cures}});
+    }
+    return list;
+}
+
+// ": 3.01 % because of the holder (a longer tool ...), 0.53 % ...": the two largest parts.
+std::string advice_words(const std::vector<ReachAdvice>& advice) {
+    std::string words;
+    for (std::size_t i = 0; i < std::min<std::size_t>(advice.size(), 2); ++i) {
+        const ReachAdvice& a = advice[i];
+        words += (i == 0 ? ": " : ", ") + share_word(a.share) + " " + a.what + " (" + a.cures + ")";
+    }
+    return words;
+}
+
 Json piece_json(const PieceReport& piece, const Cell& cell) {
     const Setup& s = piece.carving.setup();
     Json margins;
@@ -49,6 +67,7 @@ Json piece_json(const PieceReport& piece, const Cell& cell) {
             {"reach", reach_json(s.reach)},
             {"fits", piece.carving.envelope.fits()},
             {"margins_mm", margins},
+            {"out_of_reach", advice_json(piece.advice)},
             {"job", piece.job.empty() ? Json() : Json(piece.job.string())}};
 }
 
@@ -63,8 +82,8 @@ std::vector<std::string> warnings(const PreparedProject& prepared) {
         } else if (share > prepared.max_unreachable) {
             text.push_back("piece " + p.name + ": " + share_word(share) +
                            " of its surface is out of reach, more than " + share_word(prepared.max_unreachable) +
-                           "; see qchopper setup " + shell_word(prepared.folder) + " --piece " + p.name +
-                           ", cut it again, or dispatch it with --accept-unreachable");
+                           advice_words(p.advice) + "; see qchopper setup " + shell_word(prepared.folder) +
+                           " --piece " + p.name + ", or dispatch it with --accept-unreachable");
         }
     }
     return text;
@@ -91,6 +110,9 @@ std::vector<std::string> table(const PreparedProject& prepared) {
             (prepared.project.fragments == FragmentChoice::keep ? " and kept in pieces/fragments.ply" : ", dropped"));
     }
     for (const std::string& line : discarded_lines(prepared.project)) lines.push_back(line);
+    if (prepared.project.verdict) {
+        for (const std::string& line : verdict_lines(*prepared.project.verdict)) lines.push_back(line);
+    }
     const auto jobs = std::count_if(prepared.pieces.begin(), prepared.pieces.end(),
                                     [](const PieceReport& p) { return !p.job.empty(); });
     const std::string folder = prepared.folder.string();
@@ -106,6 +128,10 @@ std::string document(const PreparedProject& prepared) {
     const Project& p = prepared.project;
     Json cuts = Json::array();
     for (const Cut& cut : p.cuts) cuts.push_back(cut_json(cut));
+    Json verdicts = Json::array();
+    if (p.verdict) {
+        for (const CutVerdict& verdict : p.verdict->cuts) verdicts.push_back(json_of(verdict));
+    }
     Json pieces = Json::array();
     for (const PieceReport& piece : prepared.pieces) pieces.push_back(piece_json(piece, prepared.cell));
     Json fragments = Json::array();
@@ -125,6 +151,7 @@ std::string document(const PreparedProject& prepared) {
                     {"max_unreachable", prepared.max_unreachable},
                     {"arm_checked", prepared.cell.machine.has_value()},
                     {"cuts", cuts},
+                    {"verdicts", verdicts},
                     {"pieces", pieces},
                     {"fragments", fragments},
                     {"discarded", discarded_json(p)},

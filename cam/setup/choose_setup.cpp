@@ -95,8 +95,7 @@ Box block_box(const Setup& setup) {
 }
 
 double tilt_of(const Cell& cell, const SetupOptions& options) {
-    if (options.max_tilt_deg) return *options.max_tilt_deg;
-    return cell.machine ? cell.machine->max_tilt / degree : default_tilt_deg;
+    return options.max_tilt_deg.value_or(max_tilt_deg(cell));
 }
 
 // Of the tools of the cell.
@@ -299,6 +298,10 @@ class Choice {
 };
 
 }  // namespace
+
+double max_tilt_deg(const Cell& cell) {
+    return cell.machine ? cell.machine->max_tilt / degree : default_tilt_deg;
+}
 
 SetupChoice choose_setup(const Piece& piece, const Cell& cell, const SetupOptions& options) {
     assert(piece.mesh && !piece.mesh->triangles.empty() && !cell.stock.empty());

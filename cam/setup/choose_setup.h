@@ -38,6 +38,9 @@ struct SetupChoice {
     std::vector<SurfaceState> states;  // per triangle of the piece, in the first setup; empty if it is not mapped
 };
 
+// The largest tilt of the tool axis from the vertical, degrees: that of the cell, without a machine default_tilt_deg.
+double max_tilt_deg(const Cell& cell);
+
 // Ranked are, first of all, those whose block fits into the cell; then by the least unreachable area, the least foam
 // that stays, the least residue and the smallest block. With options.base that base is first. Preconditions: the mesh
 // is closed and has triangles, half_space.up() are unit vectors, the cell has a block, and options.base is a number of

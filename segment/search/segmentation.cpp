@@ -11,6 +11,7 @@
 #include "segment/mesh/order.h"
 #include "segment/mesh/solids.h"
 #include "segment/score/sampled_piece.h"
+#include "segment/search/piece_names.h"
 
 namespace qchopper {
 namespace {
@@ -36,12 +37,8 @@ std::vector<std::string> add_solids(Segmentation& segmentation, std::vector<Piec
 
 }  // namespace
 
-std::string piece_name(std::size_t index) {
-    std::string name;
-    for (std::size_t rest = index + 1; rest > 0; rest = (rest - 1) / 26) {
-        name.insert(name.begin(), static_cast<char>('A' + (rest - 1) % 26));
-    }
-    return name;
+std::int32_t made_by(const Piece& piece) {
+    return piece.half_spaces.empty() ? 0 : piece.half_spaces.back().cut;
 }
 
 Segmentation uncut(const TriangleMesh& scan, double fragment_volume_mm3) {

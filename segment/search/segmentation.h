@@ -57,12 +57,12 @@ struct Segmentation {
     std::vector<Piece> pieces;  // the leaves, in the order of their names
     std::vector<Fragment> fragments;
     std::vector<Discarded> discarded;  // in the order of the decisions
-    std::size_t names_given = 0;       // the next piece is piece_name(names_given)
+    std::size_t names_given = 0;       // the next piece is piece_name(names_given), piece_names.h
     std::vector<std::string> warnings;
 };
 
-// A, B, ..., Z, AA, AB, ...: bijective base 26, from 0.
-std::string piece_name(std::size_t index);
+// The number of the cut that made a piece; 0: it was in the scan.
+std::int32_t made_by(const Piece& piece);
 
 // The uncut scan as a segmentation: every solid is a piece, or a fragment if it is smaller than fragment_volume_mm3.
 // Precondition: a closed mesh. Points and triangles of the pieces are in memory order (order.h).

@@ -60,7 +60,14 @@ TEST_F(Json, OfPrepare) {
     for (const json& piece : made["pieces"]) {
         EXPECT_TRUE(fs::exists(folder.path / piece["job"].get<std::string>()));
         volume += piece["volume_mm3"].get<double>();
+        const double share = piece["reach"]["unreachable_share"];
+        EXPECT_EQ(piece["out_of_reach"].empty(), share <= made["max_unreachable"].get<double>() || share < 0.001);
+        for (const json& part : piece["out_of_reach"]) {
+            EXPECT_LE(part["share"].get<double>(), share + 1e-9);
+            EXPECT_NE(ended.err.find("piece " + piece["name"].get<std::string>()), std::string::npos) << ended.err;
+        }
     }
+    EXPECT_EQ(made["verdicts"], json::array()) << "only with the weight unreachable";
     for (const json& fragment : made["fragments"]) volume += fragment["volume_mm3"].get<double>();
     const double scan = made["scan"]["volume_mm3"];
     EXPECT_NEAR(volume, scan, 1e-9 * scan);

@@ -85,5 +85,33 @@ TEST(Decisions, FollowASearchThatTurnsToAnotherBranch) {
     EXPECT_EQ(h, before) << "nothing new, nothing decided";
 }
 
+TEST(Replaced, ACutKeepsItsPlaceAndUndoGivesItBack) {
+    const auto made = [](std::int32_t number, const char* piece, std::vector<std::string> pieces, double offset) {
+        Cut c;
+        c.number = number;
+        c.piece = piece;
+        c.pieces = std::move(pieces);
+        c.chosen.plane.offset = offset;
+        return c;
+    };
+    History h;
+    decide(h, made(1, "A", {"B", "C"}, 0));
+    decide(h, made(2, "B", {"D", "E"}, 0));
+    decide(h, made(3, "C", {"F", "G"}, 0));
+    const std::vector<Cut> before = committed_cuts(h);
+    decide(h, Replacement{made(2, "B", {"D", "E", "F"}, 7)});
+    EXPECT_TRUE(are_replacements_possible(h));
+    const std::vector<Cut> after = committed_cuts(h);
+    ASSERT_EQ(after.size(), 3U);
+    EXPECT_EQ(after[0], before[0]);
+    EXPECT_EQ(after[1].chosen.plane.offset, 7);
+    EXPECT_EQ(after[2], made(3, "C", {"G", "H"}, 0)) << "the next names";
+    EXPECT_EQ(describe(*to_undo(h)), "replacement of cut 2 on piece B");
+    --h.committed;
+    EXPECT_EQ(committed_cuts(h), before);
+    decide(h, Replacement{made(1, "A", {"B", "C"}, 7)});
+    EXPECT_FALSE(are_replacements_possible(h)) << "B and C are cut";
+}
+
 }  // namespace
 }  // namespace qchopper

@@ -4,6 +4,7 @@
 
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
+#include "segment/search/piece_names.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

@@ -1,0 +1,46 @@
+// What the setups of its pieces say of a cut after the search, and what became of it.
+//
+// Values only; mm2. Kept in project.json, so that work that was interrupted goes on with the next cut.
+
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace qchopper {
+
+// Of all pieces that one cut makes, by their setups: height maps, few directions and holder.
+struct CarvedSurface {
+    double unreachable_mm2 = 0;
+    double area_mm2 = 0;  // without the bases
+    double share() const { return area_mm2 > 0 ? std::min(1.0, unreachable_mm2 / area_mm2) : 0; }
+    bool operator==(const CarvedSurface&) const = default;
+};
+
+enum class VerdictOutcome {
+    replaced,     // by the best of the other planes
+    kept,         // no other plane leaves enough less, or none keeps the stop rules
+    carries_cut,  // a piece of it was cut further: another plane would take those cuts back
+    decided       // by the operator: the plane, or what becomes of a piece of this or a later cut
+};
+
+struct CutVerdict {
+    std::int32_t cut = 0;
+    std::string piece;  // that it divides
+    VerdictOutcome outcome = VerdictOutcome::kept;
+    std::size_t planes = 0;  // others that were tried and keep the stop rules that held
+    CarvedSurface before;
+    CarvedSurface best;  // of those; with none as before
+    bool operator==(const CutVerdict&) const = default;
+};
+
+struct SetupVerdict {
+    std::vector<CutVerdict> cuts;  // those asked, in their order
+    bool is_done = false;          // false: the work was interrupted and goes on
+    bool operator==(const SetupVerdict&) const = default;
+};
+
+}  // namespace qchopper

@@ -1,0 +1,122 @@
+// The part of OpenProject in which setups judge the cuts of a search. Cuts are asked in their order: a replacement
+// gives other names to the pieces of later cuts only.
+
+#include <algorithm>
+#include <map>
+
+#include "app/project/distance_store.h"
+#include "app/project/open_project.h"
+#include "app/project/project_folder.h"
+#include "app/project/replay.h"
+#include "app/project/verdict.h"
+#include "base/timings.h"
+#include "segment/search/cut_list.h"
+#include "segment/search/recut.h"
+
+namespace qchopper {
+namespace {
+
+// Whether the operator chose the plane, or decided about a piece of this or a later cut.
+bool is_decided(const Project& project, const Segmentation& segmentation, const Cut& cut) {
+    if (cut.chosen.normal_index < 0) return true;
+    const auto is_later = [&](const Discard& d) { return d.after >= static_cast<std::size_t>(cut.number); };
+    if (std::any_of(project.discards.begin(), project.discards.end(), is_later)) return true;
+    const std::vector<SetupOrder> orders = committed_setup_orders(project.history);
+    return std::any_of(orders.begin(), orders.end(), [&](const SetupOrder& order) {
+        const auto piece = piece_named(segmentation, order.piece);
+        return piece && made_by(segmentation.pieces[*piece]) >= cut.number;
+    });
+}
+
+// What needs no trial; nothing: other planes can be tried.
+std::optional<VerdictOutcome> settled(const Project& project, const Segmentation& segmentation, const Cut& cut) {
+    if (!is_last_of_its_pieces(segmentation.cuts, cut.number)) return VerdictOutcome::carries_cut;
+    if (is_decided(project, segmentation, cut)) return VerdictOutcome::decided;
+    return std::nullopt;
+}
+
+}  // namespace
+
+bool OpenProject::asks_for_verdict() {
+    const bool is_open = project_.verdict && !project_.verdict->is_done;
+    if (project_.settings.objectives.weights.unreachable <= 0 || setups() == nullptr) return false;
+    return is_open || (project_.stage == Stage::cut && !project_.verdict);
+}
+
+// Other weights or rules: the search goes on with them, and its cuts are judged again.
+void OpenProject::drop_unfinished_verdict() {
+    if (is_being_judged()) project_.verdict.reset();
+}
+
+void OpenProject::judge_setups(const Context& context) {
+    if (!asks_for_verdict()) return;
+    const StageTimer stage(context, "setups judge the cuts");
+    std::vector<std::int32_t> numbers = doubtful_cuts(segmentation(), *setups(), context);
+    if (!project_.verdict) {
+        project_.verdict.emplace();
+        save();
+    }
+    const auto is_known = [&](std::int32_t number) {
+        const std::vector<CutVerdict>& known = project_.verdict->cuts;
+        return std::any_of(known.begin(), known.end(), [&](const CutVerdict& v) { return v.cut == number; });
+    };
+    std::erase_if(numbers, is_known);
+    std::map<std::int32_t, Piece> divided = pieces_to_recut(numbers, context);
+    for (const std::int32_t number : numbers) {
+        judge_cut(number, divided, context);
+        divided.erase(number);
+    }
+    setups()->keep_only(segmentation().pieces);
+    if (project_.stage == Stage::cutting) write_current_pieces();
+    project_.stage = Stage::cut;
+    project_.verdict->is_done = true;
+    save();
+}
+
+std::map<std::int32_t, Piece> OpenProject::pieces_to_recut(std::vector<std::int32_t> numbers, const Context& context) {
+    std::erase_if(numbers, [&](std::int32_t number) {
+        return settled(project_, segmentation(), segmentation().cuts[static_cast<std::size_t>(number - 1)]).has_value();
+    });
+    if (numbers.empty()) return {};
+    std::map<std::int32_t, Piece> divided =
+        divided_pieces(project_, scan(), numbers, context, distance_store(folder_ / "cache"));
+    release_scan();
+    return divided;
+}
+
+void OpenProject::judge_cut(std::int32_t number, const std::map<std::int32_t, Piece>& divided, const Context& context) {
+    const Segmentation& now = segmentation();
+    const Cut& cut = now.cuts[static_cast<std::size_t>(number - 1)];
+    const auto piece = divided.find(number);
+    if (piece == divided.end()) {
+        const CarvedSurface surface = carved_surface(now, number, *setups());
+        const VerdictOutcome outcome = settled(project_, now, cut).value_or(VerdictOutcome::kept);
+        project_.verdict->cuts.push_back({number, cut.piece, outcome, 0, surface, surface});
+        return save();
+    }
+    Piece parted = piece->second;
+    parted.name = cut.piece;
+    RecutTrial trial = try_other_planes(now, parted, number, project_.settings, *setups(), context);
+    if (trial.better) return replace_cut(*trial.better, std::move(trial.verdict));
+    setups()->keep_only(now.pieces);
+    project_.verdict->cuts.push_back(std::move(trial.verdict));
+    save();
+}
+
+// The stage is `cutting` before a file is removed, so that nothing that is on disk belongs to other cuts. Why the
+// search ended stays: by it and by the verdict that is not done the project is known to go on here.
+void OpenProject::replace_cut(const Segmentation& alone, CutVerdict verdict) {
+    project_.stage = Stage::cutting;
+    project_.jobs.clear();
+    save_project(folder_, project_);
+    remove_outputs(folder_, project_);
+    segmentation_ = recut(segmentation(), alone);
+    setups()->keep_only(segmentation_->pieces);
+    decide(project_.history, Replacement{alone.cuts.front()});
+    record(project_, *segmentation_);
+    if (!project_.do_rules_hold()) project_.warnings.push_back(early_end(project_.ended_because));
+    project_.verdict->cuts.push_back(std::move(verdict));
+    save();
+}
+
+}  // namespace qchopper
