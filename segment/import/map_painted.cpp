@@ -45,9 +45,8 @@ std::vector<std::uint8_t> mapped_marks(const TriangleMesh& painted, const Triang
 double share_off_scan(const TriangleMesh& painted, const TriangleMesh& scan, double distance) {
     const TriangleTree tree(scan);
     std::vector<std::uint8_t> is_off(painted.triangles.size());
-    for_each_triangle(painted, [&](std::size_t t) {
-        is_off[t] = tree.nearest(scan, centroid(painted, t), distance).distance > distance ? 1 : 0;
-    });
+    for_each_triangle(
+        painted, [&](std::size_t t) { is_off[t] = tree.is_any_nearer(scan, centroid(painted, t), distance) ? 0 : 1; });
     double off = 0;
     double all = 0;
     for (std::size_t t = 0; t < is_off.size(); ++t) {

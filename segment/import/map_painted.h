@@ -18,8 +18,8 @@ namespace qchopper {
 // ignored. O((triangles of both) log (triangles of painted)).
 std::vector<std::uint8_t> mapped_marks(const TriangleMesh& painted, const TriangleMesh& scan);
 
-// The share of the area of `painted`, 0 to 1, whose triangles have their centroid farther than `distance` from the
-// surface of `scan`. Precondition: `scan` has triangles. O((triangles of both) log (triangles of scan)).
+// The share of the area of `painted`, 0 to 1, whose triangles have their centroid at least as far as `distance`, above
+// 0, from the surface of `scan`. O((triangles of both) log (triangles of scan)).
 double share_off_scan(const TriangleMesh& painted, const TriangleMesh& scan, double distance);
 
 }  // namespace qchopper

@@ -11,7 +11,6 @@
 #include "app/project/project_folder.h"
 #include "app/project/project_json.h"
 #include "base/error.h"
-#include "base/parallel.h"
 #include "segment/io/write_ply.h"
 #include "segment/mesh/measure.h"
 #include "segment/search/segmentation.h"
@@ -155,7 +154,7 @@ TEST_F(IgnoredSurfaceFiles, TheScanItselfMayBePainted) {
     EXPECT_NEAR(draft.project.ignored->share, (50 - top) / 100, 0.03);
 }
 
-TEST_F(IgnoredSurfaceFiles, PaintAndInsideAddUpForAnyNumberOfThreads) {
+TEST_F(IgnoredSurfaceFiles, PaintAndInsideAddUp) {
     const TriangleMesh hollow = shapes::joined({mesh, shapes::turned_inside_out(shapes::ball({100, 200, 0}, 40, 24))});
     write_file(scan, to_ply(hollow));
     paint(hollow, top);
@@ -164,8 +163,6 @@ TEST_F(IgnoredSurfaceFiles, PaintAndInsideAddUpForAnyNumberOfThreads) {
     ASSERT_TRUE(both.project.ignored && inside.project.ignored);
     EXPECT_NEAR(inside.project.ignored->share, 1600.0 / 4100, 0.01);
     EXPECT_NEAR(both.project.ignored->share, (1600 + 2500 * 0.2) / 4100, 0.02);
-    const ThreadLimit one(1);
-    EXPECT_EQ(draft_project(choices(true, true), {}).scan, both.scan);
     // What the cache keeps of the samples is not that of the scan without marks.
     const auto casts_rays = [&](const TriangleMesh& of) {
         Segmentation segmentation = uncut(of, 0);
