@@ -71,6 +71,8 @@ struct ProjectArguments : RepairChoiceArguments {
     std::optional<double> time_limit_s;
     std::optional<std::string> fragments;  // keep | drop
     std::optional<double> fragment_volume_mm3;
+    std::optional<std::filesystem::path> ignore_surface;
+    bool ignore_inside = false;
     std::optional<std::filesystem::path> out;
 };
 

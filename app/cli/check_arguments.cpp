@@ -59,7 +59,8 @@ std::string new_project_option(const ProjectArguments& a, bool is_replay_given =
         {a.preset.has_value(), "--preset"},       {a.fragment_volume_mm3.has_value(), "--fragment-volume"},
         {a.fragments.has_value(), "--fragments"}, {a.out.has_value(), "--out"},
         {a.fragility.has_value(), "--fragility"}, {is_replay_given, "--replay"},
-        {is_repair_given, "a choice of repair"}};
+        {is_repair_given, "a choice of repair"},  {a.ignore_surface.has_value(), "--ignore-surface"},
+        {a.ignore_inside, "--ignore-inside"}};
     for (const auto& [is_given, name] : options) {
         if (is_given) return name;
     }

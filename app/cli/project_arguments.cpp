@@ -66,6 +66,7 @@ ProjectChoices choices_of(const ProjectArguments& a) {
     if (a.units) choices.mm_per_unit = mm_per(unit_named(*a.units));
     choices.scale = a.scale.value_or(1);
     choices.repair = repair_choices(a);
+    choices.ignore = {a.ignore_surface, a.ignore_inside};
     choices.preset = a.preset.value_or("");
     choices.settings = settings_of(a);
     choices.fragment_volume_mm3 = a.fragment_volume_mm3;

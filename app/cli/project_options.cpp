@@ -60,6 +60,13 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
         ->check(number_between(0, 1, "a share from 0 to 1"));
     c->add_flag("--count-narrow", a.count_narrow,
                 "surface too narrow for the smallest tool counts as out of reach (it is only reported)");
+    c->add_option(
+        "--ignore-surface", a.ignore_surface,
+        "a PLY of the scan in which surface that may stay as it is, is painted red or has the property ignore; "
+        "it is never out of reach (docs/ignored-surface.md)");
+    c->add_flag(
+        "--ignore-inside", a.ignore_inside,
+        "surface that no direction at all reaches before the first cut may stay, such as the inside of a skull");
     c->add_option("--max-cuts", a.max_cuts, "end the search at N cuts, whatever the stop rules (500)")
         ->check(number_between(0, 1e6, "a count of cuts"));
     c->add_option("--stop", a.stop, "stop when any or all of the rules hold (all)")->check(one_of({"any", "all"}));

@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "app/project/ignored_surface.h"
 #include "base/timings.h"
 #include "cam/cell/cell.h"
 
@@ -23,9 +24,12 @@ ProjectDraft draft_project(ProjectChoices choices, const ProjectContext& context
     }
     if (choices.plan) draft.plan = read_plan(*choices.plan);
     if (draft.plan && choices.preset.empty()) choices.settings.objectives.weights = draft.plan->weights;
+    std::optional<PaintedScan> painted = read_painted(choices);
     ImportedScan imported = import_project_scan(choices, context);
+    std::optional<IgnoredSurface> ignored = ignore_surface(choices, std::move(painted), imported, context);
     context.warn(imported.report.warnings);
     draft.project = new_project(choices, imported);
+    draft.project.ignored = std::move(ignored);
     draft.scan = std::move(imported.mesh);
     return draft;
 }
@@ -43,8 +47,8 @@ LockedProject::LockedProject(ProjectDraft made, const Context& context)
     : lock(made.folder),
       project(
           made.folder, made.project,
-          [scan = std::optional(std::move(made.scan)), of = made.project, context]() mutable {
-              if (!scan) return std::move(import_project_scan(of, context).mesh);
+          [scan = std::optional(std::move(made.scan)), folder = made.folder, of = made.project, context]() mutable {
+              if (!scan) return scan_of_project(folder, of, context);
               TriangleMesh mesh = std::move(*scan);
               scan.reset();
               return mesh;
@@ -53,7 +57,7 @@ LockedProject::LockedProject(ProjectDraft made, const Context& context)
 
 LockedProject make_project(ProjectDraft draft, const ProjectContext& context) {
     const StageTimer stage(context, "project saved");
-    create_project(draft.folder, draft.project, draft.cell_file);
+    create_project(draft.folder, draft.project, draft.cell_file, draft.scan.ignored);
     context.saved("The project " + draft.folder.string() + " is made, with no cut.");
     return LockedProject(std::move(draft), context);
 }

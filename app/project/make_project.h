@@ -18,13 +18,14 @@ struct ProjectDraft {
     std::filesystem::path folder;    // NAME.qch
     std::optional<Bytes> cell_file;  // as it was read; nothing: the project has no cell yet
     std::optional<Plan> plan;        // to be replayed
-    TriangleMesh scan;               // imported
+    TriangleMesh scan;               // imported, with what of it is ignored
     Project project;                 // without a decision
 };
 
-// Checks the folder and the cell file, reads the plan, then imports the scan; writes nothing. The weights are those of
+// Checks the folder and the cell file, reads the plan, reads the painted file, then imports the scan and
+// finds what of it is ignored; writes nothing. The weights are those of
 // the plan where there is neither a preset nor given weights. Throws InputError: what check_output, read_cell,
-// read_plan and import_project_scan throw, in this order.
+// read_plan, read_painted, import_project_scan and ignore_surface throw, in this order.
 ProjectDraft draft_project(ProjectChoices choices, const ProjectContext& context);
 
 // A project whose folder no other program writes while this object lives.

@@ -7,8 +7,8 @@
 
 #include "app/project/distance_store.h"
 #include "app/project/evaluation_store.h"
+#include "app/project/ignored_surface.h"
 #include "app/project/project_folder.h"
-#include "app/project/project_scan.h"
 #include "app/project/replay.h"
 #include "app/project/shell_word.h"
 #include "app/project/unreachable_of.h"
@@ -37,16 +37,16 @@ std::string early_end(const std::string& sentence) {
     return "the stop rules do not hold: " + sentence;
 }
 
-OpenProject::OpenProject(std::filesystem::path folder, Project project,
-                         std::function<TriangleMesh()> import_project_scan, const Context& context)
+OpenProject::OpenProject(std::filesystem::path folder, Project project, std::function<TriangleMesh()> import_scan,
+                         const Context& context)
     : folder_(std::move(folder)),
       project_(std::move(project)),
       context_(context),
-      import_scan_(std::move(import_project_scan)) {}
+      import_scan_(std::move(import_scan)) {}
 
 OpenProject::OpenProject(const std::filesystem::path& folder, const Context& context)
     : OpenProject(folder, load_project(folder), {}, context) {
-    import_scan_ = [this] { return std::move(qchopper::import_project_scan(project_, context_).mesh); };
+    import_scan_ = [this] { return scan_of_project(folder_, project_, context_); };
 }
 
 const TriangleMesh& OpenProject::scan() {

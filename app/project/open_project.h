@@ -36,14 +36,14 @@ std::string early_end(const std::string& sentence);
 
 class OpenProject {
  public:
-    // `import_project_scan` returns the scan of project.scan; it is called when the scan is needed, and again when it
+    // `import_scan` returns the scan of project.scan with what is ignored; it is called when needed, and again when it
     // is needed after it was freed. Precondition of all functions that change something: the caller holds the lock of
     // the folder (project_folder.h). What the context points to outlives this object.
-    OpenProject(std::filesystem::path folder, Project project, std::function<TriangleMesh()> import_project_scan,
+    OpenProject(std::filesystem::path folder, Project project, std::function<TriangleMesh()> import_scan,
                 const Context& context = {});
 
     // The project of a folder, whose scan is imported with the context when it is needed; every function that needs it
-    // then throws what import_project_scan throws. Throws what load_project throws.
+    // then throws what scan_of_project throws. Throws what load_project throws.
     OpenProject(const std::filesystem::path& folder, const Context& context);
 
     OpenProject(const OpenProject&) = delete;

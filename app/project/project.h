@@ -35,6 +35,15 @@ struct ScanSource {
     bool operator==(const ScanSource&) const = default;
 };
 
+// Surface that may stay as it is (ignored_surface.h).
+struct IgnoredSurface {
+    std::filesystem::path painted;  // absolute: the file that marks it; empty: none
+    bool inside = false;            // what lies inside the scan too
+    double share = 0;               // of the imported scan's area
+    Sha256 sha256;                  // of the flags in the folder
+    bool operator==(const IgnoredSurface&) const = default;
+};
+
 // What the project records of a piece or a fragment. Derived from scan and cuts; kept for readers of the file.
 struct SolidRecord {
     std::string name;      // empty for a fragment
@@ -61,6 +70,7 @@ enum class Stage {
 
 struct Project {
     ScanSource scan;
+    std::optional<IgnoredSurface> ignored;
     std::string preset;       // empty: none
     SearchSettings settings;  // with the weights in force
     FragmentChoice fragments = FragmentChoice::keep;

@@ -6,6 +6,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include "app/project/ignored_surface.h"
 #include "app/project/project_json.h"
 #include "app/project/shell_word.h"
 #include "base/error.h"
@@ -50,13 +51,15 @@ void check_output(const fs::path& out) {
     }
 }
 
-void create_project(const fs::path& folder, const Project& project, const std::optional<Bytes>& cell_file) {
+void create_project(const fs::path& folder, const Project& project, const std::optional<Bytes>& cell_file,
+                    const Bytes& ignored) {
     try {
         StagedFolder aside(folder);
         fs::create_directories(aside.path() / "pieces");
         fs::create_directory(aside.path() / "jobs");
         fs::create_directory(aside.path() / "pictures");
         if (cell_file) write_file(aside.path() / "cell.toml", *cell_file);
+        if (!ignored.empty()) write_file(aside.path() / ignored_file, ignored);
         save_project(aside.path(), project);
         aside.move_to_its_place();
     } catch (const fs::filesystem_error& e) {

@@ -72,6 +72,15 @@ ScanSource scan_from(const Json& json) {
     return scan;
 }
 
+IgnoredSurface ignored_from(const Json& json) {
+    IgnoredSurface ignored;
+    if (!json.at("painted").is_null()) ignored.painted = json.at("painted").get<std::string>();
+    ignored.inside = json.at("inside").get<bool>();
+    ignored.share = json.at("share").get<double>();
+    ignored.sha256 = sha256_from(json.at("sha256"));
+    return ignored;
+}
+
 Json json_of(const WrittenJob& job) {
     return {{"piece", job.piece}, {"sha256", to_hex(job.sha256)}, {"project_id", job.project_id}};
 }
@@ -238,6 +247,7 @@ Project from_json(const Json& json) {
     }
     Project project;
     project.scan = scan_from(json.at("scan"));
+    if (json.contains("ignored")) project.ignored = ignored_from(json.at("ignored"));
     project.preset = json.at("preset").get<std::string>();
     project.settings = settings_from(json.at("settings"));
     project.fragments = value_of_name(fragment_names, json.at("fragment_choice"));
@@ -276,6 +286,7 @@ std::string to_json(const Project& project) {
               {"discarded", list_of(project.discarded)},
               {"warnings", project.warnings},
               {"jobs", list_of(project.jobs)}};
+    if (project.ignored) json["ignored"] = json_of(*project.ignored);
     if (project.beam) json["beam"] = json_of(*project.beam);
     if (project.verdict) json["verdict"] = json_of(*project.verdict);
     return text_of(json) + "\n";

@@ -21,6 +21,17 @@ std::vector<std::string> discarded_lines(const Project& project) {
     return lines;
 }
 
+std::string ignored_line(const IgnoredSurface& ignored) {
+    std::string by = ignored.painted.empty() ? "" : "painted in " + ignored.painted.string();
+    if (ignored.inside) by += by.empty() ? "inside" : ", inside";
+    return "ignored: " + fixed(100 * ignored.share, 2) + " % of the scan's surface (" + by + ")";
+}
+
+std::vector<std::string> ignored_lines(const Project& project) {
+    if (!project.ignored) return {};
+    return {ignored_line(*project.ignored)};
+}
+
 std::string kept_cuts(std::size_t cuts, const std::filesystem::path& folder, bool is_beam) {
     return "The " + std::to_string(cuts) + " cuts " + (is_beam ? "of the best segmentation so far" : "made so far") +
            " are kept in " + folder.string();

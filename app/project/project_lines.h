@@ -15,6 +15,11 @@ namespace qchopper {
 // order of the decisions. Precondition: project.discards and project.discarded have the same length.
 std::vector<std::string> discarded_lines(const Project& project);
 
+// "ignored: 12.40 % of the scan's surface (painted in FILE, inside)".
+std::string ignored_line(const IgnoredSurface& ignored);
+// That line, or none.
+std::vector<std::string> ignored_lines(const Project& project);
+
 // "The 3 cuts made so far are kept in NAME.qch", without a full stop.
 std::string kept_cuts(std::size_t cuts, const std::filesystem::path& folder, bool is_beam = false);
 

@@ -11,12 +11,19 @@
 
 namespace qchopper {
 
+// Which surface may stay as it is.
+struct IgnoreChoices {
+    std::optional<std::filesystem::path> painted = {};  // a PLY in which it is marked (segment/io/read_painted.h)
+    bool inside = false;                                // what lies inside (segment/score/inside.h)
+};
+
 // What an operator chooses for a new project.
 struct ProjectChoices {
     std::filesystem::path scan;
     std::optional<double> mm_per_unit;  // of the scan; nothing: as in its file
     double scale = 1;
     RepairChoices repair = {};
+    IgnoreChoices ignore = {};
     std::string preset = {};       // the name of the settings; empty: none
     SearchSettings settings = {};  // all but the volume below which solids are no pieces
     GivenWeights weights = {};     // in place of those of the settings

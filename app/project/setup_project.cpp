@@ -84,6 +84,7 @@ SetupAnswer setup_project(const std::filesystem::path& folder, const SetupReques
     }
     answer.folder = folder;
     answer.cell = project.setups()->cell();
+    answer.ignored = project.project().ignored;
     answer.max_unreachable = most_unreachable(project.project(), answer.cell);
     return answer;
 }

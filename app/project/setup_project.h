@@ -36,6 +36,7 @@ struct SetupAnswer {
     std::string done;  // the decision as a sentence; empty: none was made
     bool is_job_written = false;
     double max_unreachable = 0;  // share
+    std::optional<IgnoredSurface> ignored;
     std::vector<PieceSetups> pieces;
 };
 

@@ -84,6 +84,13 @@ SolidRecord solid_from(const Json& json) {
             json.at("volume_mm3").get<double>(), vec3_from(json.at("centre_mm"))};
 }
 
+Json json_of(const IgnoredSurface& ignored) {
+    return {{"painted", ignored.painted.empty() ? Json() : Json(ignored.painted.string())},
+            {"inside", ignored.inside},
+            {"share", ignored.share},
+            {"sha256", to_hex(ignored.sha256)}};
+}
+
 Json json_of(const SearchSettings& s) {
     const Objectives& o = s.objectives;
     Json stop{{"combine", name_of_value(stop_names, s.stop.combine)},

@@ -1,6 +1,6 @@
 // Converts values to JSON and back, for project.json and the documents of the commands.
 //
-// Keys are those of docs/project-folder.md (VECTOR, WEIGHTS, TERMS, SOLID, SETTINGS, CUT). The readers throw
+// Keys are those of docs/project-folder.md (VECTOR, WEIGHTS, TERMS, SOLID, IGNORED, SETTINGS, CUT). The readers throw
 // nlohmann::json::exception for a missing or wrong value, and InputError (config) for an unknown name of an
 // enumeration.
 
@@ -17,6 +17,7 @@ nlohmann::ordered_json json_of(Vec3 v);
 nlohmann::ordered_json json_of(const Weights& weights);
 nlohmann::ordered_json json_of(const Terms& terms);
 nlohmann::ordered_json json_of(const SolidRecord& solid);  // a fragment has no name
+nlohmann::ordered_json json_of(const IgnoredSurface& ignored);
 nlohmann::ordered_json json_of(const SearchSettings& settings);
 nlohmann::ordered_json json_of(const Cut& cut);
 nlohmann::ordered_json json_of(const CutVerdict& verdict);

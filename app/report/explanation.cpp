@@ -85,6 +85,7 @@ std::string verdict(const Explanation& e) {
 std::vector<std::string> lines(const Explanation& e, const Project& project, const std::string& picture) {
     std::vector<std::string> text{"cut " + std::to_string(e.cut.number) + " on piece " + e.cut.piece + " makes " +
                                   makes(e.cut)};
+    for (const std::string& line : ignored_lines(project)) text.push_back(line);
     for (const std::string& line : discarded_lines(project)) text.push_back(line);
     text.push_back(verdict(e));
     for (const std::string& line : columns(table(e))) text.push_back(line);
@@ -103,19 +104,20 @@ std::vector<std::string> warnings(const Explanation& e) {
 std::string document(const Explanation& e, const Project& project, const std::string& picture) {
     Json best = Json::array();
     for (std::size_t i = 0; i < std::min(e.ranked.size(), shown); ++i) best.push_back(to_json(e.ranked[i]));
-    const Json json{{"schema", "qchopper-explain-2"},
-                    {"cut", e.cut.number},
-                    {"piece", e.cut.piece},
-                    {"pieces", e.cut.pieces},
-                    {"fragments", e.cut.fragments},
-                    {"discarded", discarded_json(project)},
-                    {"weights", json_of(e.objectives.weights)},
-                    {"chosen", to_json(e.chosen)},
-                    {"place", e.place ? Json(*e.place + 1) : Json()},
-                    {"candidates", e.ranked.size()},
-                    {"best", best},
-                    {"verdict", verdict(e)},
-                    {"picture", picture}};
+    Json json{{"schema", "qchopper-explain-2"},
+              {"cut", e.cut.number},
+              {"piece", e.cut.piece},
+              {"pieces", e.cut.pieces},
+              {"fragments", e.cut.fragments},
+              {"discarded", discarded_json(project)},
+              {"weights", json_of(e.objectives.weights)},
+              {"chosen", to_json(e.chosen)},
+              {"place", e.place ? Json(*e.place + 1) : Json()},
+              {"candidates", e.ranked.size()},
+              {"best", best},
+              {"verdict", verdict(e)},
+              {"picture", picture}};
+    if (project.ignored) json["ignored"] = json_of(*project.ignored);
     return text_of(json);
 }
 

@@ -101,6 +101,7 @@ std::vector<std::string> table(const PreparedProject& prepared) {
     }
     std::vector<std::string> lines = columns(rows);
     if (const std::string note = arm_note(prepared.cell); !note.empty()) lines.push_back(note);
+    for (const std::string& line : ignored_lines(prepared.project)) lines.push_back(line);
     const std::size_t fragments = prepared.project.fragment_list.size();
     if (fragments > 0) {
         double volume = 0;
@@ -136,26 +137,27 @@ std::string document(const PreparedProject& prepared) {
     for (const PieceReport& piece : prepared.pieces) pieces.push_back(piece_json(piece, prepared.cell));
     Json fragments = Json::array();
     for (const SolidRecord& fragment : p.fragment_list) fragments.push_back(json_of(fragment));
-    const Json json{{"schema", "qchopper-prepare-3"},
-                    {"project", prepared.folder.string()},
-                    {"scan",
-                     {{"path", p.scan.path.string()},
-                      {"sha256", to_hex(p.scan.sha256)},
-                      {"units", name_of(p.scan.unit)},
-                      {"scale", p.scan.scale},
-                      {"faces", p.scan.faces},
-                      {"volume_mm3", p.scan.volume_mm3}}},
-                    {"stop_rules_hold", p.do_rules_hold()},
-                    {"ended_because", p.ended_because},
-                    {"all_fit", prepared.all_fit()},
-                    {"max_unreachable", prepared.max_unreachable},
-                    {"arm_checked", prepared.cell.machine.has_value()},
-                    {"cuts", cuts},
-                    {"verdicts", verdicts},
-                    {"pieces", pieces},
-                    {"fragments", fragments},
-                    {"discarded", discarded_json(p)},
-                    {"warnings", p.warnings}};
+    Json json{{"schema", "qchopper-prepare-3"},
+              {"project", prepared.folder.string()},
+              {"scan",
+               {{"path", p.scan.path.string()},
+                {"sha256", to_hex(p.scan.sha256)},
+                {"units", name_of(p.scan.unit)},
+                {"scale", p.scan.scale},
+                {"faces", p.scan.faces},
+                {"volume_mm3", p.scan.volume_mm3}}},
+              {"stop_rules_hold", p.do_rules_hold()},
+              {"ended_because", p.ended_because},
+              {"all_fit", prepared.all_fit()},
+              {"max_unreachable", prepared.max_unreachable},
+              {"arm_checked", prepared.cell.machine.has_value()},
+              {"cuts", cuts},
+              {"verdicts", verdicts},
+              {"pieces", pieces},
+              {"fragments", fragments},
+              {"discarded", discarded_json(p)},
+              {"warnings", p.warnings}};
+    if (p.ignored) json["ignored"] = json_of(*p.ignored);
     return text_of(json);
 }
 

@@ -97,6 +97,7 @@ std::vector<std::string> committed_lines(const Project& project) {
     text.push_back(counted(project.pieces.size(), "piece") + " by " + counted(project.cuts.size(), "cut") + ", " +
                    counted(project.fragment_list.size(), "fragment") +
                    ". Weights: " + describe_weights(project.settings.objectives.weights) + ".");
+    add(text, ignored_lines(project));
     add(text, discarded_lines(project));
     for (const auto& [option, what] : {std::pair{"--undo", describe_step("Undo ", to_undo(project.history))},
                                        {"--redo", describe_step("Redo ", to_redo(project.history))}})
@@ -224,6 +225,7 @@ std::string document(const SegmentAnswer& answer) {
               {"fragments", project.fragment_list.size()},
               {"discarded", discarded_json(project)},
               {"warnings", project.warnings}};
+    if (project.ignored) json["ignored"] = json_of(*project.ignored);
     if (answer.pieces_written) json["pieces_written"] = (answer.folder / "pieces").string();
     if (answer.plan) json["plan"] = answer.plan->string();
     if (answer.proposal) json["proposal"] = proposal_json(*answer.proposal, project);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "app/project/project_lines.h"
 #include "app/project/shell_word.h"
 #include "app/project/value_json.h"
 #include "app/report/columns.h"
@@ -77,6 +78,9 @@ void add_piece(const PieceSetups& p, const SetupAnswer& answer, std::vector<std:
     lines.emplace_back("Directions of the setup in force, in degrees:");
     add_directions(chosen, lines);
     const SurfaceReach& reach = chosen.reach;
+    if (reach.ignored_mm2 > 0) {
+        lines.push_back("Beside that " + fixed(reach.ignored_mm2 / 100, 1) + " cm2 of the piece are ignored.");
+    }
     lines.push_back("With all directions that can be held " + share_word(reach.all_directions_share) +
                     " stays out of reach.");
     if (reach.further) {
@@ -131,22 +135,24 @@ std::string arm_note(const Cell& cell) {
 nlohmann::ordered_json reach_json(const SurfaceReach& r) {
     Json directions = Json::array();
     for (const SetupDirection& d : r.directions) directions.push_back(direction_json(d));
-    return {{"method", r.method == ReachMethod::mapped ? "mapped" : "sampled"},
-            {"unreachable_share", r.unreachable_share()},
-            {"area_mm2", r.area_mm2},
-            {"hidden_mm2", r.hidden_mm2},
-            {"steep_mm2", r.steep_mm2},
-            {"steep_counts", r.steep_counts},
-            {"holder_mm2", r.holder_mm2},
-            {"too_narrow_mm2", r.too_narrow_mm2},
-            {"narrow_counts", r.narrow_counts},
-            {"all_directions_share", r.all_directions_share},
-            {"foam_mm3", r.foam_mm3},
-            {"foam_depth_mm", r.foam_depth_mm},
-            {"residue_mm3", r.residue_mm3},
-            {"arm_checked", r.is_arm_checked},
-            {"directions", directions},
-            {"further", r.further ? direction_json(*r.further) : Json()}};
+    Json json{{"method", r.method == ReachMethod::mapped ? "mapped" : "sampled"},
+              {"unreachable_share", r.unreachable_share()},
+              {"area_mm2", r.area_mm2},
+              {"hidden_mm2", r.hidden_mm2},
+              {"steep_mm2", r.steep_mm2},
+              {"steep_counts", r.steep_counts},
+              {"holder_mm2", r.holder_mm2},
+              {"too_narrow_mm2", r.too_narrow_mm2},
+              {"narrow_counts", r.narrow_counts},
+              {"all_directions_share", r.all_directions_share},
+              {"foam_mm3", r.foam_mm3},
+              {"foam_depth_mm", r.foam_depth_mm},
+              {"residue_mm3", r.residue_mm3},
+              {"arm_checked", r.is_arm_checked},
+              {"directions", directions},
+              {"further", r.further ? direction_json(*r.further) : Json()}};
+    if (r.ignored_mm2 > 0) json["ignored_mm2"] = r.ignored_mm2;
+    return json;
 }
 
 std::vector<std::string> lines(const SetupAnswer& answer) {
@@ -165,6 +171,7 @@ std::vector<std::string> lines(const SetupAnswer& answer) {
         for (const std::string& line : columns(rows)) text.push_back(line);
         text.emplace_back("Shares are of the area without the base.");
     }
+    if (answer.ignored) text.push_back(ignored_line(*answer.ignored) + "; it counts in no share.");
     if (const std::string note = arm_note(answer.cell); !note.empty()) text.push_back(note);
     const std::string word = shell_word(answer.folder);
     if (answer.is_job_written) text.push_back("The job of the piece is written again.");
@@ -187,13 +194,15 @@ std::string document(const SetupAnswer& answer) {
         }
         pieces.push_back({{"name", p.piece}, {"ordered", ordered}, {"setups", setups}});
     }
-    return text_of(Json{{"schema", "qchopper-setup-1"},
-                        {"project", answer.folder.string()},
-                        {"cell", answer.cell.name},
-                        {"max_unreachable", answer.max_unreachable},
-                        {"done", answer.done},
-                        {"job_written", answer.is_job_written},
-                        {"pieces", pieces}});
+    Json json{{"schema", "qchopper-setup-1"},
+              {"project", answer.folder.string()},
+              {"cell", answer.cell.name},
+              {"max_unreachable", answer.max_unreachable},
+              {"done", answer.done},
+              {"job_written", answer.is_job_written},
+              {"pieces", pieces}};
+    if (answer.ignored) json["ignored"] = json_of(*answer.ignored);
+    return text_of(json);
 }
 
 }  // namespace qchopper

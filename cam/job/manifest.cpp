@@ -36,22 +36,24 @@ Json from_direction(const SetupDirection& direction) {
 Json from_reach(const SurfaceReach& reach) {
     Json directions = Json::array();
     for (const SetupDirection& direction : reach.directions) directions.push_back(from_direction(direction));
-    return {{"method", to_word(reach.method)},
-            {"arm_checked", reach.is_arm_checked},
-            {"directions", directions},
-            {"further", reach.further ? from_direction(*reach.further) : Json(nullptr)},
-            {"area_mm2", reach.area_mm2},
-            {"hidden_mm2", reach.hidden_mm2},
-            {"steep_mm2", reach.steep_mm2},
-            {"holder_mm2", reach.holder_mm2},
-            {"too_narrow_mm2", reach.too_narrow_mm2},
-            {"steep_counts", reach.steep_counts},
-            {"narrow_counts", reach.narrow_counts},
-            {"unreachable_share", reach.unreachable_share()},
-            {"all_directions_share", reach.all_directions_share},
-            {"foam_mm3", reach.foam_mm3},
-            {"foam_depth_mm", reach.foam_depth_mm},
-            {"residue_mm3", reach.residue_mm3}};
+    Json json{{"method", to_word(reach.method)},
+              {"arm_checked", reach.is_arm_checked},
+              {"directions", directions},
+              {"further", reach.further ? from_direction(*reach.further) : Json(nullptr)},
+              {"area_mm2", reach.area_mm2},
+              {"hidden_mm2", reach.hidden_mm2},
+              {"steep_mm2", reach.steep_mm2},
+              {"holder_mm2", reach.holder_mm2},
+              {"too_narrow_mm2", reach.too_narrow_mm2},
+              {"steep_counts", reach.steep_counts},
+              {"narrow_counts", reach.narrow_counts},
+              {"unreachable_share", reach.unreachable_share()},
+              {"all_directions_share", reach.all_directions_share},
+              {"foam_mm3", reach.foam_mm3},
+              {"foam_depth_mm", reach.foam_depth_mm},
+              {"residue_mm3", reach.residue_mm3}};
+    if (reach.ignored_mm2 > 0) json["ignored_mm2"] = reach.ignored_mm2;
+    return json;
 }
 
 Json from_alternatives(const std::vector<Alternative>& alternatives) {
@@ -180,6 +182,7 @@ SurfaceReach to_reach(const Json& json) {
     reach.steep_mm2 = not_negative(json, "steep_mm2");
     reach.holder_mm2 = not_negative(json, "holder_mm2");
     reach.too_narrow_mm2 = not_negative(json, "too_narrow_mm2");
+    if (json.contains("ignored_mm2")) reach.ignored_mm2 = not_negative(json, "ignored_mm2");
     reach.steep_counts = truth(json, "steep_counts");
     reach.narrow_counts = truth(json, "narrow_counts");
     reach.all_directions_share = not_negative(json, "all_directions_share");

@@ -17,8 +17,8 @@
 namespace qchopper {
 namespace {
 
-constexpr std::array states{SurfaceState::reached, SurfaceState::too_narrow, SurfaceState::steep, SurfaceState::holder,
-                            SurfaceState::hidden};
+constexpr std::array states{SurfaceState::reached, SurfaceState::too_narrow, SurfaceState::steep,
+                            SurfaceState::holder,  SurfaceState::hidden,     SurfaceState::ignored};
 constexpr std::uint8_t base_index = states.size();  // in the palette, after the states
 
 constexpr Rgb bar_colour{105, 110, 120};
@@ -152,6 +152,8 @@ Rgb surface_colour(SurfaceState state) {
             return {105, 25, 115};
         case SurfaceState::hidden:
             return {205, 50, 15};
+        case SurfaceState::ignored:
+            return {150, 155, 160};
     }
     return bone_colour;
 }

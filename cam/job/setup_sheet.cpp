@@ -143,6 +143,7 @@ std::string keys_of(const JobInput& input) {
         add(surface_colour(SurfaceState::steep), "steep");
         add(surface_colour(SurfaceState::holder), "holder");
         add(surface_colour(SurfaceState::too_narrow), "too narrow");
+        if (input.setup.reach.ignored_mm2 > 0) add(surface_colour(SurfaceState::ignored), "ignored");
     }
     if (input.setup.base) add(base_colour, "base");
     if (html.empty()) return {};
@@ -320,6 +321,11 @@ std::string reach_section(const JobInput& input) {
                     word("")});
     std::string html = table(rows);
     html += "<p>" + key(base_colour, "the base, which is left out of all shares").html + "</p>\n";
+    if (reach.ignored_mm2 > 0) {
+        html += "<p>" + key(surface_colour(SurfaceState::ignored), "ignored").html + ": " +
+                fixed(reach.ignored_mm2 / 100, 1) +
+                " cm2 that may stay as they are by the operator's choice; left out of all shares</p>\n";
+    }
     if (input.states.empty()) {
         html += paragraph("The pictures show the piece in one colour: which triangles are reached was not computed.");
     }

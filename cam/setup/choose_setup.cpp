@@ -111,6 +111,12 @@ std::optional<ToolBody> deepest_tool(const Cell& cell) {
     return tool_body(longest_tool(cell.machine->tools), cell.machine->spindle);
 }
 
+double ignored_mm2(const TriangleMesh& mesh) {
+    double area = 0;
+    for (std::size_t t = 0; t < mesh.ignored.size(); ++t) area += is_ignored(mesh, t) ? norm(area_vector(mesh, t)) : 0;
+    return area;
+}
+
 SetupDirection described(const ChosenDirection& chosen, const Setup& setup, double area_mm2) {
     SetupDirection direction;
     direction.out = chosen.direction;
@@ -218,6 +224,7 @@ class Choice {
         const ChosenDirections& directions = of_base.directions;
         SurfaceReach& reach = setup.reach;
         reach.area_mm2 = of_base.area_mm2;
+        reach.ignored_mm2 = ignored_mm2(*piece_.mesh);
         for (const ChosenDirection& d : directions.chosen) {
             reach.directions.push_back(described(d, setup, reach.area_mm2));
         }

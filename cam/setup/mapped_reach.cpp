@@ -124,11 +124,13 @@ struct StateSums {
     double hidden = 0;
     double steep = 0;
     double holder = 0;
+    double ignored = 0;
     void add(const StateSums& other) {
         area += other.area;
         hidden += other.hidden;
         steep += other.steep;
         holder += other.holder;
+        ignored += other.ignored;
     }
 };
 
@@ -136,7 +138,7 @@ class Reaching {
  public:
     explicit Reaching(const MappedSetup& setup) : setup_(setup), mesh_(*setup.mesh), surfaces_(mesh_.triangles.size()) {
         area_ = summed<StateSums>(surfaces_.size(), [&](StateSums& sums, std::size_t t) {
-                    if (!is_base(t)) sums.area += norm(area_vector(mesh_, t));
+                    if (counts(t)) sums.area += norm(area_vector(mesh_, t));
                 }).area;
     }
 
@@ -163,7 +165,7 @@ class Reaching {
         const Vec3 out = rotate(setup_.piece_in_setup, direction.out);
         Depths depths(norm(setup_.block.size()), area_);
         const auto gained = summed<Sum>(surfaces_.size(), [&](Sum& block, std::size_t t) {
-            if (is_base(t)) return;
+            if (!counts(t)) return;
             Surface& surface = surfaces_[t];
             if (is_cut_freely(map, t, reached[t])) {
                 const Vec3 middle = apply(setup_.piece_in_setup, middle_of(mesh_, t));
@@ -185,9 +187,14 @@ class Reaching {
                        [](const Surface& surface) { return surface.reached; });
         Depths depths(norm(bounds(mesh_).size()), area_);
         const StateSums sums = summed<StateSums>(surfaces_.size(), [&](StateSums& block, std::size_t t) {
-            if (is_base(t)) return;
-            const Surface& surface = surfaces_[t];
             const double area = norm(area_vector(mesh_, t));
+            if (!counts(t)) {
+                if (is_base(t)) return;
+                block.ignored += area;
+                result.states[t] = SurfaceState::ignored;
+                return;
+            }
+            const Surface& surface = surfaces_[t];
             const float holder = std::max(0.0F, surface.seen - surface.reached);
             const float unseen = 1 - surface.seen;
             block.holder += static_cast<double>(holder) * area;
@@ -204,6 +211,7 @@ class Reaching {
         result.reach.hidden_mm2 = sums.hidden;
         result.reach.steep_mm2 = sums.steep;
         result.reach.holder_mm2 = sums.holder;
+        result.reach.ignored_mm2 = sums.ignored;
         result.reach.foam_depth_mm = depths.largest();
     }
 
@@ -225,6 +233,8 @@ class Reaching {
     }
 
     bool is_base(std::size_t t) const { return setup_.base && cap_of(mesh_, t) == *setup_.base; }
+    // Whether the triangle is surface that is to be reached.
+    bool counts(std::size_t t) const { return !is_base(t) && !is_ignored(mesh_, t); }
 
     const MappedSetup& setup_;
     const TriangleMesh& mesh_;

@@ -47,14 +47,14 @@ struct MappedReach {
 // direction's foam is taken as removed first) nor come below z = 0. With a tool for which steep does not count, steep
 // triangles count for the depth of a direction, because the side of the tool cuts them.
 //
-// Foam is what lies above z = 0 in the block, outside of the piece and below its surface in all maps; holder and
-// spindle are not asked. Its volume is that of points on a grid (foam_points.h): its standard deviation is about half
-// a grid step times the square root of the area that bounds the foam times the step, its bias at most half a cell of
-// the map times the area that is steep to the directions. Its depth is measured from a cell's width above hidden
-// surface, and holds the parts of the piece that lie over it; it is right to 1/4096 of the diagonal of the piece's box,
-// and the deepest ten-thousandth of that surface is left out. The residue is measured on cells of between a seventh and
-// two thirds of the radius: with the latter a fifth of a corner's is missed, and none is found of a radius below two
-// cells of the map.
+// Triangles that are ignored count in no area, depth or depth of foam. Foam is what lies above z = 0 in the block,
+// outside of the piece and below its surface in all maps; holder and spindle are not asked. Its volume is that of
+// points on a grid (foam_points.h): its standard deviation is about half a grid step times the square root of the area
+// that bounds the foam times the step, its bias at most half a cell of the map times the area that is steep to the
+// directions. Its depth is measured from a cell's width above hidden surface, and holds the parts of the piece that lie
+// over it; it is right to 1/4096 of the diagonal of the piece's box, and the deepest ten-thousandth of that surface is
+// left out. The residue is measured on cells of between a seventh and two thirds of the radius: with the latter a fifth
+// of a corner's is missed, and none is found of a radius below two cells of the map.
 //
 // The depth of a direction is right to 1/4096 of the block's diagonal and leaves out the deepest ten-thousandth of the
 // area that it reaches, and what lies within a cell of higher surface.

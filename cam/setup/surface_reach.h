@@ -1,6 +1,7 @@
 // How much of a piece's surface the tool reaches from the directions of a setup, and what stays.
 //
-// Values only; mm, mm2, mm3. Shares are of the piece's area without its base. Visibility is that of a tool of radius
+// Values only; mm, mm2, mm3. Shares are of the piece's area without its base and
+// without surface that is ignored. Visibility is that of a tool of radius
 // zero; what its radius leaves is told apart as too narrow, and as residue.
 
 #pragma once
@@ -31,17 +32,19 @@ enum class SurfaceState : std::uint8_t {
     too_narrow,  // in sight of a direction, but the ball of the smallest tool does not fit
     steep,       // within 3 degrees of a direction and reached from none
     holder,      // in sight, but holder or spindle would touch piece, spoil layer or table: the tool is too short
-    hidden
+    hidden,
+    ignored  // may stay as it is (TriangleMesh::ignored)
 };
 
 struct SurfaceReach {
     ReachMethod method = ReachMethod::sampled;
     std::vector<SetupDirection> directions;  // the base's up first
-    double area_mm2 = 0;                     // of the piece without its base
+    double area_mm2 = 0;                     // of the piece without its base and what is ignored
     double hidden_mm2 = 0;                   // caps that face away from all directions included
     double steep_mm2 = 0;
     double holder_mm2 = 0;
     double too_narrow_mm2 = 0;        // reached, but not by the ball
+    double ignored_mm2 = 0;           // beside area_mm2
     bool steep_counts = true;         // false for a tool that hardly tilts (unreachable.h)
     bool narrow_counts = false;       // on request
     double all_directions_share = 0;  // unreachable with all directions that can be held; sampled; in the setup that is

@@ -75,6 +75,8 @@ class HalfWriter {
         half_.mesh.triangles.push_back(t);
         half_.mesh.cap_of.push_back(cap);
         half_.parent.push_back(parent);
+        if (mesh_.ignored.empty()) return;
+        half_.mesh.ignored.push_back(parent != no_parent && is_ignored(mesh_, parent) ? 1 : 0);
     }
 
     const TriangleMesh& mesh_;

@@ -145,6 +145,7 @@ TriangleMesh in_memory_order(const TriangleMesh& mesh) {
         const std::uint32_t b = numbered(v[1]);
         result.triangles.push_back({a, b, numbered(v[2])});
         if (!mesh.cap_of.empty()) result.cap_of.push_back(mesh.cap_of[t]);
+        if (!mesh.ignored.empty()) result.ignored.push_back(mesh.ignored[t]);
     }
     for (std::uint32_t v = 0; v < number.size(); ++v) numbered(v);
     assert(result.points.size() == mesh.points.size() && result.triangles.size() == mesh.triangles.size());

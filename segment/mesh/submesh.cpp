@@ -11,6 +11,7 @@ namespace qchopper {
 void keep_triangles(TriangleMesh& mesh, const std::vector<bool>& is_kept) {
     keep_marked(mesh.triangles, is_kept);
     if (!mesh.cap_of.empty()) keep_marked(mesh.cap_of, is_kept);
+    if (!mesh.ignored.empty()) keep_marked(mesh.ignored, is_kept);
 }
 
 std::vector<TriangleMesh> submeshes(const TriangleMesh& mesh, std::span<const std::uint32_t> group_of,
@@ -31,6 +32,7 @@ std::vector<TriangleMesh> submeshes(const TriangleMesh& mesh, std::span<const st
         }
         part.triangles.push_back(triangle);
         if (!mesh.cap_of.empty()) part.cap_of.push_back(mesh.cap_of[t]);
+        if (!mesh.ignored.empty()) part.ignored.push_back(mesh.ignored[t]);
     }
     assert(std::all_of(parts.begin(), parts.end(), is_consistent));
     return parts;

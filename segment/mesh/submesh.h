@@ -1,4 +1,4 @@
-// Selects triangles of a mesh, with their caps, or divides a mesh into parts.
+// Selects triangles of a mesh, with their caps and what of them is ignored, or divides a mesh into parts.
 //
 // Triangles keep their order. O(triangles + points), however many parts there are
 // (tests/segment/mesh/submesh_test.cpp).

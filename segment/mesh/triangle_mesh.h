@@ -26,14 +26,18 @@ struct TriangleMesh {
     std::vector<Vec3> points;
     std::vector<Triangle> triangles;
     std::vector<std::int32_t> cap_of;  // one per triangle: number of the cut whose cap it is of, or no_cap; or empty
+    // One per triangle: 1 for surface that may stay as it is, so that it counts neither as surface to be reached nor as
+    // out of reach; or empty: there is none.
+    std::vector<std::uint8_t> ignored = {};
     bool operator==(const TriangleMesh&) const = default;
 };
 
-// Whether every corner is the index of a point, and cap_of is empty or has one entry per triangle. Holds for every
-// mesh; meant for asserts. O(triangles).
+// Whether every corner is the index of a point, and cap_of and ignored are empty or have one entry per triangle. Holds
+// for every mesh; meant for asserts. O(triangles).
 inline bool is_consistent(const TriangleMesh& mesh) {
     const auto has_points = [&](const Triangle& t) { return std::max({t[0], t[1], t[2]}) < mesh.points.size(); };
     return (mesh.cap_of.empty() || mesh.cap_of.size() == mesh.triangles.size()) &&
+           (mesh.ignored.empty() || mesh.ignored.size() == mesh.triangles.size()) &&
            std::all_of(mesh.triangles.begin(), mesh.triangles.end(), has_points);
 }
 
@@ -56,6 +60,12 @@ inline Vec3 area_vector(const TriangleMesh& mesh, std::size_t triangle) {
 inline std::int32_t cap_of(const TriangleMesh& mesh, std::size_t triangle) {
     assert(mesh.cap_of.empty() || triangle < mesh.cap_of.size());
     return mesh.cap_of.empty() ? no_cap : mesh.cap_of[triangle];
+}
+
+// Whether the triangle is surface that may stay as it is.
+inline bool is_ignored(const TriangleMesh& mesh, std::size_t triangle) {
+    assert(mesh.ignored.empty() || triangle < mesh.ignored.size());
+    return !mesh.ignored.empty() && mesh.ignored[triangle] != 0;
 }
 
 }  // namespace qchopper

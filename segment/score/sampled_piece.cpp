@@ -26,7 +26,7 @@ SampledPiece sampled_alone(const Piece& piece, std::vector<Vec3> directions, std
     options.samples = samples;
     options.is_left_out.emplace_back(piece.mesh->triangles.size());
     for (std::size_t t = 0; t < piece.mesh->triangles.size(); ++t) {
-        options.is_left_out.front()[t] = cap_of(*piece.mesh, t) != no_cap;
+        options.is_left_out.front()[t] = cap_of(*piece.mesh, t) != no_cap || is_ignored(*piece.mesh, t);
     }
     const auto scan = std::make_shared<SampledScan>(sampled_scan({&alone, 1}, std::move(directions), options));
     return {scan, std::move(uncut_accessibility(*scan).front()), owned_caps(piece)};
@@ -36,8 +36,12 @@ void sample_uncut(std::span<Piece> uncut, const DistanceStore& store, std::size_
     if (uncut.empty()) return;
     SampledScanOptions options;
     options.samples = count;
+    for (const Piece& piece : uncut) {
+        options.is_left_out.emplace_back(piece.mesh->ignored.begin(), piece.mesh->ignored.end());
+    }
     const auto axes = oriented_box(points_of(uncut)).axis;
     const auto scan = std::make_shared<const SampledScan>(sampled_scan(uncut, tool_directions(axes), options));
+    if (scan->samples.sample.empty()) return;  // all surface is ignored but that of fragments
     std::optional<std::vector<PieceAccessibility>> pieces;
     if (store.find) pieces = store.find(*scan);
     if (!pieces) {

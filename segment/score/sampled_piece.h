@@ -24,7 +24,7 @@ struct SampledPiece {
     JudgedPiece judged() const { return {*scan, accessibility, caps}; }
 };
 
-// With samples and rays of its own, its caps left out.
+// With samples and rays of its own, its caps and what is ignored left out.
 SampledPiece sampled_alone(const Piece& piece, std::vector<Vec3> directions, std::size_t samples);
 
 // Where the distances of an uncut scan are kept beyond the end of the program. Both functions may be empty.
@@ -35,8 +35,8 @@ struct DistanceStore {
 };
 
 // Gives all pieces of an uncut scan samples, `count` in all, with the 264 directions of the octahedron and the axes of
-// the box around all of them. Precondition: the pieces have no half-spaces. O(triangles) for the trees and count x 264
-// rays, unless the store has them.
+// the box around all of them. Surface that is ignored carries none; if all is, no piece gets samples. Precondition: the
+// pieces have no half-spaces. O(triangles) for the trees and count x 264 rays, unless the store has them.
 void sample_uncut(std::span<Piece> uncut, const DistanceStore& store = {}, std::size_t count = default_surface_samples);
 
 // Gives the pieces that a cut made of `parted` its samples; nothing if it has none. O(samples x directions + triangles

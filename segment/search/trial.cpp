@@ -17,19 +17,20 @@ constexpr double least_share_of_piece = 0.1;   // of its unreachable area
 constexpr double least_share_of_scan = 0.002;  // of the scan's area
 constexpr double mm2_per_cm2 = 100;
 
-double area_without_caps(const TriangleMesh& mesh) {
+// What objectives of reach count: without caps, and without what is ignored.
+double counted_area(const TriangleMesh& mesh) {
     double area = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (cap_of(mesh, t) == no_cap) area += norm(area_vector(mesh, t));
+        if (cap_of(mesh, t) == no_cap && !is_ignored(mesh, t)) area += norm(area_vector(mesh, t));
     }
     return area;
 }
 
 double scan_area(const Segmentation& segmentation) {
     double area = 0;
-    for (const Piece& piece : segmentation.pieces) area += area_without_caps(*piece.mesh);
-    for (const Fragment& fragment : segmentation.fragments) area += area_without_caps(*fragment.mesh);
-    for (const Discarded& discarded : segmentation.discarded) area += area_without_caps(*discarded.piece.mesh);
+    for (const Piece& piece : segmentation.pieces) area += counted_area(*piece.mesh);
+    for (const Fragment& fragment : segmentation.fragments) area += counted_area(*fragment.mesh);
+    for (const Discarded& discarded : segmentation.discarded) area += counted_area(*discarded.piece.mesh);
     return area;
 }
 

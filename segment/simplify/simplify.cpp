@@ -104,6 +104,7 @@ bool collapse_to(std::size_t most_faces, TriangleMesh& mesh, SimplifyReport& rep
 SimplifyReport simplify(TriangleMesh& mesh, const SimplifyOptions& options, const Context& context) {
     check(options);
     const Links found = links_of_closed(mesh);
+    mesh.ignored.clear();  // of no use to those who get the result
     SimplifyReport report;
     report.faces_before = mesh.triangles.size();
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) report.cap_faces += cap_of(mesh, t) != no_cap ? 1 : 0;

@@ -55,6 +55,16 @@ TEST(SetupPicture, HasPixelsOfEveryColourThatOccurs) {
     EXPECT_GT(count_of(pictures, base_colour), 200U) << "the base is seen from below";
 }
 
+TEST(SetupPicture, ShowsIgnoredSurfaceInAColourOfItsOwn) {
+    JobInput input = tilting_job();
+    input.states.assign(input.states.size(), SurfaceState::reached);
+    const std::size_t before = count_of(drawn(input), surface_colour(SurfaceState::ignored));
+    input.states.assign(input.states.size(), SurfaceState::ignored);
+    const SetupPictures pictures = drawn(input);
+    EXPECT_GT(count_of(pictures, surface_colour(SurfaceState::ignored)), before + 10'000U);
+    EXPECT_EQ(count_of(pictures, surface_colour(SurfaceState::reached)), 0U);
+}
+
 TEST(SetupPicture, HasNoPixelsOfAColourThatDoesNotOccur) {
     JobInput input = tilting_job();
     input.states.assign(input.states.size(), SurfaceState::hidden);

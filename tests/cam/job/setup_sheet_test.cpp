@@ -69,21 +69,23 @@ TEST(SetupSheet, SaysWhatToDoInACellOfVersion1) {
     EXPECT_EQ(row(sheet, "piece in block, height"), "piece in block, height | 25.7");
     EXPECT_EQ(sheet.find("DO NOT START"), std::string::npos);
     EXPECT_EQ(sheet.find("unreachable&quot;"), std::string::npos);
+    EXPECT_EQ(sheet.find("ignored"), std::string::npos);
     EXPECT_EQ(fault_of(sheet), "");
 }
 
 TEST(SetupSheet, TellsTheFiguresOfATiltingTool) {
     const std::string sheet = setup_sheet(tilting_job(), some_time_s);
-    expect_words(sheet,
-                 {"</span> hidden, <span", "Take block &quot;flat&quot; (pu_foam), 400 x 300 x 60 mm.",
-                  "Saw it down to 58 x 56 x 44 mm; a saw cut takes 3 mm",
-                  "A turn by 1 degree moves the corners of the block by 0.7 mm.", "12.0 mm above the table",
-                  "In the cell it is at (0.0, 0.0, 112.0).", "Clamps must stay within the lowest 12.0 mm",
-                  "Base 2: the cap of cut 4", "6.2 % of the triangles", "Arm not checked",
-                  "The state of this job is &quot;unreachable&quot;: the tool does not reach 5.00 % of the surface",
-                  "of the surface, and the limit is 2.00 %.", "only with --accept-unreachable",
-                  "Saw it off in the plane of its base, z = 0, 12.0 mm above the table",
-                  "With all directions that can be held, 1.25 % of the surface"});
+    expect_words(
+        sheet,
+        {"</span> hidden, <span", "Take block &quot;flat&quot; (pu_foam), 400 x 300 x 60 mm.",
+         "Saw it down to 58 x 56 x 44 mm; a saw cut takes 3 mm",
+         "A turn by 1 degree moves the corners of the block by 0.7 mm.", "12.0 mm above the table",
+         "In the cell it is at (0.0, 0.0, 112.0).", "Clamps must stay within the lowest 12.0 mm",
+         "Base 2: the cap of cut 4", "6.2 % of the triangles", "Arm not checked",
+         "The state of this job is &quot;unreachable&quot;: the tool does not reach 5.00 % of the surface",
+         "of the surface, and the limit is 2.00 %.", "only with --accept-unreachable",
+         "Saw it off in the plane of its base, z = 0, 12.0 mm above the table",
+         "With all directions that can be held, 1.25 % of the surface", "</span> ignored: 1.2 cm2 that may stay"});
     EXPECT_EQ(row(sheet, "1 | 339"), "1 | 339.0 | 300.0 | 60.0");
     EXPECT_EQ(row(sheet, "P3"),
               "P3 | corner of the block's top at -x, +y | -29.0 | 28.0 | 32.0 | -29.0 | 28.0 | 144.0");

@@ -45,6 +45,7 @@ inline SurfaceReach some_reach(const JobInput& input) {
     reach.foam_mm3 = 12345;
     reach.foam_depth_mm = 6.7;
     reach.residue_mm3 = 890;
+    reach.ignored_mm2 = 123;
     return reach;
 }
 

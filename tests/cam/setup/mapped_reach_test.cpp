@@ -78,6 +78,27 @@ TEST(MappedReach, ABoxIsReachedFromAboveButForItsSteepWalls) {
     EXPECT_LT(reach_of(setup).reach.unreachable_share(), 1e-9);
 }
 
+TEST(MappedReach, WhatIsIgnoredCountsNowhere) {
+    TriangleMesh mesh = cell_solid(steps(0, 100, 10), steps(0, 80, 10), steps(0, 60, 10), [](Vec3) { return true; });
+    const MappedReach all = reach_of(standing(mesh));
+    mesh.ignored.assign(mesh.triangles.size(), 0);
+    EXPECT_EQ(reach_of(standing(mesh)).reach, all.reach);
+    // The walls across x, and the base, which is no surface anyway.
+    const auto is_across_x = [&](std::size_t t) { return std::abs(normalized(area_vector(mesh, t)).x) > 0.5; };
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        mesh.ignored[t] = is_across_x(t) || cap_of(mesh, t) != no_cap ? 1 : 0;
+    }
+    const MappedReach some = reach_of(standing(mesh));
+    EXPECT_NEAR(some.reach.ignored_mm2, 2 * 60 * 80, 1e-6);
+    EXPECT_NEAR(some.reach.area_mm2, all.reach.area_mm2 - 2 * 60 * 80, 1e-6);
+    EXPECT_NEAR(some.reach.steep_mm2, 2 * 60 * 100, 1e-6);
+    EXPECT_NEAR(some.reach.directions[0].gained_share, 8000 / some.reach.area_mm2, 1e-9);
+    EXPECT_EQ(some.reach.foam_mm3, all.reach.foam_mm3) << "foam stays all the same";
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        EXPECT_EQ(some.states[t] == SurfaceState::ignored, is_across_x(t)) << t;
+    }
+}
+
 TEST(MappedReach, TrianglesWithoutAreaChangeNothing) {
     TriangleMesh mesh =
         cell_solid({0, 30, 90}, {0, 35, 70}, {0, 10, 50, 65}, [](Vec3 p) { return p.z < 10 || p.x < 30 || p.z > 50; });

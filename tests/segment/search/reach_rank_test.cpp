@@ -36,7 +36,10 @@ TriangleMesh bone(Specimen specimen) {
 // All planes of all normals with all their terms, nothing left out.
 std::vector<Ranked> rank_all(const Segmentation& segmentation, const SearchSettings& settings) {
     EvaluationCache cache(settings.objectives, settings.candidates);
-    return rank_whole_normals_by_reach(segmentation, 0, settings, cache, {}, 1'000, -1);
+    const int count = static_cast<int>(reach_normals(cache.box(segmentation.pieces[0])).size());
+    std::vector<Ranked> all;
+    for (int n = 0; n < count; ++n) all = rank_whole_normals_by_reach(segmentation, 0, settings, cache, {}, 0, n);
+    return all;
 }
 
 // Of all planes those that open nearly as much as the best one, or along the box's axes if none opens anything.
