@@ -121,6 +121,8 @@ void print_aims(const std::filesystem::path& folder, const std::vector<std::stri
                 const std::string& method, std::ostream& out) {
     const std::vector<CarveRun> thesis = runs_of(folder, models, "thesis", tilt);
     const std::vector<CarveRun> carve = runs_of(folder, models, method, tilt);
+    const bool is_any = std::any_of(carve.begin(), carve.end(), [](const CarveRun& r) { return !r.states.empty(); });
+    if (!is_any) return;
     out << "\n" << method << " / thesis at " << tilt << " degrees, at equal piece count:\n\n| model |";
     for (const std::size_t cuts : shown_cuts) {
         if (cuts > 0) out << " thesis' " << counted(cuts, "cut") << " |";
@@ -168,7 +170,7 @@ struct Errors {
 
 void print_errors(const std::filesystem::path& folder, const std::vector<std::string>& models,
                   const std::vector<int>& tilts, std::ostream& out) {
-    out << "\nPredicted less measured, in points, over all cuts:\n\n"
+    out << "\n### Predicted less measured\n\n"
            "| tilt | method | what | states | mean | mean size | largest |\n|---|---|---|---|---|---|---|\n";
     for (const int tilt : tilts) {
         for (const std::string& method : carve_methods) {
@@ -182,34 +184,11 @@ void print_errors(const std::filesystem::path& folder, const std::vector<std::st
                 }
             }
             for (const auto& [what, errors] : {std::pair{"predicted", &predicted}, {"after the cut", &on_samples}}) {
-                if (errors->count == 0) continue;
+                if (errors->count == 0 || (errors == &on_samples && method == "thesis")) continue;  // the same
                 out << "| " << tilt << " | " << method << " | " << what << " | " << errors->count << " | "
                     << errors->text() << " |\n";
             }
         }
-    }
-}
-
-void print_times(const std::filesystem::path& folder, const std::vector<std::string>& models,
-                 const std::vector<int>& tilts, std::ostream& out) {
-    out << "\nSeconds of search and judge (the thesis': of all its tilts):\n\n| model |";
-    for (const int tilt : tilts) {
-        for (const std::string& method : carve_methods) out << " " << method << ", " << tilt << " |";
-    }
-    out << "\n|---|" << [&] {
-        std::string rule;
-        for (std::size_t i = 0; i < tilts.size() * carve_methods.size(); ++i) rule += "---|";
-        return rule;
-    }() << "\n";
-    for (const std::string& model : models) {
-        out << "| " << model << " |";
-        for (const int tilt : tilts) {
-            for (const std::string& method : carve_methods) {
-                const CarveRun run = read_run(folder, {model, method, tilt, {}, 0, 0});
-                out << " " << (run.most_cuts > 0 ? fixed(run.seconds, 0) : "") << " |";
-            }
-        }
-        out << "\n";
     }
 }
 
@@ -222,7 +201,6 @@ void print_carve(const std::filesystem::path& folder, const std::vector<std::str
         for (std::size_t m = 1; m < carve_methods.size(); ++m) print_aims(folder, models, tilt, carve_methods[m], out);
     }
     print_errors(folder, models, tilts, out);
-    print_times(folder, models, tilts, out);
 }
 
 }  // namespace qchopper::bench

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "bench/carve_runs.h"
 #include "bench/carve_summary.h"
+#include "bench/judge_check.h"
 #include "bench/specimens.h"
 #include "segment/mesh/measure.h"
 
@@ -27,7 +28,7 @@ constexpr const char* usage =
   --beam   1 and 4 by default; with 1 comes the thesis
   --cuts   16 by default
   --data   where the scans lie
-  --small  the sample vertebra with 8,000 faces and two cuts, to check that it runs
+  --small  the sample vertebra with 8,000 faces and two cuts, to check that it runs, and the judge on a slot
   --print  prints what is there and makes no run
 )";
 
@@ -177,6 +178,7 @@ void make_runs(const TableChoice& choice, const Model& model, int beam, int tilt
 }
 
 void make_table(const TableChoice& choice) {
+    if (choice.is_small) print_judge_check(std::cout);
     std::filesystem::create_directories(choice.out);
     for (const int beam : choice.beams) {
         for (const int tilt : choice.tilts) {
