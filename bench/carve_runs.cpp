@@ -136,6 +136,7 @@ void search_and_judge(const TriangleMesh& scan, const std::string& model, const 
     Segmentation segmentation = uncut(scan, settings.objectives.fragment_volume_mm3);
     sample_uncut(segmentation.pieces, {}, options.search_samples);
     std::vector<std::unique_ptr<StateWriter>> writers;
+    writers.reserve(tilts.size());
     for (const int tilt : tilts) {
         writers.push_back(std::make_unique<StateWriter>(folder, CarveRun{model, method, tilt, {}, 0, 0}, options));
     }

@@ -55,6 +55,7 @@ void print_shares(const std::filesystem::path& folder, const std::vector<std::st
     for (const std::string& method : carve_methods) out << " " << method << " |";
     out << "\n|---|---|---|---|---|\n";
     std::vector<std::vector<CarveRun>> runs;
+    runs.reserve(carve_methods.size());
     for (const std::string& method : carve_methods) runs.push_back(runs_of(folder, models, method, tilt));
     for (std::size_t m = 0; m < models.size(); ++m) {
         for (const std::size_t cuts : shown_cuts) {

@@ -98,6 +98,7 @@ void fill_in(TableChoice& choice) {
 bool parse_table(int argc, char** argv, TableChoice& choice) {
     const auto numbers = [](const std::vector<std::string>& words) {
         std::vector<int> all;
+        all.reserve(words.size());
         for (const std::string& w : words) all.push_back(std::stoi(w));
         return all;
     };
