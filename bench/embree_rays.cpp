@@ -9,6 +9,23 @@
 
 namespace qchopper::bench {
 
+namespace {
+
+RTCRay embree_ray(const FreeRay& r) {
+    RTCRay ray{};
+    ray.org_x = static_cast<float>(r.origin.x);
+    ray.org_y = static_cast<float>(r.origin.y);
+    ray.org_z = static_cast<float>(r.origin.z);
+    ray.dir_x = static_cast<float>(r.direction.x);
+    ray.dir_y = static_cast<float>(r.direction.y);
+    ray.dir_z = static_cast<float>(r.direction.z);
+    ray.tfar = std::numeric_limits<float>::infinity();
+    ray.mask = ~0U;
+    return ray;
+}
+
+}  // namespace
+
 struct EmbreeRays::Tree {
     RTCDevice device = rtcNewDevice("");
     RTCScene scene = rtcNewScene(device);
@@ -48,19 +65,20 @@ std::vector<float> EmbreeRays::first_hits(std::span<const FreeRay> rays) const {
     rtcInitIntersectContext(&context);
     for (const FreeRay& r : rays) {
         RTCRayHit hit{};
-        hit.ray.org_x = static_cast<float>(r.origin.x);
-        hit.ray.org_y = static_cast<float>(r.origin.y);
-        hit.ray.org_z = static_cast<float>(r.origin.z);
-        hit.ray.dir_x = static_cast<float>(r.direction.x);
-        hit.ray.dir_y = static_cast<float>(r.direction.y);
-        hit.ray.dir_z = static_cast<float>(r.direction.z);
-        hit.ray.tfar = std::numeric_limits<float>::infinity();
-        hit.ray.mask = ~0U;
+        hit.ray = embree_ray(r);
         hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         rtcIntersect1(tree_->scene, &context, &hit);
         distances.push_back(hit.ray.tfar);
     }
     return distances;
+}
+
+bool EmbreeRays::is_free(const FreeRay& ray) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay asked = embree_ray(ray);
+    rtcOccluded1(tree_->scene, &context, &asked);
+    return asked.tfar >= 0;  // a hit makes it negative
 }
 
 }  // namespace qchopper::bench

@@ -24,6 +24,8 @@ class EmbreeRays {
     EmbreeRays& operator=(const EmbreeRays&) = delete;
     // The distance to the first triangle, infinite without one; one by one, in single precision.
     std::vector<float> first_hits(std::span<const FreeRay> rays) const;
+    // Whether it meets no triangle. May be called from many threads at once.
+    bool is_free(const FreeRay& ray) const;
 
  private:
     struct Tree;
