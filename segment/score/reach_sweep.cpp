@@ -508,7 +508,8 @@ class ReachSweep::PlaneSweep {
                 }
                 s.unreachable_mm2 = area_each() * blocked + s.caps_mm2;
                 s.base_mm2 = new_cap_[j];
-                s.projected_mm2 = std::max(0.0, area_each() * projected);
+                const double caps = caps_facing(is_above ? normal_ : -normal_, j, is_above);
+                s.projected_mm2 = std::max(0.0, area_each() * projected) + caps;
                 return s;
             };
             result[j].below.push_back(side(below, false, blocked_below, projected_below));
@@ -570,9 +571,20 @@ class ReachSweep::PlaneSweep {
                 if (c != base.cap && base.cap_faces_away[c] != 0) s.caps_mm2 += cap_area(c, j, is_above);
             }
             s.unreachable_mm2 = area_each() * sums.unreachable[j] + s.caps_mm2;
-            s.projected_mm2 = std::max(0.0, area_each() * sums.projected[j]);
+            s.projected_mm2 = std::max(0.0, area_each() * sums.projected[j]) +
+                              caps_facing(-p_.caps[base.cap].cap().outward, j, is_above);
             (is_above ? result[j].above : result[j].below).push_back(s);
         }
+    }
+
+    // The projected area along `up` of the caps of a side, the new one's included: no cap is hidden along a direction
+    // that it faces.
+    double caps_facing(Vec3 up, std::size_t j, bool is_above) const {
+        double sum = new_cap_[j] * std::max(0.0, dot(is_above ? -normal_ : normal_, up));
+        for (std::size_t c = 0; c < p_.caps.size(); ++c) {
+            sum += cap_area(c, j, is_above) * std::max(0.0, dot(p_.caps[c].cap().outward, up));
+        }
+        return sum;
     }
 
     BothSides old_base_sums(const OldBase& base, std::size_t number, std::span<const double> open_up) const {

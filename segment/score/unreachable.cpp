@@ -59,7 +59,9 @@ double projected_area_mm2(const JudgedPiece& piece, Vec3 up) {
     for (std::size_t row = 0; row < piece.accessibility.sample.size(); ++row) {
         if (column.is_open(row)) sum += dot(piece.sample(row).normal, up);
     }
-    return piece.scan.samples.area_each_mm2 * sum;
+    double caps = 0;  // none is hidden along a direction that it faces
+    for (const OwnedCap& cap : piece.caps) caps += cap.area_mm2 * std::max(0.0, dot(cap.outward, up));
+    return piece.scan.samples.area_each_mm2 * sum + caps;
 }
 
 std::vector<TiltBase> bases_of(const JudgedPiece& piece) {

@@ -62,7 +62,7 @@ struct JudgedPiece {
     double area_without_base_mm2(TiltBase base) const;  // what shares of a piece are taken of
 };
 
-// The sum of the areas of the samples that are open along `up`, projected on it.
+// The sum of the areas of the samples that are open along `up` and of the caps that face it, projected on it.
 double projected_area_mm2(const JudgedPiece& piece, Vec3 up);
 
 // The caps that can be bases: area at least least_base_share of the projected area along their inward normal.

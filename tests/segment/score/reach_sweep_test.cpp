@@ -547,6 +547,7 @@ TEST(ReachSweep, ASampleOnThePlaneBelongsToTheSideAbove) {
     // Its foot lies at height 0 to the last bit; it is the top on the old base.
     const ReachSweep sweep(lower.piece, {scan, lower.accessibility, caps}, all_caps(caps), 60);
     const PlaneReach at_foot = sweep.sweep({0, 0, 1}, std::array{0.0})[0];
+    EXPECT_NEAR(projected_area_mm2({scan, lower.accessibility, caps}, {0, 0, 1}), 1'600, 1e-6);  // its cap alone
     ASSERT_EQ(at_foot.above.size(), 2U);
     ASSERT_EQ(at_foot.below.size(), 1U);
     EXPECT_EQ(at_foot.below[0].projected_mm2, 0);
@@ -555,7 +556,7 @@ TEST(ReachSweep, ASampleOnThePlaneBelongsToTheSideAbove) {
     // The same upside down: the side that the normal points away from loses it.
     const PlaneReach from_under = sweep.sweep({0, 0, -1}, std::array{0.0})[0];
     ASSERT_EQ(from_under.below.size(), 2U);
-    EXPECT_EQ(from_under.below[1].projected_mm2, 0);
+    EXPECT_NEAR(from_under.below[1].projected_mm2, 1'600, 1e-6);  // the new cap, where the foot was
     EXPECT_NEAR(from_under.above[0].unreachable_mm2, 0, 1e-9);
     EXPECT_NEAR(from_under.above[0].projected_mm2, 1'600, 4 * scan.samples.area_each_mm2);
 }
