@@ -45,7 +45,7 @@ struct Discarding : ::testing::Test {
     }
     static void accept(OpenProject& project, std::size_t k) {
         const std::size_t piece = *project.next({}).piece;
-        const std::vector<Ranked> ranked = project.ranking(piece, {});
+        const std::vector<Ranked> ranked = project.ranking(piece, 1, {});
         ASSERT_TRUE(project.decide_cut(cut_by(project.segmentation(), piece, ranked, k, 2)));
     }
     static double volume_of(const Segmentation& s) {

@@ -63,7 +63,7 @@ struct OpenedProject : ::testing::Test {
     // The k-th candidate of the next piece, from 0.
     void accept(OpenProject& project, std::size_t k) const {
         const std::size_t piece = *project.next({}).piece;
-        const std::vector<Ranked> ranked = project.ranking(piece, {});
+        const std::vector<Ranked> ranked = project.ranking(piece, 1, {});
         EXPECT_TRUE(project.decide_cut(cut_by(project.segmentation(), piece, ranked, k, 3)));
     }
     // Cuts, a change of weights and a reset, and what stood before each.
@@ -144,13 +144,13 @@ TEST_F(OpenedProject, ARankingCutsNothingAndChangesNothingButTheCache) {
     fs::remove_all(folder / "cache");
     OpenProject other = open();
     const std::size_t piece = *other.next({}).piece;
-    const std::vector<Ranked> ranked = other.ranking(piece, {});
+    const std::vector<Ranked> ranked = other.ranking(piece, 1, {});
     EXPECT_FALSE(ranked.empty());
     EXPECT_TRUE(other.own_plane(piece, ranked.front().plane, {}));
     EXPECT_EQ(files_but_cache(), before);
     EXPECT_TRUE(fs::exists(folder / "cache"));
     OpenProject third = open();
-    EXPECT_EQ(third.ranking(piece, {}), ranked);
+    EXPECT_EQ(third.ranking(piece, 1, {}), ranked);
     EXPECT_EQ(third.cache().evaluated_count(), 0U) << "another program need not evaluate again";
 }
 
