@@ -34,9 +34,11 @@ std::string cut_line(const Cut& cut) {
     // better.
     const bool is_best = std::all_of(cut.runners_up.begin(), cut.runners_up.end(),
                                      [&](const Ranked& r) { return r.terms.total + tie >= t.total; });
-    const std::string which = cut.chosen.normal_index < 0
+    const bool is_refined = cut.chosen.normal_index == refined_index;
+    const std::string which = cut.chosen.normal_index == own_index
                                   ? "given plane"
-                                  : (is_best ? "best of " : "one of ") + std::to_string(cut.candidates) + " planes";
+                                  : (is_best || is_refined ? "best of " : "one of ") + std::to_string(cut.candidates) +
+                                        " planes" + (is_refined ? ", refined" : "");
     return "cut " + std::to_string(cut.number) + " on piece " + cut.piece + ": " + which + ", total " +
            fixed(t.total, 3) + " (face ratio " + fixed(t.face_ratio, 2) + ", fragility " + fixed(t.fragility, 3) +
            ", piece count " + fixed(t.piece_count, 0) + ", undercut " + fixed(t.undercut, 3) +

@@ -8,7 +8,9 @@
 #include "app/project/replay.h"
 #include "base/error.h"
 #include "base/timings.h"
+#include "segment/score/cut_reach.h"
 #include "segment/score/evaluate.h"
+#include "segment/search/reach_rank.h"
 
 namespace qchopper {
 namespace {
@@ -41,12 +43,20 @@ Before before(const Project& project, const Cut& cut, const TriangleMesh& scan) 
     return {std::move(segmentation), *piece};
 }
 
-// The candidates along a normal of the operator's own.
+// The planes along a normal that is not among the candidates'.
 std::vector<Ranked> along_own_normal(const Before& b, const Plane& own, const SearchSettings& settings,
                                      EvaluationCache& cache, const Context& context) {
     const Piece& piece = b.segmentation.pieces[b.piece];
     PieceEvaluations along{candidates_along(piece, own.normal, -1, settings.candidates.offsets_per_normal), {}};
     along.evaluations = evaluate_all(piece, along.candidates, settings.objectives, context);
+    if (is_ranked_by_reach(piece, settings)) {
+        std::vector<double> offsets;
+        for (const Candidate& c : along.candidates) offsets.push_back(c.plane.offset);
+        const std::vector<CutReach> reach = cut_reach(piece, own.normal, offsets, settings.objectives.tilt_deg);
+        for (std::size_t i = 0; i < reach.size(); ++i) {
+            if (along.evaluations[i]) along.evaluations[i]->reach = reach[i];
+        }
+    }
     const auto others = shares_of_others(b.segmentation, b.piece, settings.objectives, cache);
     std::vector<Ranked> planes = rank(along, others, settings.objectives);
     std::sort(planes.begin(), planes.end(),
@@ -83,13 +93,13 @@ Explanation explain(OpenProject& project, const Cut& cut, const Context& context
     for (std::size_t i = 0; i < e.ranked.size() && !e.place; ++i) {
         if (e.ranked[i].plane == cut.chosen.plane) e.place = i;
     }
-    if (e.place) {
-        e.chosen = e.ranked[*e.place];
-        return e;
-    }
+    if (e.place) e.chosen = e.ranked[*e.place];
+    if (e.place && e.chosen.normal_index != refined_index) return e;
     const Candidate own{cut.chosen.plane, cut.chosen.wanted_offset, cut.chosen.normal_index, cut.chosen.offset_index};
-    const std::optional<Ranked> evaluated = rank_plane(b.segmentation, b.piece, own, settings, cache, context);
-    if (evaluated) e.chosen = *evaluated;
+    if (!e.place) {
+        const std::optional<Ranked> evaluated = rank_plane(b.segmentation, b.piece, own, settings, cache, context);
+        if (evaluated) e.chosen = *evaluated;
+    }
     e.along_own_normal = along_own_normal(b, own.plane, settings, cache, context);
     return e;
 }

@@ -18,7 +18,7 @@ namespace {
 
 // Whether the operator chose the plane, or decided about a piece of this or a later cut.
 bool is_decided(const Project& project, const Segmentation& segmentation, const Cut& cut) {
-    if (cut.chosen.normal_index < 0) return true;
+    if (cut.chosen.normal_index == own_index) return true;
     const auto is_later = [&](const Discard& d) { return d.after >= static_cast<std::size_t>(cut.number); };
     if (std::any_of(project.discards.begin(), project.discards.end(), is_later)) return true;
     const std::vector<SetupOrder> orders = committed_setup_orders(project.history);

@@ -24,7 +24,7 @@ std::optional<Candidate> nudged_off(const Piece& piece, const Plane& plane) {
     const Plane wanted = canonical(plane);
     const std::optional<Nudged> nudged = nudge(piece, wanted.normal, std::span(&wanted.offset, 1)).front();
     if (!nudged) return std::nullopt;
-    return Candidate{{wanted.normal, nudged->offset}, wanted.offset, -1, -1};
+    return Candidate{{wanted.normal, nudged->offset}, wanted.offset, own_index, own_index};
 }
 
 }  // namespace

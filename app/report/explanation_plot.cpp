@@ -31,9 +31,9 @@ constexpr std::size_t most_lines = 3;
 // The normals of the best planes, so many as there is room for.
 std::set<int> shown_normals(const Explanation& e) {
     std::set<int> normals;
-    if (e.place) normals.insert(e.chosen.normal_index);
+    if (e.place && e.chosen.normal_index >= 0) normals.insert(e.chosen.normal_index);
     for (const Ranked& r : e.ranked) {
-        if (normals.size() < most_lines) normals.insert(r.normal_index);
+        if (r.normal_index >= 0 && normals.size() < most_lines) normals.insert(r.normal_index);
     }
     return normals;
 }
@@ -57,7 +57,8 @@ std::vector<Line> lines_of(const Explanation& e) {
         std::any_of(lines.begin(), lines.end(), [&](const Line& l) { return l.normal == e.chosen.plane.normal; });
     if (!has_line) {
         const Vec3 n = e.chosen.plane.normal;
-        lines.push_back({"Own normal  " + in_brackets(n, 3), n, e.along_own_normal});
+        const std::string name = e.chosen.normal_index == refined_index ? "Refined normal  " : "Own normal  ";
+        lines.push_back({name + in_brackets(n, 3), n, e.along_own_normal});
     }
     return lines;
 }

@@ -17,10 +17,15 @@ struct CandidateOptions {
     bool operator==(const CandidateOptions&) const = default;
 };
 
+// Candidate::normal_index and offset_index of planes that are not proposed: the operator's own, and the best of a ranking
+// moved and turned a little (segment/search/refined_plane.h).
+constexpr int own_index = -1;
+constexpr int refined_index = -2;
+
 struct Candidate {
     Plane plane;               // nudged: the plane that is evaluated, cut and stored
     double wanted_offset = 0;  // before the nudge
-    int normal_index = 0;      // ties go to the lower normal_index, then offset_index; -1: not a proposed plane
+    int normal_index = 0;      // ties go to the lower normal_index, then offset_index
     int offset_index = 0;
 };
 

@@ -20,9 +20,17 @@ double unreachable_mm2(const PlaneReach& plane) {
 }
 
 CutReach cut_reach(const Piece& piece, const Plane& plane, double tilt_deg) {
+    return cut_reach(piece, plane.normal, {&plane.offset, 1}, tilt_deg).front();
+}
+
+std::vector<CutReach> cut_reach(const Piece& piece, Vec3 normal, std::span<const double> offsets, double tilt_deg) {
     const JudgedPiece judged = piece.samples->judged();
     const ReachSweep sweep(piece, judged, cap_bases(piece), tilt_deg);
-    return {unreachable_mm2(sweep.sweep(plane.normal, {&plane.offset, 1}).front()), scan_area_mm2(piece)};
+    std::vector<CutReach> reach;
+    for (const PlaneReach& plane : sweep.sweep(normal, offsets)) {
+        reach.push_back({unreachable_mm2(plane), scan_area_mm2(piece)});
+    }
+    return reach;
 }
 
 }  // namespace qchopper

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "segment/score/cut_evaluation.h"
@@ -24,5 +25,7 @@ double unreachable_mm2(const PlaneReach& plane);
 
 // Of one plane. O(samples x directions).
 CutReach cut_reach(const Piece& piece, const Plane& plane, double tilt_deg);
+// Of planes with one normal, a unit vector; the offsets ascend.
+std::vector<CutReach> cut_reach(const Piece& piece, Vec3 normal, std::span<const double> offsets, double tilt_deg);
 
 }  // namespace qchopper

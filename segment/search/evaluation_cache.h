@@ -44,7 +44,9 @@ struct ReachEvaluations {
     std::vector<std::vector<double>> offsets;                             // per normal, not nudged
     std::vector<std::vector<double>> unreachable_mm2;                     // per normal and offset
     std::map<std::pair<std::size_t, std::size_t>, ReachPlane> evaluated;  // by normal and offset
-    Objectives objectives;                                                // with these, and for so many best planes
+    bool is_refined = false;
+    std::optional<ReachPlane> refined;  // the best plane moved and turned; nothing: it leaves no less
+    Objectives objectives;              // with these, and for so many best planes
     std::size_t best = 0;
 };
 

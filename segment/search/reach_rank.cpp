@@ -16,8 +16,10 @@
 #include "segment/cut/nudge.h"
 #include "segment/mesh/measure.h"
 #include "segment/score/cut_reach.h"
+#include "segment/score/dense_reach.h"
 #include "segment/score/sweep.h"
 #include "segment/score/tool_directions.h"
+#include "segment/search/refined_plane.h"
 
 namespace qchopper {
 namespace {
@@ -68,7 +70,11 @@ class ReachRanking {
             reach_ = swept(piece_, cache.box(piece_), settings, context);
         }
         best = std::max(settings.beam, best);
-        if (reach_.objectives != settings.objectives || reach_.best != best) reach_.evaluated.clear();
+        if (reach_.objectives != settings.objectives || reach_.best != best) {
+            reach_.evaluated.clear();
+            reach_.is_refined = false;
+            reach_.refined.reset();
+        }
         reach_.objectives = settings.objectives;
         reach_.best = best;
         others_ = shares_of_others(segmentation, piece, settings.objectives, cache);
@@ -80,7 +86,7 @@ class ReachRanking {
     std::vector<Ranked> run_with_whole_normals(std::size_t count, int other) {
         std::set<int> normals;
         for (const Ranked& r : run()) {
-            if (normals.size() < count) normals.insert(r.normal_index);
+            if (r.normal_index >= 0 && normals.size() < count) normals.insert(r.normal_index);
         }
         if (other >= 0 && static_cast<std::size_t>(other) < reach_.normals.size()) normals.insert(other);
         std::vector<Group> groups;
@@ -88,7 +94,7 @@ class ReachRanking {
         takes_whole_normals_ = true;
         evaluate_solids(groups, infinite);
         evaluate_fragility(groups, infinite);
-        return ranking(others_);
+        return with_refined(ranking(others_));
     }
 
     std::vector<Ranked> run() {
@@ -100,7 +106,7 @@ class ReachRanking {
                 ranked = ranking(others_);
             }
             const auto in_doubt = first_in_doubt(ranked);
-            if (!in_doubt || cuts == most_real_cuts) return ranked;
+            if (!in_doubt || cuts == most_real_cuts) return with_refined(std::move(ranked));
             cut_really(*in_doubt);
         }
     }
@@ -283,6 +289,53 @@ class ReachRanking {
     const PreparedPiece& prepared_piece() {
         if (!prepared_) prepared_ = prepare(piece_, settings_.objectives);
         return *prepared_;
+    }
+
+    // Puts the best plane, refined, before all if that leaves less out of reach and costs less. Not where its sides are
+    // several solids, because only cutting judges those.
+    std::vector<Ranked> with_refined(std::vector<Ranked> ranked) {
+        if (ranked.empty()) return ranked;
+        const auto n = static_cast<std::size_t>(ranked.front().normal_index);
+        const auto k = static_cast<std::size_t>(ranked.front().offset_index);
+        const ReachPlane& best = reach_.evaluated.at({n, k});
+        if (!reach_.is_refined && best.evaluation->solids.size() == 2) refine(best);
+        reach_.is_refined = true;
+        if (!reach_.refined) return ranked;
+        const std::vector<Ranked> refined =
+            rank({{reach_.refined->candidate}, {reach_.refined->evaluation}}, others_, settings_.objectives);
+        ranked.insert(ranked.begin(), refined.begin(), refined.end());
+        return ranked;
+    }
+
+    void refine(const ReachPlane& best) {
+        const double area = scan_area_mm2(piece_);
+        if (best.evaluation->reach->unreachable_mm2 < least_gain_of_scan * area) return;
+        const StageTimer stage(context_, "planes refined");
+        DenseReach reach(piece_, settings_.objectives.tilt_deg);
+        const double step = extent(*piece_.mesh, best.candidate.plane.normal).size() /
+                            (2.0 * (settings_.candidates.offsets_per_normal + 1));
+        const double before = reach.unreachable_mm2(best.candidate.plane);
+        const RefinedPlane found = refined_plane(reach, piece_, best.candidate.plane, step, context_);
+        if (found.unreachable_mm2 >= before) return;
+        ReachPlane refined = best;
+        const std::optional<Nudged> nudged = nudge(piece_, found.plane.normal, {&found.plane.offset, 1}).front();
+        if (!nudged) return;
+        refined.candidate.plane = {found.plane.normal, nudged->offset};
+        refined.candidate.wanted_offset = found.plane.offset;
+        refined.candidate.normal_index = refined_index;
+        refined.candidate.offset_index = refined_index;
+        std::vector<std::optional<CutEvaluation>> evaluation =
+            sweep_solids(prepared_piece(), found.plane.normal, {&nudged->offset, 1});
+        if (!evaluation.front() || evaluation.front()->solids.size() != 2) return;
+        add_fragility(prepared_piece(), found.plane.normal, {&nudged->offset, 1}, settings_.objectives, evaluation);
+        evaluation.front()->reach = CutReach{found.unreachable_mm2, area};
+        const std::optional<Terms> after = terms(*evaluation.front(), counted_others(), settings_.objectives);
+        refined.evaluation->reach->unreachable_mm2 = before;
+        const std::optional<Terms> unrefined = terms(*refined.evaluation, counted_others(), settings_.objectives);
+        if (!after || after->total >= unrefined->total - tie) return;
+        evaluation.front()->reach = cut_reach(piece_, refined.candidate.plane, settings_.objectives.tilt_deg);
+        refined.evaluation = std::move(evaluation.front());
+        reach_.refined = std::move(refined);
     }
 
     std::vector<Ranked> ranking(std::span<const PieceShare> others) const {

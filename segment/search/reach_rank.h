@@ -26,7 +26,7 @@ std::vector<Vec3> reach_normals(const OrientedBox& box);
 // Candidates are the planes that open at least this share of the surface that the best one opens: further terms decide
 // between planes that serve nearly as well. Where no plane opens this share of the scan's area, only the axes of the
 // piece's box have candidates.
-constexpr double least_share_of_gain = 0.75;
+constexpr double least_share_of_gain = 0.85;
 constexpr double least_gain_of_scan = 0.0002;
 
 // So many planes are certain to be the best, if neither the beam nor what is asked for is more.

@@ -1,0 +1,27 @@
+// Moves and turns a plane a little, so that less of both sides is out of reach.
+//
+// mm. The candidates of a piece have 132 normals, some ten degrees apart, and 80 offsets; between them a plane can be
+// better. What it leaves is asked with dense directions (segment/score/dense_reach.h), because the scan's own favour
+// the normals that are among them.
+
+#pragma once
+
+#include "base/context.h"
+#include "segment/cut/piece.h"
+#include "segment/score/dense_reach.h"
+
+namespace qchopper {
+
+struct RefinedPlane {
+    Plane plane;  // canonical, not nudged
+    double unreachable_mm2 = 0;
+};
+
+// The best plane that a pattern search finds (Hooke and Jeeves, "Direct search" solution of numerical and statistical
+// problems, 1961): of six neighbours, `step` along the normal and three degrees about two axes through the middle of
+// the piece, the best is taken while it leaves less; then once more with half the steps. The plane `from` itself
+// if none leaves less. Precondition: step_mm > 0. Some 25 planes at most. Throws Cancelled.
+RefinedPlane refined_plane(DenseReach& reach, const Piece& piece, const Plane& from, double step_mm,
+                           const Context& context);
+
+}  // namespace qchopper
