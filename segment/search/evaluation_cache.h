@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -46,6 +47,7 @@ struct ReachEvaluations {
     std::map<std::pair<std::size_t, std::size_t>, ReachPlane> evaluated;  // by normal and offset
     Objectives objectives;                                                // with these, and for so many best planes
     std::size_t best = 0;
+    std::set<std::pair<std::size_t, std::size_t>> for_size;  // the candidates of a piece that is too large
 };
 
 // Where evaluations are kept beyond the end of the program (app/project/evaluation_store.h). Both functions may be
