@@ -89,7 +89,8 @@ Explanation explain(OpenProject& project, const Cut& cut, const Context& context
     e.cut = cut;
     e.objectives = settings.objectives;
     e.chosen = cut.chosen;
-    e.ranked = rank_whole_normals(b.segmentation, b.piece, settings, cache, context, cut.chosen.normal_index);
+    e.ranked = rank_whole_normals(b.segmentation, b.piece, settings, cache, context, cut.chosen.normal_index,
+                                  project.too_large_for(settings, b.segmentation.pieces[b.piece]));
     for (std::size_t i = 0; i < e.ranked.size() && !e.place; ++i) {
         if (e.ranked[i].plane == cut.chosen.plane) e.place = i;
     }

@@ -14,6 +14,7 @@
 #include "app/project/unreachable_of.h"
 #include "base/error.h"
 #include "base/timings.h"
+#include "cam/setup/blocks_needed.h"
 #include "segment/cut/nudge.h"
 #include "segment/score/tool_directions.h"
 
@@ -104,6 +105,7 @@ PieceChecks OpenProject::checks() {
         const StageTimer stage(timings, "blocks chosen");
         return setups->fits(piece);
     };
+    checks.blocks_needed = [blocks = usable_blocks(setups->cell())](Vec3 size) { return blocks_needed(blocks, size); };
     return checks;
 }
 
@@ -123,7 +125,12 @@ OpenProject::Next OpenProject::next(const PieceChecks& checks) {
 
 std::vector<Ranked> OpenProject::ranking(std::size_t piece, std::size_t best, const Context& context) {
     const StageTimer stage(context, "planes ranked");
-    return rank(segmentation(), piece, project_.settings, cache(), context, best);
+    return rank(segmentation(), piece, project_.settings, cache(), context, best,
+                too_large_for(project_.settings, segmentation().pieces[piece]));
+}
+
+BlocksNeeded OpenProject::too_large_for(const SearchSettings& settings, const Piece& piece) {
+    return judge_for(settings, checks(), cache()).too_large_for(piece);
 }
 
 std::optional<Ranked> OpenProject::own_plane(std::size_t piece, const Plane& plane, const Context& context) {

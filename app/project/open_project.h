@@ -75,6 +75,8 @@ class OpenProject {
     // Evaluates those that are not evaluated yet; changes nothing but the cache.
     // The first `best` of them are certain to be so (segment/search/rank_piece.h).
     std::vector<Ranked> ranking(std::size_t piece, std::size_t best, const Context& context);
+    // The boxes into which a piece that the stop rules of the settings call too large is cut; else empty.
+    BlocksNeeded too_large_for(const SearchSettings& settings, const Piece& piece);
     // The operator's own plane, nudged once. Nothing if it misses, or leaves fewer than two pieces that are no
     // fragments. The numbers of its normal and offset are -1.
     std::optional<Ranked> own_plane(std::size_t piece, const Plane& plane, const Context& context);

@@ -74,6 +74,16 @@ EnvelopeReport check_envelope(const Setup& setup, const Cell& cell) {
     return report;
 }
 
+Vec3 largest_block(const Cell& cell) {
+    const Table& table = cell.table;
+    const Box& reach = cell.reach;
+    if (table.height < reach.min.z) return {};
+    const double half_x = std::min(table.centre_x - reach.min.x, reach.max.x - table.centre_x);
+    const double half_y = std::min(table.centre_y - reach.min.y, reach.max.y - table.centre_y);
+    return {std::min(table.size_x, 2 * half_x - cell.tool.diameter),
+            std::min(table.size_y, 2 * half_y - cell.tool.diameter), reach.max.z - table.height - cell.clearance};
+}
+
 std::string describe_envelope(const std::string& piece, const EnvelopeReport& report) {
     if (report.fits()) {
         return "piece " + piece + " fits, tightest: " + report.worst().name + " " +

@@ -30,6 +30,10 @@ struct EnvelopeReport {
 // Always the same 11 conditions in the same order. Precondition: setup.block.stock is an index in cell.stock.
 EnvelopeReport check_envelope(const Setup& setup, const Cell& cell);
 
+// The largest block that stands in the cell: a block of no larger size along any axis is held by all conditions but
+// those on its piece. A size that is not positive: no block stands there.
+Vec3 largest_block(const Cell& cell);
+
 // "piece B does not fit: 32 mm too high for block medium (600 x 400 x 400 mm), ..."; "piece B fits, ..." otherwise.
 // Precondition: there is a margin.
 std::string describe_envelope(const std::string& piece, const EnvelopeReport& report);

@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -48,6 +49,7 @@ struct ReachEvaluations {
     std::optional<ReachPlane> refined;  // the best plane moved and turned; nothing: it leaves no less
     Objectives objectives;              // with these, and for so many best planes
     std::size_t best = 0;
+    std::set<std::pair<std::size_t, std::size_t>> for_size;  // the candidates of a piece that is too large
 };
 
 // Where evaluations are kept beyond the end of the program (app/project/evaluation_store.h). Both functions may be

@@ -11,10 +11,12 @@
 namespace qchopper {
 
 std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
-                         EvaluationCache& cache, const Context& context, std::size_t best) {
+                         EvaluationCache& cache, const Context& context, std::size_t best,
+                         const BlocksNeeded& too_large_for) {
     assert(piece < segmentation.pieces.size());
     if (is_ranked_by_reach(segmentation.pieces[piece], settings)) {
-        return rank_by_reach(segmentation, piece, settings, cache, context, std::max(best, least_best_planes));
+        return rank_by_reach(segmentation, piece, settings, cache, context, std::max(best, least_best_planes),
+                             too_large_for);
     }
     const Piece* target = &segmentation.pieces[piece];
     cache.evaluate(std::span(&target, 1), context);
@@ -24,10 +26,11 @@ std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, co
 
 std::vector<Ranked> rank_whole_normals(const Segmentation& segmentation, std::size_t piece,
                                        const SearchSettings& settings, EvaluationCache& cache, const Context& context,
-                                       int other) {
+                                       int other, const BlocksNeeded& too_large_for) {
     constexpr std::size_t normals = 3;
     if (is_ranked_by_reach(segmentation.pieces[piece], settings)) {
-        return rank_whole_normals_by_reach(segmentation, piece, settings, cache, context, normals, other);
+        return rank_whole_normals_by_reach(segmentation, piece, settings, cache, context, normals, other,
+                                           too_large_for);
     }
     return rank(segmentation, piece, settings, cache, context);
 }

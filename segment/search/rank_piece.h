@@ -10,19 +10,22 @@
 #include <vector>
 
 #include "segment/search/rank.h"
+#include "segment/search/stop_rules.h"
 
 namespace qchopper {
 
 // All candidates of one piece, best first, evaluated if they are not in the cache. Throws Cancelled.
-// Of a piece that is ranked by reach at least max(settings.beam, best) of them (reach_rank.h).
+// Of a piece that is ranked by reach at least max(settings.beam, best) of them (reach_rank.h). `too_large_for`: of a
+// piece that is cut for size, StopJudge::too_large_for(); of no effect where surface out of reach has no weight.
 std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
-                         EvaluationCache& cache, const Context& context, std::size_t best = 1);
+                         EvaluationCache& cache, const Context& context, std::size_t best = 1,
+                         const BlocksNeeded& too_large_for = {});
 
 // The same, of a piece that is ranked by reach with all planes of three normals, those of the best planes, and of the
 // normal with the index `other`, so that they can be plotted.
 std::vector<Ranked> rank_whole_normals(const Segmentation& segmentation, std::size_t piece,
                                        const SearchSettings& settings, EvaluationCache& cache, const Context& context,
-                                       int other);
+                                       int other, const BlocksNeeded& too_large_for = {});
 
 // The terms of one plane that is no candidate of the piece. Nothing if it misses, or leaves fewer than two pieces,
 // fragments not counted. Throws Cancelled.

@@ -20,6 +20,7 @@
 #include "segment/score/sweep.h"
 #include "segment/score/tool_directions.h"
 #include "segment/search/refined_plane.h"
+#include "segment/search/size_candidates.h"
 
 namespace qchopper {
 namespace {
@@ -59,7 +60,7 @@ ReachEvaluations swept(const Piece& piece, const OrientedBox& box, const SearchS
 class ReachRanking {
  public:
     ReachRanking(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
-                 EvaluationCache& cache, const Context& context, std::size_t best)
+                 EvaluationCache& cache, const Context& context, std::size_t best, const BlocksNeeded& too_large_for)
         : piece_(segmentation.pieces[piece]),
           settings_(settings),
           context_(context),
@@ -70,13 +71,15 @@ class ReachRanking {
             reach_ = swept(piece_, cache.box(piece_), settings, context);
         }
         best = std::max(settings.beam, best);
-        if (reach_.objectives != settings.objectives || reach_.best != best) {
+        auto for_size = candidates_for_size(cache.box(piece_), settings.candidates.offsets_per_normal, too_large_for);
+        if (reach_.objectives != settings.objectives || reach_.best != best || reach_.for_size != for_size) {
             reach_.evaluated.clear();
             reach_.is_refined = false;
             reach_.refined.reset();
         }
         reach_.objectives = settings.objectives;
         reach_.best = best;
+        reach_.for_size = std::move(for_size);
         others_ = shares_of_others(segmentation, piece, settings.objectives, cache);
         for (const PieceShare& other : others_) others_unreachable_mm2_ += other.unreachable_mm2;
         find_candidates(cache.unreachable_mm2(piece_, settings.objectives.tilt_deg));
@@ -120,8 +123,8 @@ class ReachRanking {
         std::vector<ReachPlane*> planes;
     };
 
-    // A plane is a candidate if it opens nearly as much as the best one, or nothing is to be gained and it lies along
-    // an axis of the box.
+    // Of a piece that is not cut for size a plane is a candidate if it opens nearly as much as the best one, or nothing
+    // is to be gained and it lies along an axis of the box.
     void find_candidates(double unreachable_mm2) {
         double least = infinite;
         for (const std::vector<double>& planes : reach_.unreachable_mm2) {
@@ -134,6 +137,7 @@ class ReachRanking {
 
     bool is_candidate(std::size_t normal, std::size_t offset) const {
         if (!is_restricted_) return true;
+        if (!reach_.for_size.empty()) return reach_.for_size.contains({normal, offset});
         return is_along_box_only_ ? normal < axes_of_box
                                   : reach_.unreachable_mm2[normal][offset] <= most_unreachable_mm2_;
     }
@@ -292,13 +296,14 @@ class ReachRanking {
     }
 
     // Puts the best plane, refined, before all if that leaves less out of reach and costs less. Not where its sides are
-    // several solids, because only cutting judges those.
+    // several solids, because only cutting judges those, nor where the piece is cut for size.
     std::vector<Ranked> with_refined(std::vector<Ranked> ranked) {
         if (ranked.empty()) return ranked;
         const auto n = static_cast<std::size_t>(ranked.front().normal_index);
         const auto k = static_cast<std::size_t>(ranked.front().offset_index);
         const ReachPlane& best = reach_.evaluated.at({n, k});
-        if (!reach_.is_refined && best.evaluation->solids.size() == 2) refine(best);
+        const bool may_refine = best.evaluation->solids.size() == 2 && reach_.for_size.empty();
+        if (!reach_.is_refined && may_refine) refine(best);
         reach_.is_refined = true;
         if (!reach_.refined) return ranked;
         const std::vector<Ranked> refined =
@@ -405,16 +410,18 @@ std::vector<Vec3> reach_normals(const OrientedBox& box) {
 }
 
 std::vector<Ranked> rank_by_reach(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
-                                  EvaluationCache& cache, const Context& context, std::size_t best) {
+                                  EvaluationCache& cache, const Context& context, std::size_t best,
+                                  const BlocksNeeded& too_large_for) {
     assert(is_ranked_by_reach(segmentation.pieces[piece], settings));
-    return ReachRanking(segmentation, piece, settings, cache, context, best).run();
+    return ReachRanking(segmentation, piece, settings, cache, context, best, too_large_for).run();
 }
 
 std::vector<Ranked> rank_whole_normals_by_reach(const Segmentation& segmentation, std::size_t piece,
                                                 const SearchSettings& settings, EvaluationCache& cache,
-                                                const Context& context, std::size_t normals, int other) {
+                                                const Context& context, std::size_t normals, int other,
+                                                const BlocksNeeded& too_large_for) {
     assert(is_ranked_by_reach(segmentation.pieces[piece], settings));
-    return ReachRanking(segmentation, piece, settings, cache, context, least_best_planes)
+    return ReachRanking(segmentation, piece, settings, cache, context, least_best_planes, too_large_for)
         .run_with_whole_normals(normals, other);
 }
 

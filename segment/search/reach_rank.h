@@ -5,7 +5,8 @@
 // (segment/score/reach_sweep.h). All other terms are at least 0, so a plane is not evaluated once its weighted
 // unreachable area alone exceeds the best total: the best plane is the one that evaluating all candidates would find
 // (tests/segment/search/reach_rank_test.cpp). A side of several solids is not judged by the sweep: the best such plane
-// is really cut before it is chosen. On the order and the candidates: docs/decisions/0022.
+// is really cut before it is chosen. On the order and the candidates: docs/decisions/0022;
+// of pieces that are too large: docs/decisions/0024.
 
 #pragma once
 
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "segment/search/rank.h"
+#include "segment/search/stop_rules.h"
 
 namespace qchopper {
 
@@ -36,14 +38,16 @@ constexpr std::size_t least_best_planes = 4;
 constexpr int most_real_cuts = 16;
 
 // The planes that were evaluated, best first: the first max(settings.beam, best) of them are the best of all
-// candidates. Precondition: is_ranked_by_reach. Throws Cancelled.
+// candidates. `too_large_for`: as in rank_piece.h. Precondition: is_ranked_by_reach. Throws Cancelled.
 std::vector<Ranked> rank_by_reach(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
-                                  EvaluationCache& cache, const Context& context, std::size_t best = least_best_planes);
+                                  EvaluationCache& cache, const Context& context, std::size_t best = least_best_planes,
+                                  const BlocksNeeded& too_large_for = {});
 
 // The same, and with them all planes of so many normals, those of the best planes, and of the normal with the index
 // `other` (none: -1), candidates or not.
 std::vector<Ranked> rank_whole_normals_by_reach(const Segmentation& segmentation, std::size_t piece,
                                                 const SearchSettings& settings, EvaluationCache& cache,
-                                                const Context& context, std::size_t normals, int other);
+                                                const Context& context, std::size_t normals, int other,
+                                                const BlocksNeeded& too_large_for = {});
 
 }  // namespace qchopper

@@ -124,10 +124,12 @@ class Search {
             is_ready = true;
             for (Bsp& b : beam_) {
                 if (!b.is_live() || !b.ranked.empty()) continue;
-                b.ranked = rank(b.segmentation, *b.next.piece, settings_, cache_, context_);
+                const Piece& piece = b.segmentation.pieces[*b.next.piece];
+                b.ranked =
+                    rank(b.segmentation, *b.next.piece, settings_, cache_, context_, 1, judge_.too_large_for(piece));
                 b.children = without_near_duplicates(b.ranked, settings_.candidates.offsets_per_normal, settings_.near);
                 if (!b.ranked.empty()) continue;
-                b.passed_over.push_back(b.segmentation.pieces[*b.next.piece].name);
+                b.passed_over.push_back(piece.name);
                 find_next_piece(b);
                 is_ready = false;
             }

@@ -7,6 +7,7 @@
 #include <cassert>
 
 #include "base/text.h"
+#include "segment/mesh/boxes_needed.h"
 #include "segment/mesh/oriented_box.h"
 
 namespace qchopper {
@@ -40,7 +41,7 @@ bool fits_in(Vec3 size, Vec3 limit) {
 
 StopJudge::StopJudge(StopRules rules, PieceChecks checks, std::function<Vec3(const Piece&)> box_size,
                      std::function<double(const Piece&)> priority)
-    : rules_(rules), priority_(std::move(priority)), checks_(std::move(checks)) {
+    : rules_(rules), priority_(std::move(priority)), is_size_first_(priority_), checks_(std::move(checks)) {
     if (!priority_) {
         priority_ = [](const Piece& piece) { return static_cast<double>(piece.mesh->triangles.size()); };
     }
@@ -56,10 +57,12 @@ StopJudge::StopJudge(StopRules rules, PieceChecks checks, std::function<Vec3(con
             {[limit = *rules.max_obb, size = box_size](const Piece& p) { return fits_in(size(p), limit); },
              [limit = *rules.max_obb, size = std::move(box_size)](const Piece& p) {
                  return "a box of " + lengths(size(p)) + " mm (" + lengths(limit) + " mm may be)";
-             }});
+             },
+             [limit = *rules.max_obb](Vec3 size) { return boxes_needed(size, limit); }});
     }
     if (rules.fits_cell && checks_.fits_cell) {
-        piece_rules_.push_back({checks_.fits_cell, [](const Piece&) { return "it does not fit the cell"; }});
+        piece_rules_.push_back(
+            {checks_.fits_cell, [](const Piece&) { return "it does not fit the cell"; }, checks_.blocks_needed});
     }
 }
 
@@ -78,6 +81,17 @@ const UnreachableSurface& StopJudge::unreachable(const Piece& piece) {
     std::optional<UnreachableSurface>& surface = verdict(piece).unreachable;
     if (!surface) surface = checks_.unreachable(piece);
     return *surface;
+}
+
+BlocksNeeded StopJudge::too_large_for(const Piece& piece) {
+    const std::vector<bool>& holds = verdict(piece).holds;
+    BlocksNeeded all;
+    for (std::size_t r = 0; r < holds.size(); ++r) {
+        const BlocksNeeded& blocks = piece_rules_[r].blocks;
+        if (holds[r] || !blocks) continue;
+        all = all ? [all, blocks](Vec3 size) { return std::max(all(size), blocks(size)); } : blocks;
+    }
+    return all;
 }
 
 std::string StopJudge::why(const Piece& piece) {
@@ -126,9 +140,12 @@ NextPiece StopJudge::next(const Segmentation& segmentation, const std::vector<st
         const bool is_passed_over = std::find(passed_over.begin(), passed_over.end(), name) != passed_over.end();
         if ((any_piece || failing[p]) && !is_passed_over) next.waiting.push_back(p);
     }
-    std::stable_sort(next.waiting.begin(), next.waiting.end(), [&](std::size_t a, std::size_t b) {
-        return priority_(segmentation.pieces[a]) > priority_(segmentation.pieces[b]);
-    });
+    const auto rank_of = [&](std::size_t p) {
+        const Piece& piece = segmentation.pieces[p];
+        return std::pair(is_size_first_ && too_large_for(piece), priority_(piece));
+    };
+    std::stable_sort(next.waiting.begin(), next.waiting.end(),
+                     [&](std::size_t a, std::size_t b) { return rank_of(a) > rank_of(b); });
     if (next.waiting.empty()) return next;
     next.piece = next.waiting.front();
     next.is_trial = only_unreachable[*next.piece] && (!rules_.min_cuts || has_cuts);

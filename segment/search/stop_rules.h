@@ -44,10 +44,16 @@ struct UnreachableSurface {
 };
 using UnreachableOf = std::function<UnreachableSurface(const Piece&)>;
 
-// What the rules ask of other modules. The rule of a function that is empty is left out.
+// Into how many boxes of allowed sizes planes along its axes divide a box of this size (mm) at least; 1: it has an
+// allowed size itself, infinite: no number is enough. Never less for a box that is larger along any axis.
+using BlocksNeeded = std::function<double(Vec3 box_size)>;
+
+// What the rules ask of other modules. The rule of a function that is empty is left out; without blocks_needed a piece
+// that does not fit the cell is cut as any other.
 struct PieceChecks {
     FitsCell fits_cell;
     UnreachableOf unreachable;
+    BlocksNeeded blocks_needed = {};  // allowed is what some block of the cell holds
 };
 
 // Whether the segmentation is finished, and if not, the piece that is cut next: of those that do not satisfy the rules
@@ -63,7 +69,8 @@ struct NextPiece {
 class StopJudge {
  public:
     // `box_size` returns the size of a piece's oriented box; called only if max_obb is set.
-    // `priority`: of the pieces that break a rule the one with the largest is next; empty: the number of faces.
+    // `priority`: of the pieces that break a rule the one with the largest is next, after those that are too large;
+    // empty: the number of faces alone.
     StopJudge(StopRules rules, PieceChecks checks, std::function<Vec3(const Piece&)> box_size,
               std::function<double(const Piece&)> priority = {});
 
@@ -76,6 +83,9 @@ class StopJudge {
     // The rules on single pieces that it breaks, with its figures: "5,300 faces (fewer than 5,000 are wanted)". Empty:
     // none.
     std::string why(const Piece& piece);
+    // Of a piece that is too large, which breaks max_obb or fits_cell: the boxes into which it is to be cut, so that
+    // both hold. Empty: it is not too large, or nothing is known of the blocks.
+    BlocksNeeded too_large_for(const Piece& piece);
     // Precondition: max_unreachable is set, and its function is not empty.
     const UnreachableSurface& unreachable(const Piece& piece);
 
@@ -88,6 +98,7 @@ class StopJudge {
     struct PieceRule {
         std::function<bool(const Piece&)> holds;
         std::function<std::string(const Piece&)> fault;  // of a piece that breaks it
+        BlocksNeeded blocks = {};                        // empty: it is no rule of size
     };
     Verdict& verdict(const Piece& piece);
     bool is_reach_limited() const { return rules_.max_unreachable && checks_.unreachable; }
@@ -95,6 +106,7 @@ class StopJudge {
 
     StopRules rules_;
     std::function<double(const Piece&)> priority_;
+    bool is_size_first_;
     PieceChecks checks_;
     std::vector<PieceRule> piece_rules_;  // the rules on single pieces without max_unreachable, which is asked last
     std::map<const TriangleMesh*, Verdict> verdicts_;

@@ -84,7 +84,8 @@ class Attempt {
     }
 
     bool make_best(std::size_t piece) {
-        const std::vector<Ranked> ranked = rank(segmentation_, piece, settings_, cache_, context_);
+        const std::vector<Ranked> ranked = rank(segmentation_, piece, settings_, cache_, context_, 1,
+                                                judge_.too_large_for(segmentation_.pieces[piece]));
         for (std::size_t k = 0; k < ranked.size(); ++k) {
             if (make(cut_by(segmentation_, piece, ranked, k, settings_.runners_up))) return true;
         }

@@ -11,6 +11,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "segment/mesh/measure.h"
+#include "segment/mesh/oriented_box.h"
+#include "segment/search/size_candidates.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
@@ -135,6 +137,34 @@ TEST_F(OpenedProject, NamesArePutTheSameWayAfterUndo) {
     project.undo();
     accept(project, 0);
     EXPECT_EQ(project.project().pieces, first);
+}
+
+TEST_F(OpenedProject, OfAPieceThatIsTooLargeTheRankingHasThePlanesForSizeThatTheSearchTakes) {
+    Project changed = load_project(folder);
+    changed.settings.objectives.weights = {0.05, 1, 0.3, 0, 100};
+    changed.settings.objectives.scope = TermScope::cut;
+    changed.settings.candidates.offsets_per_normal = 9;
+    changed.settings.stop = {};
+    changed.history.weights_at_start = changed.settings.objectives.weights;
+    const Vec3 size = oriented_box(uncut(mesh, 0).pieces.front().mesh->points).size();
+    changed.settings.stop.max_obb = Vec3{0.65 * size.x, 1.1 * size.y, 1.1 * size.z};
+    save_project(folder, changed);
+    OpenProject project = open();
+    const std::size_t piece = *project.next(project.checks()).piece;
+    const std::vector<Ranked> ranked = project.ranking(piece, 1, {});
+    ASSERT_FALSE(ranked.empty());
+    const Piece& target = project.segmentation().pieces[piece];
+    const BlocksNeeded blocks = project.too_large_for(changed.settings, target);
+    ASSERT_TRUE(blocks);
+    const auto planes = candidates_for_size(project.cache().box(target), 9, blocks);
+    EXPECT_LT(planes.size(), 27U);
+    for (const Ranked& r : ranked) {
+        EXPECT_TRUE(
+            planes.contains({static_cast<std::size_t>(r.normal_index), static_cast<std::size_t>(r.offset_index)}))
+            << r.normal_index << " " << r.offset_index;
+    }
+    project.search(project.checks(), [](const Segmentation&) {}, {}, {});
+    EXPECT_EQ(project.project().cuts.front().chosen.plane, ranked.front().plane);
 }
 
 TEST_F(OpenedProject, ARankingCutsNothingAndChangesNothingButTheCache) {
