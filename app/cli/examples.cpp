@@ -15,7 +15,7 @@ struct Examples {
 constexpr std::array<Examples, 13> all_examples{{
     {"", R"(  qchopper sample vertebra --faces 50000 -o vertebra.ply
   qchopper inspect vertebra.ply --units mm
-  qchopper prepare vertebra.ply --units mm --cell cells/foam-1.toml --min-cuts 3 -o vertebra.qch
+  qchopper prepare vertebra.ply --units mm --cell cells/foam-1.toml -o vertebra.qch
   qchopper dry-run vertebra.qch
   qchopper dispatch vertebra.qch --to 127.0.0.1:15020 --drop drop
 Each command has more: qchopper COMMAND --help
@@ -30,7 +30,7 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
   qchopper inspect - --units mm --json < skull.stl.gz)"},
     {"repair", R"(  qchopper repair vertebra.ply --units mm -o solid.ply
   qchopper repair femur.obj --units cm --weld 0.05 --fill fair --smooth-pen-grooves -o solid.ply)"},
-    {"prepare", R"(  qchopper prepare vertebra.ply --units mm --cell cells/foam-1.toml --min-cuts 3 -o vertebra.qch
+    {"prepare", R"(  qchopper prepare vertebra.ply --units mm --cell cells/foam-1.toml -o vertebra.qch
   qchopper prepare femur.3mf --cell cells/foam-1.toml --preset femur --beam 3 -o femur.qch
   qchopper prepare femur.qch)"},
     {"segment", R"(  qchopper segment vertebra.ply --units mm -o by-hand.qch

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "app/cli/option_values.h"
-#include "app/project/presets.h"
 #include "app/project/project_folder.h"
 #include "base/error.h"
 
@@ -18,8 +17,8 @@ std::optional<Stop> combine_of(const ProjectArguments& a) {
     return *a.stop == "any" ? Stop::any : Stop::all;
 }
 
-SearchSettings settings_of(const ProjectArguments& a) {
-    SearchSettings settings = a.preset ? *preset(*a.preset) : SearchSettings{};
+SearchSettings settings_of(const ProjectArguments& a, const std::string& preset_name) {
+    SearchSettings settings = preset(preset_name).value_or(SearchSettings{});
     settings.stop = given_rules(a).value_or(settings.stop);
     settings.stop.combine = combine_of(a).value_or(settings.stop.combine);
     settings.stop.count_narrow = a.count_narrow;
@@ -60,15 +59,15 @@ std::optional<StopRules> given_rules(const ProjectArguments& a) {
     return rules;
 }
 
-ProjectChoices choices_of(const ProjectArguments& a) {
+ProjectChoices choices_of(const ProjectArguments& a, const std::string& preset_if_none) {
     ProjectChoices choices;
     choices.scan = a.input;
     if (a.units) choices.mm_per_unit = mm_per(unit_named(*a.units));
     choices.scale = a.scale.value_or(1);
     choices.repair = repair_choices(a);
     choices.ignore = {a.ignore_surface, a.ignore_inside};
-    choices.preset = a.preset.value_or("");
-    choices.settings = settings_of(a);
+    choices.preset = a.preset.value_or(preset_if_none);
+    choices.settings = settings_of(a, choices.preset);
     choices.fragment_volume_mm3 = a.fragment_volume_mm3;
     if (a.weights) choices.weights = *weights_from(*a.weights);
     if (a.fragments && *a.fragments == "drop") choices.fragments = FragmentChoice::drop;

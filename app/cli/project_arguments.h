@@ -5,9 +5,11 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "app/cli/arguments.h"
 #include "app/project/decide.h"
+#include "app/project/presets.h"
 #include "app/project/project_scan.h"
 
 namespace qchopper {
@@ -15,8 +17,8 @@ namespace qchopper {
 // The stop rules that are given, which replace all earlier ones but max_cuts; nothing if none is given.
 std::optional<StopRules> given_rules(const ProjectArguments& arguments);
 
-// Of a new project, without a plan.
-ProjectChoices choices_of(const ProjectArguments& arguments);
+// Of a new project, without a plan. `preset_if_none` is taken where the operator names no preset; empty: none.
+ProjectChoices choices_of(const ProjectArguments& arguments, const std::string& preset_if_none = default_preset);
 
 ProjectRequest request_of(const SegmentArguments& arguments);
 

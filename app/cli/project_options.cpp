@@ -46,17 +46,23 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
         ->check(one_of({"mm", "cm", "m", "in"}));
     add_scale(c, a.scale);
     c->add_option("--cell", a.cell, "the cell file (docs/cell-file.md)");
-    c->add_option("--preset", a.preset, "weights and stop rule by name: carve, bunny, femur, vertebrae, skull")
-        ->check(one_of({"carve", "bunny", "femur", "vertebrae", "skull"}));
+    c->add_option(
+         "--preset", a.preset,
+         "objectives and stop rules by name: carve cuts for what a tilting tool reaches, until of no piece more "
+         "than 2 % is out of reach and every piece fits the cell; thesis has the objectives of Nicholson 2016 "
+         "and no stop rule; bunny, femur, vertebrae and skull are its cases (carve)")
+        ->check(one_of({"carve", "thesis", "bunny", "femur", "vertebrae", "skull"}));
     c->add_option("--min-cuts", a.min_cuts, "stop rule: make at least N cuts")
         ->check(number_between(0, 1e6, "a count of cuts"));
     c->add_option("--max-faces", a.max_faces, "stop rule: every piece has fewer than N faces")
         ->check(number_between(1, many, "a count of faces"));
     c->add_option("--max-obb", a.max_obb, "stop rule: every piece fits in a box of X,Y,Z mm, in some orientation")
         ->check(read_by(lengths_from, "not X,Y,Z in mm"));
-    c->add_flag("--fits-cell", a.fits_cell, "stop rule: every piece fits the cell (the default if no other is set)");
-    c->add_option("--max-unreachable", a.max_unreachable,
-                  "stop rule: of no piece a larger share of the surface, 0 to 1, is out of reach of the tool (off)")
+    c->add_flag("--fits-cell", a.fits_cell,
+                "stop rule: every piece fits the cell (by carve, and by prepare if no other is set)");
+    c->add_option(
+         "--max-unreachable", a.max_unreachable,
+         "stop rule: of no piece a larger share of the surface, 0 to 1, is out of reach of the tool (0.02 by carve)")
         ->check(number_between(0, 1, "a share from 0 to 1"));
     c->add_flag("--count-narrow", a.count_narrow,
                 "surface too narrow for the smallest tool counts as out of reach (it is only reported)");
@@ -76,8 +82,9 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
     c->add_option("--fragment-volume", a.fragment_volume_mm3,
                   "solids of less than so many mm3 are no pieces (a hundred-thousandth of the scan's volume)")
         ->check(number_between(0, many, "a volume in mm3"));
-    c->add_option("--weights", a.weights,
-                  "of the terms: face_ratio=10,fragility=5,piece_count=50,undercut=10,unreachable=0 (any of them)")
+    c->add_option(
+         "--weights", a.weights,
+         "of the terms, any of face_ratio=10,fragility=5,piece_count=50,undercut=10,unreachable=0 (the preset's)")
         ->check(
             read_by(weights_from, "not like face_ratio=10,fragility=5,piece_count=50,undercut=10, nor four numbers"));
     c->add_option("--beam", a.beam, "how many segmentations the search keeps (1: greedy)")
@@ -134,6 +141,9 @@ void add_segment(CLI::App& app, SegmentArguments& segment, Arguments& common) {
     c->add_option("SCAN", segment.input, scan_formats + ", to make a project of; or the folder NAME.qch of one")
         ->required();
     add_project_options(c, segment);
+    c->get_option("--cell")->description(
+        "the cell file (docs/cell-file.md), now or later; without one the tool has no radius and tilts by up to 60 "
+        "degrees");
     c->add_flag("--step", segment.step, "propose the best planes for the next piece; cut nothing");
     c->add_option("--top", segment.top, "how many planes to show (10)")
         ->check(number_between(1, 1e6, "a count of planes"));

@@ -11,7 +11,7 @@ namespace qchopper {
 
 int run(const SegmentArguments& a, Terminal& terminal) {
     check_arguments(a);
-    ProjectChoices choices = choices_of(a);
+    ProjectChoices choices = choices_of(a, a.replayed ? "" : default_preset);  // a plan has settings of its own
     choices.plan = a.replayed;
     const SegmentAnswer answer =
         is_project_folder(a.input) ? segment_project(without_slash(a.input), a.cell, request_of(a), terminal.context())

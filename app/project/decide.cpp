@@ -156,7 +156,7 @@ class RequestHandler {
         }
         const std::vector<std::string>& warnings = project_.segmentation().warnings;
         for (std::size_t i = warned; i < warnings.size(); ++i) answer_.warnings.push_back(warnings[i]);
-        answer_.done = cut_line(project_.segmentation().cuts.back());
+        answer_.done = cut_line(project_.segmentation().cuts.back(), project_.project().settings);
     }
 
     void preview() {
@@ -220,7 +220,7 @@ class RequestHandler {
         std::size_t told = project_.project().cuts.size();
         const auto on_round = [&](const Segmentation& best) {
             report_kept(best.cuts.size());
-            for (const std::string& line : round_lines(best.cuts, told, is_beam)) {
+            for (const std::string& line : round_lines(best.cuts, told, project_.project().settings)) {
                 context_.message((is_beam ? "best so far: " : "") + line);
             }
             told = best.cuts.size();

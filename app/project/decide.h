@@ -77,6 +77,7 @@ struct SegmentAnswer {
     std::filesystem::path folder;
     Project project;
     bool pieces_written = false;
+    std::vector<std::optional<double>> unreachable;  // per piece (share_by_objective); empty: not asked
 };
 
 // Does what is asked. Precondition: the caller holds the lock of the project. Throws InputError: (use) for what this

@@ -28,7 +28,19 @@ std::string describe(const Decision& decision) {
     return std::holds_alternative<WeightsChange>(decision) ? "change of weights" : "reset";
 }
 
-std::string cut_line(const Cut& cut) {
+std::size_t most_judged_planes(const SearchSettings& settings) {
+    constexpr std::size_t normals = 129 + 3;  // of the octahedron, and the axes of the piece's box
+    if (settings.objectives.weights.unreachable <= 0) return 0;
+    return normals * static_cast<std::size_t>(settings.candidates.offsets_per_normal);
+}
+
+std::string describe_planes(std::size_t evaluated, const SearchSettings& settings) {
+    const std::size_t judged = most_judged_planes(settings);
+    if (judged == 0) return with_commas(evaluated) + (evaluated == 1 ? " plane" : " planes");
+    return "up to " + with_commas(judged) + " planes, " + with_commas(evaluated) + " of them evaluated whole";
+}
+
+std::string cut_line(const Cut& cut, const SearchSettings& settings) {
     const Terms& t = cut.chosen.terms;
     // If another than the best was accepted, the best is among the runners-up. Of totals that differ by a tie none is
     // better.
@@ -37,8 +49,8 @@ std::string cut_line(const Cut& cut) {
     const bool is_refined = cut.chosen.normal_index == refined_index;
     const std::string which = cut.chosen.normal_index == own_index
                                   ? "given plane"
-                                  : (is_best || is_refined ? "best of " : "one of ") + std::to_string(cut.candidates) +
-                                        " planes" + (is_refined ? ", refined" : "");
+                                  : (is_best || is_refined ? "best of " : "one of ") +
+                                        describe_planes(cut.candidates, settings) + (is_refined ? ", refined" : "");
     return "cut " + std::to_string(cut.number) + " on piece " + cut.piece + ": " + which + ", total " +
            fixed(t.total, 3) + " (face ratio " + fixed(t.face_ratio, 2) + ", fragility " + fixed(t.fragility, 3) +
            ", piece count " + fixed(t.piece_count, 0) + ", undercut " + fixed(t.undercut, 3) +

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "segment/search/segmentation.h"
+#include "segment/search/settings.h"
 
 namespace qchopper {
 
@@ -73,8 +74,15 @@ struct History {
 // "change of weights", "reset".
 std::string describe(const Decision& decision);
 
-// "cut 2 on piece B: best of 120 planes, total 3.929 (...); makes D, E".
-std::string cut_line(const Cut& cut);
+// So many planes of a piece at most are judged by what they leave out of reach, before those that can win are evaluated
+// by all terms (segment/search/reach_rank.h); 0 where that has no weight.
+std::size_t most_judged_planes(const SearchSettings& settings);
+
+// "up to 10,560 planes, 32 of them evaluated whole", or "120 planes": among which a plane was chosen.
+std::string describe_planes(std::size_t evaluated, const SearchSettings& settings);
+
+// "cut 2 on piece B: best of 120 planes, total 3.929 (...); makes D, E". With the settings by which it was chosen.
+std::string cut_line(const Cut& cut, const SearchSettings& settings);
 
 // "D, E and 2 fragments": what a cut made.
 std::string makes(const Cut& cut);

@@ -4,6 +4,7 @@
 #include "app/project/explain.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "app/project/replay.h"
 #include "base/error.h"
@@ -64,6 +65,31 @@ std::vector<Ranked> along_own_normal(const Before& b, const Plane& own, const Se
     return planes;
 }
 
+// Precondition: the piece is ranked with these settings, so that the cache has its sweep.
+std::optional<OpenedSurface> opened_surface(const Before& b, const Ranked& chosen, const SearchSettings& settings,
+                                            EvaluationCache& cache) {
+    const Piece& piece = b.segmentation.pieces[b.piece];
+    if (!is_ranked_by_reach(piece, settings)) return std::nullopt;
+    OpenedSurface opened;
+    opened.piece_mm2 = piece.samples->judged().area_mm2();
+    opened.scan_mm2 = scan_area_mm2(piece);
+    opened.before_mm2 = cache.unreachable_mm2(piece, settings.objectives.tilt_deg);
+    opened.after_mm2 = chosen.terms.unreachable * opened.scan_mm2;
+    for (const PieceShare& other : shares_of_others(b.segmentation, b.piece, settings.objectives, cache)) {
+        opened.after_mm2 -= other.unreachable_mm2;
+    }
+    opened.best_other_after_mm2 = std::numeric_limits<double>::infinity();
+    const ReachEvaluations& swept = cache.reach(piece);
+    for (std::size_t n = 0; n < swept.normals.size(); ++n) {
+        if (swept.unreachable_mm2[n].empty() || static_cast<int>(n) == chosen.normal_index) continue;
+        ++opened.other_normals;
+        opened.other_planes += swept.unreachable_mm2[n].size();
+        const double least = *std::min_element(swept.unreachable_mm2[n].begin(), swept.unreachable_mm2[n].end());
+        opened.best_other_after_mm2 = std::min(opened.best_other_after_mm2, least);
+    }
+    return opened;
+}
+
 }  // namespace
 
 const Cut& cut_to_explain(const Project& project, std::optional<int> number) {
@@ -78,19 +104,17 @@ const Cut& cut_to_explain(const Project& project, std::optional<int> number) {
                      "its cuts are 1 to " + std::to_string(project.cuts.size()));
 }
 
-Explanation explain(OpenProject& project, const Cut& cut, const Context& context) {
-    const SearchSettings settings = settings_at(project.project(), cut);
-    const TriangleMesh& scan = project.scan();
-    StageTimer stage(context, "cuts replayed");
-    const Before b = before(project.project(), cut, scan);
-    stage.next("planes ranked");
-    EvaluationCache& cache = project.cache();
+namespace {
+
+Explanation explain_by(const Before& b, const Cut& cut, const SearchSettings& settings, EvaluationCache& cache,
+                       const BlocksNeeded& too_large_for, const Context& context) {
     Explanation e;
     e.cut = cut;
     e.objectives = settings.objectives;
     e.chosen = cut.chosen;
-    e.ranked = rank_whole_normals(b.segmentation, b.piece, settings, cache, context, cut.chosen.normal_index,
-                                  project.too_large_for(settings, b.segmentation.pieces[b.piece]));
+    e.most_judged = most_judged_planes(settings);
+    e.ranked =
+        rank_whole_normals(b.segmentation, b.piece, settings, cache, context, cut.chosen.normal_index, too_large_for);
     for (std::size_t i = 0; i < e.ranked.size() && !e.place; ++i) {
         if (e.ranked[i].plane == cut.chosen.plane) e.place = i;
     }
@@ -102,6 +126,20 @@ Explanation explain(OpenProject& project, const Cut& cut, const Context& context
         if (evaluated) e.chosen = *evaluated;
     }
     e.along_own_normal = along_own_normal(b, own.plane, settings, cache, context);
+    return e;
+}
+
+}  // namespace
+
+Explanation explain(OpenProject& project, const Cut& cut, const Context& context) {
+    const SearchSettings settings = settings_at(project.project(), cut);
+    const TriangleMesh& scan = project.scan();
+    StageTimer stage(context, "cuts replayed");
+    const Before b = before(project.project(), cut, scan);
+    stage.next("planes ranked");
+    Explanation e = explain_by(b, cut, settings, project.cache(),
+                               project.too_large_for(settings, b.segmentation.pieces[b.piece]), context);
+    e.opened = opened_surface(b, e.chosen, settings, project.cache());
     return e;
 }
 

@@ -13,6 +13,21 @@
 
 namespace qchopper {
 
+// What of the surface that is out of reach a plane opens: areas in mm2 on the samples of the search, each piece on its
+// best base, along all directions within the largest tilt.
+struct OpenedSurface {
+    double piece_mm2 = 0;   // of the piece before the cut, its caps included
+    double scan_mm2 = 0;    // of the scan, what is ignored left out
+    double before_mm2 = 0;  // out of reach of the piece
+    double after_mm2 = 0;   // out of reach of its two sides
+    // The planes of all normals but the chosen one's, as the sweep judges them (segment/score/reach_sweep.h).
+    std::size_t other_normals = 0;
+    std::size_t other_planes = 0;
+    double best_other_after_mm2 = 0;
+    double opened_share() const { return (before_mm2 - after_mm2) / piece_mm2; }  // below 0: it hides surface
+    double best_other_share() const { return (before_mm2 - best_other_after_mm2) / piece_mm2; }
+};
+
 struct Explanation {
     Cut cut;
     Objectives objectives;             // with the weights of that decision
@@ -20,6 +35,8 @@ struct Explanation {
     std::optional<std::size_t> place;  // index of the chosen plane among them; nothing: it is the operator's own
     Ranked chosen;
     std::vector<Ranked> along_own_normal;  // without a place: planes along the normal of the chosen one, by offset
+    std::optional<OpenedSurface> opened;   // nothing where surface out of reach has no weight
+    std::size_t most_judged = 0;           // planes; 0 as well then
     bool is_best() const { return place && *place == 0; }
 };
 

@@ -3,32 +3,68 @@
 
 #include "app/project/make_project.h"
 
-#include <numbers>
+#include <algorithm>
+#include <variant>
 
 #include "app/project/ignored_surface.h"
+#include "app/project/presets.h"
+#include "base/text.h"
 #include "base/timings.h"
-#include "cam/cell/cell.h"
+#include "cam/setup/choose_setup.h"
 
 namespace qchopper {
+namespace {
+
+// Its weights, and where surface out of reach has one of them, all that the preset carve evaluates planes by.
+void take_objectives(const Plan& plan, SearchSettings& settings) {
+    if (plan.weights.unreachable > 0) {
+        const SearchSettings carve = *preset("carve");
+        settings.objectives.scope = carve.objectives.scope;
+        settings.candidates = carve.candidates;
+    }
+    settings.objectives.weights = plan.weights;
+}
+
+bool was_any_cut_decided(const History& history) {
+    return std::any_of(history.decisions.begin(), history.decisions.end(), [](const Decision& decision) {
+        return std::holds_alternative<Cut>(decision) || std::holds_alternative<Replacement>(decision);
+    });
+}
+
+// What follows from a cell that the project did not know before. Cuts that were decided with another tilt keep theirs.
+void follow_cell(OpenProject& project, const ProjectContext& context) {
+    const SearchSettings& before = project.project().settings;
+    SearchSettings after = with_cell(before, project.project().preset, max_tilt_deg(project.setups()->cell()));
+    const double tilt = after.objectives.tilt_deg;
+    if (was_any_cut_decided(project.project().history)) after.objectives.tilt_deg = before.objectives.tilt_deg;
+    const double kept = after.objectives.tilt_deg;
+    project.set_settings(after);
+    if (kept == tilt) return;
+    context.warn({"the tool of this cell tilts by " + significant(tilt, 4) + " degrees, but planes are ranked for " +
+                  significant(kept, 4) +
+                  " degrees, as when the first cut was decided; stop rules and setups take the " +
+                  "cell's. To rank for the cell's tilt, prepare the scan again with this cell"});
+}
+
+}  // namespace
 
 ProjectDraft draft_project(ProjectChoices choices, const ProjectContext& context) {
     check_output(choices.folder);
     ProjectDraft draft;
     draft.folder = choices.folder;
+    std::optional<Cell> cell;
     if (choices.cell_file) {
-        const Cell cell = read_cell(*choices.cell_file);  // an impossible one is refused before anything is made
-        if (cell.machine && choices.settings.objectives.weights.unreachable > 0) {
-            choices.settings.objectives.tilt_deg = cell.machine->max_tilt * 180 / std::numbers::pi;
-        }
+        cell = read_cell(*choices.cell_file);  // an impossible one is refused before anything is made
         draft.cell_file = read_file(*choices.cell_file, settings_limit);
     }
     if (choices.plan) draft.plan = read_plan(*choices.plan);
-    if (draft.plan && choices.preset.empty()) choices.settings.objectives.weights = draft.plan->weights;
+    if (draft.plan && choices.preset.empty()) take_objectives(*draft.plan, choices.settings);
     std::optional<PaintedScan> painted = read_painted(choices);
     ImportedScan imported = import_project_scan(choices, context);
     std::optional<IgnoredSurface> ignored = ignore_surface(choices, std::move(painted), imported, context);
     context.warn(imported.report.warnings);
     draft.project = new_project(choices, imported);
+    if (cell) draft.project.settings = with_cell(draft.project.settings, choices.preset, max_tilt_deg(*cell));
     draft.project.ignored = std::move(ignored);
     draft.scan = std::move(imported.mesh);
     return draft;
@@ -40,6 +76,7 @@ LockedProject::LockedProject(const std::filesystem::path& folder, const std::opt
     clear_leftovers(folder);
     if (!cell_file) return;
     take_cell(folder, *cell_file, context);
+    follow_cell(project, context);
     context.saved("The project knows its cell now; its decisions are unchanged.");
 }
 

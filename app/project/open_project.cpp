@@ -263,10 +263,17 @@ void OpenProject::commit_first(std::size_t committed) {
 }
 
 void OpenProject::set_search(const StopRules& stop, std::size_t beam) {
-    if (stop == project_.settings.stop && beam == project_.settings.beam) return;
+    SearchSettings settings = project_.settings;
+    settings.stop = stop;
+    settings.beam = beam;
+    set_settings(settings);
+}
+
+void OpenProject::set_settings(const SearchSettings& settings) {
+    if (settings == project_.settings) return;
     const bool had_samples = project_.settings.takes_samples();
-    project_.settings.stop = stop;
-    project_.settings.beam = beam;
+    if (settings.objectives != project_.settings.objectives) cache_.reset();
+    project_.settings = settings;
     project_.beam.reset();
     drop_unfinished_verdict();
     // Made again with samples, or without: as a project that is opened with these settings.
@@ -313,7 +320,7 @@ PreparedProject OpenProject::prepare(const std::string& program_version, const C
     static_cast<void>(segmentation());
     release_scan();
     prepared.pieces = write_jobs(folder_, project_, segmentation(), *setups(), program_version, context);
-    write_pictures(folder_, segmentation().pieces, context);
+    write_pictures(folder_, segmentation().pieces, *setups(), context);
     project_.stage = is_out_of_time ? Stage::cutting : Stage::done;
     const StageTimer stage(context, "project saved");
     save_project(folder_, project_);

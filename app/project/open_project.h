@@ -100,6 +100,8 @@ class OpenProject {
 
     // Sets how the search goes on. This is no decision: undo does not take it back.
     void set_search(const StopRules& stop, std::size_t beam);
+    // The same for all settings. Precondition: the weights stay as they are.
+    void set_settings(const SearchSettings& settings);
 
     // Runs the search to the stop rules, saves the best segmentation of every round, then calls `on_round` with it, and
     // writes the pieces at its end, unless time ran out. Throws Cancelled; the last round stays saved.

@@ -11,6 +11,7 @@
 #include "app/project/ordered_job.h"
 #include "app/project/project_folder.h"
 #include "app/project/shell_word.h"
+#include "app/project/unreachable_picture.h"
 #include "base/file.h"
 #include "base/parallel.h"
 #include "base/timings.h"
@@ -182,14 +183,20 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
     return reports;
 }
 
-void write_pictures(const fs::path& folder, const std::vector<Piece>& pieces, const Context& context) {
+void write_pictures(const fs::path& folder, const std::vector<Piece>& pieces, Setups& setups, const Context& context) {
     const StageTimer stage(context, "pictures drawn");
-    context.progress("pictures drawn", 0, 2);
+    context.progress("pictures drawn", 0, 3);
     const std::vector<Vec3> shifts = exploded_shifts(pieces);
     Scene scene(coloured(pieces));
     write_file(folder / "pictures" / "segmentation.png", render_png(scene, {}, context));
     scene.place(shifts);
     write_file(folder / "pictures" / "exploded.png", render_png(scene, {}, context));
+    std::vector<CarvedPiece> carved;
+    for (const Piece& piece : pieces) {
+        const Carving& carving = setups.of(piece);
+        carved.push_back({carving.choice.states, carving.setup().base});
+    }
+    write_file(folder / "pictures" / "unreachable.png", draw_unreachable(pieces, shifts, carved, context));
 }
 
 void remove_outputs(const fs::path& folder, Project& project) {

@@ -46,8 +46,10 @@ std::vector<PieceReport> write_jobs(const std::filesystem::path& folder, Project
                                     const Segmentation& segmentation, Setups& setups,
                                     const std::string& program_version, const Context& context);
 
-// Writes pictures/segmentation.png and pictures/exploded.png. Throws Cancelled.
-void write_pictures(const std::filesystem::path& folder, const std::vector<Piece>& pieces, const Context& context);
+// Writes pictures/segmentation.png, pictures/exploded.png and pictures/unreachable.png (unreachable_picture.h). Throws
+// Cancelled.
+void write_pictures(const std::filesystem::path& folder, const std::vector<Piece>& pieces, Setups& setups,
+                    const Context& context);
 
 // Saves the project with Stage::cutting, if it has another stage or jobs, then removes pieces, jobs and pictures. A
 // program that is killed at any moment leaves a consistent project (tests/app/project/killed_test.cpp).

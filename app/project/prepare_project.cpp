@@ -2,7 +2,6 @@
 
 #include "app/project/prepare_project.h"
 
-#include "app/project/presets.h"
 #include "app/project/project_lines.h"
 #include "app/project/shell_word.h"
 #include "base/error.h"
@@ -21,11 +20,10 @@ PreparedProject finish(OpenProject& project, const PrepareOptions& options, cons
                          "check the scan");
     }
     if (project.project().stage == Stage::cutting && !project.is_being_judged()) {
-        const bool is_beam = project.project().settings.beam > 1;
         std::size_t told = project.project().cuts.size();
         const auto on_round = [&](const Segmentation& s) {
             report_kept(s);
-            for (const std::string& line : round_lines(s.cuts, told, is_beam)) context.message(line);
+            for (const std::string& line : round_lines(s.cuts, told, project.project().settings)) context.message(line);
             told = s.cuts.size();
         };
         const SearchEnd end = project.search(project.checks(), on_round, context, options.time_limit_s);
@@ -42,9 +40,7 @@ PreparedProject prepare_scan(const ProjectChoices& choices, const PrepareOptions
                              const ProjectContext& context) {
     ProjectDraft draft = draft_project(choices, context);
     StopRules& stop = draft.project.settings.stop;
-    // A preset sees no cell; what the operator gave in place of its rules stays as it is.
-    const bool is_of_carve = choices.preset == "carve" && stop == preset("carve")->stop;
-    if (!stop.is_any_set() || is_of_carve) stop.fits_cell = true;
+    if (!stop.is_any_set()) stop.fits_cell = true;
     LockedProject open = make_project(std::move(draft), context);
     return finish(open.project, options, context);
 }

@@ -3,6 +3,7 @@
 #include "app/project/presets.h"
 
 #include <array>
+#include <cmath>
 
 namespace qchopper {
 namespace {
@@ -40,6 +41,7 @@ const std::array<Preset, 4> presets{{
 
 std::optional<SearchSettings> preset(std::string_view name) {
     if (name == "carve") return carve();
+    if (name == "thesis") return SearchSettings{};
     for (const Preset& p : presets) {
         if (name != p.name) continue;
         SearchSettings settings;
@@ -50,6 +52,18 @@ std::optional<SearchSettings> preset(std::string_view name) {
         return settings;
     }
     return std::nullopt;
+}
+
+bool are_rules_of_carve(std::string_view preset_name, const StopRules& rules) {
+    return preset_name == "carve" && rules.max_unreachable == carve().stop.max_unreachable && !rules.max_faces &&
+           !rules.min_cuts && !rules.max_obb;
+}
+
+SearchSettings with_cell(SearchSettings settings, std::string_view preset_name, double max_tilt_deg) {
+    if (are_rules_of_carve(preset_name, settings.stop)) settings.stop.fits_cell = true;
+    if (settings.objectives.weights.unreachable > 0)
+        settings.objectives.tilt_deg = std::round(1e9 * max_tilt_deg) / 1e9;
+    return settings;
 }
 
 }  // namespace qchopper

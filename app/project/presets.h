@@ -1,5 +1,5 @@
-// Settings by name: the four cases of the thesis (Nicholson 2016, chapter 5; stop rules of the last two are ours), and
-// cutting for what a tilting tool reaches (tests/app/project/presets_test.cpp).
+// Settings by name: cutting for what a tilting tool reaches; the thesis' objectives without a stop rule; and its four
+// cases (Nicholson 2016, chapter 5; stop rules of the last two are ours). Tests: tests/app/project/presets_test.cpp.
 
 #pragma once
 
@@ -10,7 +10,20 @@
 
 namespace qchopper {
 
-// "carve", "bunny", "femur", "vertebrae" or "skull"; nothing for any other name.
+// What `prepare` and `segment` take where the operator names none.
+constexpr const char* default_preset = "carve";
+
+// "carve", "thesis", "bunny", "femur", "vertebrae" or "skull"; nothing for any other name. "thesis" is
+// SearchSettings{}.
 std::optional<SearchSettings> preset(std::string_view name);
+
+// Whether the stop rules of a project are still those that the preset carve brings. How rules are combined, the safety
+// stop and whether too narrow surface counts are no rules.
+bool are_rules_of_carve(std::string_view preset_name, const StopRules& rules);
+
+// The settings of a project that knows its cell: a preset sees none. To the rules of carve is added that every piece
+// fits the cell, and with the weight `unreachable` the tool tilts as far as the cell's does, rounded to 1e-9
+// degrees: 60 degrees that went through radians are 60 again.
+SearchSettings with_cell(SearchSettings settings, std::string_view preset_name, double max_tilt_deg);
 
 }  // namespace qchopper

@@ -37,12 +37,12 @@ std::string kept_cuts(std::size_t cuts, const std::filesystem::path& folder, boo
            " are kept in " + folder.string();
 }
 
-std::vector<std::string> round_lines(const std::vector<Cut>& cuts, std::size_t told, bool is_beam) {
+std::vector<std::string> round_lines(const std::vector<Cut>& cuts, std::size_t told, const SearchSettings& settings) {
     std::vector<std::string> lines;
     if (cuts.empty()) return lines;
-    const std::size_t first = is_beam ? cuts.size() - 1 : std::min(told, cuts.size());
+    const std::size_t first = settings.beam > 1 ? cuts.size() - 1 : std::min(told, cuts.size());
     for (std::size_t i = first; i < cuts.size(); ++i) {
-        lines.push_back(cut_line(cuts[i]));
+        lines.push_back(cut_line(cuts[i], settings));
     }
     return lines;
 }

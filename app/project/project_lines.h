@@ -25,7 +25,7 @@ std::string kept_cuts(std::size_t cuts, const std::filesystem::path& folder, boo
 
 // The lines of the cuts that a round of the search has made, of which `told` were told before: several after cuts on
 // trial. Of a beam, whose cuts may all have changed, the last cut alone.
-std::vector<std::string> round_lines(const std::vector<Cut>& cuts, std::size_t told, bool is_beam);
+std::vector<std::string> round_lines(const std::vector<Cut>& cuts, std::size_t told, const SearchSettings& settings);
 
 // "cut 7 of piece K: by their setups another plane leaves 3.1 instead of 10.9 % of its pieces out of reach; taken".
 // One per cut that was asked.

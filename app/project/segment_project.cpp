@@ -5,6 +5,8 @@
 #include "app/project/project_lines.h"
 #include "app/project/replay.h"
 #include "app/project/replay_plan.h"
+#include "app/project/unreachable_of.h"
+#include "base/parallel.h"
 #include "base/text.h"
 #include "base/timings.h"
 
@@ -27,8 +29,25 @@ void record_uncut(ProjectDraft& draft, const Context& context) {
     record(draft.project, uncut(draft.scan, draft.project.settings.objectives.fragment_volume_mm3));
 }
 
+// What of each piece is out of reach, where the project has samples of them and its scan is still there: without, the
+// other figures are shown all the same.
+std::vector<std::optional<double>> unreachable_shares(OpenProject& open, const Context& context) {
+    const Project& project = open.project();
+    std::error_code error;
+    if (!project.settings.takes_samples() || !std::filesystem::exists(project.scan.path, error)) return {};
+    const std::vector<Piece>& pieces = open.segmentation().pieces;
+    const StageTimer stage(context, "surface out of reach");
+    std::vector<std::optional<double>> shares(pieces.size());
+    parallel_for(0, pieces.size(), [&](std::size_t i) {
+        context.check_cancelled();
+        shares[i] = share_by_objective(pieces[i], project.settings.objectives.tilt_deg);
+    });
+    return shares;
+}
+
 // Adds the state of the project to an answer.
-SegmentAnswer with_state(SegmentAnswer answer, const OpenProject& open) {
+SegmentAnswer with_state(SegmentAnswer answer, OpenProject& open, const Context& context) {
+    if (!answer.proposal && !answer.preview && !answer.plan) answer.unreachable = unreachable_shares(open, context);
     answer.folder = open.folder();
     answer.project = open.project();
     answer.pieces_written = open.are_pieces_written();
@@ -44,7 +63,8 @@ SegmentAnswer make_cuts_of(const Plan& plan, OpenProject& open, const ProjectCon
         open.adopt(s);
         context.saved(kept_cuts(s.cuts.size(), open.folder()) + ".");
         const bool is_cut = s.discarded.size() == discarded;
-        context.message(is_cut ? cut_line(s.cuts.back()) : discarded_lines(open.project()).back());
+        context.message(is_cut ? cut_line(s.cuts.back(), open.project().settings)
+                               : discarded_lines(open.project()).back());
         discarded = s.discarded.size();
     };
     const Project& p = open.project();
@@ -78,9 +98,9 @@ SegmentAnswer segment_scan(const ProjectChoices& choices, ProjectRequest request
     record_uncut(draft, context);
     LockedProject open = make_project(std::move(draft), context);
     request.weights.reset();  // the project is made with them
-    if (!plan) return with_state(decide(open.project, request, context), open.project);
+    if (!plan) return with_state(decide(open.project, request, context), open.project, context);
     if (request.write_pieces) open.project.keep_pieces_written();
-    return with_state(make_cuts_of(*plan, open.project, context), open.project);
+    return with_state(make_cuts_of(*plan, open.project, context), open.project, context);
 }
 
 SegmentAnswer segment_project(const std::filesystem::path& folder,
@@ -88,7 +108,7 @@ SegmentAnswer segment_project(const std::filesystem::path& folder,
                               const ProjectContext& context) {
     context.saved("The project is unchanged.");
     LockedProject open(folder, cell_file, context);
-    return with_state(decide(open.project, request, context), open.project);
+    return with_state(decide(open.project, request, context), open.project, context);
 }
 
 }  // namespace qchopper

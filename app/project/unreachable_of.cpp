@@ -2,6 +2,7 @@
 
 #include "app/project/unreachable_of.h"
 
+#include "segment/mesh/oriented_box.h"
 #include "segment/score/piece_reach.h"
 
 namespace qchopper {
@@ -17,6 +18,11 @@ UnreachableOf unreachable_of(double tilt_deg) {
         const BaseReach& best = reach.best();
         return UnreachableSurface{best.unreachable_mm2, best.share()};
     };
+}
+
+std::optional<double> share_by_objective(const Piece& piece, double tilt_deg) {
+    if (!piece.samples) return std::nullopt;
+    return least_unreachable(piece.samples->judged(), oriented_box(piece.mesh->points).axis, tilt_deg).share();
 }
 
 }  // namespace qchopper

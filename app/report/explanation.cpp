@@ -60,17 +60,57 @@ std::vector<std::vector<std::string>> table(const Explanation& e) {
     return rows;
 }
 
+// "120", or "up to 10,560 planes, 248 of them evaluated whole".
+std::string planes(const Explanation& e) {
+    if (e.most_judged == 0) return std::to_string(e.ranked.size());
+    return "up to " + with_commas(e.most_judged) + " planes, " + with_commas(e.ranked.size()) +
+           " of them evaluated whole";
+}
+
+std::string percent(double share) {
+    return fixed(100 * share, 2) + " %";
+}
+
+// What is true of the plane by reach alone, whatever the other terms say.
+std::vector<std::string> opened_lines(const Explanation& e) {
+    if (!e.opened) return {};
+    const OpenedSurface& o = *e.opened;
+    const bool opens = o.opened_share() >= 0;
+    std::vector<std::string> text{
+        "By reach: the plane " + std::string(opens ? "opens " : "hides ") + percent(std::abs(o.opened_share())) +
+        " of the surface of piece " + e.cut.piece + " (" + percent(std::abs(o.before_mm2 - o.after_mm2) / o.scan_mm2) +
+        " of the scan's): " + percent(o.before_mm2 / o.piece_mm2) + " of it was out of reach before the cut, " +
+        percent(o.after_mm2 / o.piece_mm2) + " is after."};
+    if (o.other_normals == 0) return text;
+    const double more = o.opened_share() - o.best_other_share();
+    text.push_back("Of " + with_commas(o.other_planes) + " planes along " + std::to_string(o.other_normals) +
+                   " other normals the best opens " + percent(o.best_other_share()) + ", " + percent(std::abs(more)) +
+                   (more >= 0 ? " less." : " more; the other terms decided."));
+    return text;
+}
+
+Json json_of(const OpenedSurface& o) {
+    return {{"piece_mm2", o.piece_mm2},
+            {"scan_mm2", o.scan_mm2},
+            {"unreachable_before_mm2", o.before_mm2},
+            {"unreachable_after_mm2", o.after_mm2},
+            {"other_normals", o.other_normals},
+            {"other_planes", o.other_planes},
+            {"unreachable_after_best_other_mm2", o.best_other_after_mm2}};
+}
+
 }  // namespace
 
 std::string verdict(const Explanation& e) {
     if (e.ranked.empty()) return "No candidate parts this piece: the plane is the operator's own.";
-    const std::string count = std::to_string(e.ranked.size());
+    const std::string count = planes(e);
     const Weights& w = e.objectives.weights;
     if (!e.is_best()) {
         const Ranked& best = e.ranked.front();
         const double more = e.chosen.terms.total - best.terms.total;
-        const std::string who = e.place ? "The plane is number " + std::to_string(*e.place + 1) + " of " + count
-                                        : "The plane is the operator's own, beside " + count + " candidates";
+        const std::string who =
+            e.place ? "The plane is number " + std::to_string(*e.place + 1) + " of " + count
+                    : "The plane is the operator's own, beside " + count + (e.most_judged == 0 ? " candidates" : "");
         return who + ": the best would cost " + fixed(std::abs(more), 3) + (more < 0 ? " more" : " less") + " (" +
                differences(e.chosen.terms, best.terms, w) + ").";
     }
@@ -88,6 +128,7 @@ std::vector<std::string> lines(const Explanation& e, const Project& project, con
     for (const std::string& line : ignored_lines(project)) text.push_back(line);
     for (const std::string& line : discarded_lines(project)) text.push_back(line);
     text.push_back(verdict(e));
+    for (const std::string& line : opened_lines(e)) text.push_back(line);
     for (const std::string& line : columns(table(e))) text.push_back(line);
     text.push_back("plot: " + picture);
     return text;
@@ -117,6 +158,10 @@ std::string document(const Explanation& e, const Project& project, const std::st
               {"best", best},
               {"verdict", verdict(e)},
               {"picture", picture}};
+    if (e.opened) {
+        json["opened"] = json_of(*e.opened);
+        json["most_judged"] = e.most_judged;
+    }
     if (project.ignored) json["ignored"] = json_of(*project.ignored);
     return text_of(json);
 }

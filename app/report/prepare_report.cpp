@@ -90,16 +90,22 @@ std::vector<std::string> warnings(const PreparedProject& prepared) {
 }
 
 std::vector<std::string> table(const PreparedProject& prepared) {
-    std::vector<std::vector<std::string>> rows{
-        {"piece", "faces", "volume", "box mm", "block", "base", "directions", "unreachable", "fits"}};
+    std::vector<std::vector<std::string>> rows{{"piece", "faces", "volume", "box mm", "block", "base", "directions",
+                                                "unreachable", "foam", "depth mm", "fits"}};
     for (const PieceReport& p : prepared.pieces) {
         const Setup& s = p.carving.setup();
+        const bool is_mapped = s.reach.method == ReachMethod::mapped;
         rows.push_back({p.name, with_commas(p.faces), describe_volume(p.volume_mm3), lengths(s.box.size()),
                         prepared.cell.stock[s.block.stock].name, base_word(s),
                         std::to_string(s.reach.directions.size()), share_word(s.reach.unreachable_share()),
-                        p.job.empty() ? "no" : "yes"});
+                        is_mapped ? describe_volume(s.reach.foam_mm3) : "-",
+                        is_mapped ? fixed(s.reach.foam_depth_mm, 0) : "-", p.job.empty() ? "no" : "yes"});
     }
     std::vector<std::string> lines = columns(rows);
+    lines.emplace_back(
+        "unreachable: of the surface without the base, along the directions of the setup; foam: what they leave, and "
+        "its "
+        "depth.");
     if (const std::string note = arm_note(prepared.cell); !note.empty()) lines.push_back(note);
     for (const std::string& line : ignored_lines(prepared.project)) lines.push_back(line);
     const std::size_t fragments = prepared.project.fragment_list.size();

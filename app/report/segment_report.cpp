@@ -44,20 +44,34 @@ void add(std::vector<std::string>& text, const std::vector<std::string>& more) {
     text.insert(text.end(), more.begin(), more.end());
 }
 
-std::vector<std::string> proposal_lines(const Proposal& p, const std::filesystem::path& folder) {
+bool has_reach(const Project& project) {
+    return project.settings.objectives.weights.unreachable > 0;
+}
+
+std::string percent(double share) {
+    return fixed(100 * share, 2) + " %";
+}
+
+std::vector<std::string> proposal_lines(const Proposal& p, const Project& project,
+                                        const std::filesystem::path& folder) {
     std::vector<std::string> text;
-    text.push_back("Piece " + p.piece + ", " + with_commas(p.faces) + " faces: " + with_commas(p.ranked.size()) +
-                   " planes, best first." +
+    text.push_back("Piece " + p.piece + ", " + with_commas(p.faces) +
+                   " faces: " + describe_planes(p.ranked.size(), project.settings) + ", best first." +
                    (p.rules_hold ? " The stop rules hold already; this is the piece with most faces." : ""));
     std::vector<std::vector<std::string>> rows{
         {"K", "normal", "offset mm", "face ratio", "fragility", "piece count", "undercut", "total"}};
+    if (has_reach(project)) rows.front().insert(rows.front().end() - 1, "unreachable");
     for (std::size_t k = 0; k < std::min(p.top, p.ranked.size()); ++k) {
         const Ranked& r = p.ranked[k];
         rows.push_back({std::to_string(k + 1), describe(r.plane.normal, 4), fixed(r.plane.offset, 3),
                         fixed(r.terms.face_ratio, 3), fixed(r.terms.fragility, 4), fixed(r.terms.piece_count, 0),
                         fixed(r.terms.undercut, 4), fixed(r.terms.total, 4)});
+        if (has_reach(project)) rows.back().insert(rows.back().end() - 1, percent(r.terms.unreachable));
     }
     add(text, columns(rows));
+    if (has_reach(project)) {
+        text.emplace_back("unreachable: of the scan's surface, over all pieces, once this plane has cut.");
+    }
     std::string crossing;
     for (const std::size_t k : p.crossing) crossing += (crossing.empty() ? "K " : ", ") + std::to_string(k);
     if (!crossing.empty()) text.push_back(sections_cross(crossing));
@@ -72,6 +86,10 @@ std::vector<std::string> preview_lines(const Preview& p, const Project& project)
     std::vector<std::string> text;
     text.push_back("Plane " + describe(p.plane.plane.normal, 6) + ", " + fixed(p.plane.plane.offset, 3) +
                    " mm on piece " + p.piece + ": total " + fixed(p.plane.terms.total, 4));
+    if (has_reach(project)) {
+        text.push_back("With it " + percent(p.plane.terms.unreachable) +
+                       " of the scan's surface would be out of reach, over all pieces.");
+    }
     text.push_back("Outline: " + with_commas(p.outline.loops.size()) +
                    (p.outline.loops.size() == 1 ? " loop, " : " loops, ") + fixed(p.outline.length_mm, 1) +
                    " mm long, within " + describe(p.outline.box.min, 1) + " to " + describe(p.outline.box.max, 1) +
@@ -87,13 +105,29 @@ std::vector<std::string> preview_lines(const Preview& p, const Project& project)
     return text;
 }
 
-std::vector<std::string> committed_lines(const Project& project) {
+std::vector<std::string> piece_table(const SegmentAnswer& answer) {
+    const Project& project = answer.project;
+    const bool has_shares = answer.unreachable.size() == project.pieces.size() && !project.pieces.empty();
     std::vector<std::vector<std::string>> rows{{"piece", "made by", "faces", "volume"}};
-    for (const SolidRecord& p : project.pieces) {
+    if (has_shares) rows.front().emplace_back("unreachable");
+    for (std::size_t i = 0; i < project.pieces.size(); ++i) {
+        const SolidRecord& p = project.pieces[i];
         rows.push_back({p.name, p.cut > 0 ? "cut " + std::to_string(p.cut) : "the scan", with_commas(p.faces),
                         describe_volume(p.volume_mm3)});
+        if (has_shares) rows.back().push_back(answer.unreachable[i] ? percent(*answer.unreachable[i]) : "-");
     }
     std::vector<std::string> text = columns(rows);
+    if (has_shares) {
+        text.push_back("unreachable: of the surface without the base, along all directions within " +
+                       significant(project.settings.objectives.tilt_deg, 4) +
+                       " degrees, for a tool without radius. A setup has at most eight of them, and a real tool.");
+    }
+    return text;
+}
+
+std::vector<std::string> committed_lines(const SegmentAnswer& answer) {
+    const Project& project = answer.project;
+    std::vector<std::string> text = piece_table(answer);
     text.push_back(counted(project.pieces.size(), "piece") + " by " + counted(project.cuts.size(), "cut") + ", " +
                    counted(project.fragment_list.size(), "fragment") +
                    ". Weights: " + describe_weights(project.settings.objectives.weights) + ".");
@@ -123,11 +157,13 @@ Json proposal_json(const Proposal& p, const Project& project) {
         plane["sections_cross"] = std::find(p.crossing.begin(), p.crossing.end(), k + 1) != p.crossing.end();
         planes.push_back(plane);
     }
-    return {{"piece", p.piece},
-            {"faces", p.faces},
-            {"rules_hold", p.rules_hold},
-            {"candidates", p.ranked.size()},
-            {"planes", planes}};
+    Json json{{"piece", p.piece},
+              {"faces", p.faces},
+              {"rules_hold", p.rules_hold},
+              {"candidates", p.ranked.size()},
+              {"planes", planes}};
+    if (const std::size_t judged = most_judged_planes(project.settings); judged > 0) json["most_judged"] = judged;
+    return json;
 }
 
 Json preview_json(const Preview& p, const Project& project) {
@@ -199,17 +235,22 @@ std::vector<std::string> lines(const SegmentAnswer& answer) {
         add(text, discarded_lines(project));
     }
     if (answer.pieces_written) text.push_back("The pieces are in " + (answer.folder / "pieces").string() + ".");
-    if (answer.proposal) add(text, proposal_lines(*answer.proposal, answer.folder));
+    if (answer.proposal) add(text, proposal_lines(*answer.proposal, project, answer.folder));
     if (answer.preview) add(text, preview_lines(*answer.preview, project));
-    if (!answer.proposal && !answer.preview && !answer.plan) add(text, committed_lines(project));
+    if (!answer.proposal && !answer.preview && !answer.plan) add(text, committed_lines(answer));
     return text;
 }
 
 std::string document(const SegmentAnswer& answer) {
     const Project& project = answer.project;
     Json pieces = Json::array();
-    for (const SolidRecord& p : project.pieces) {
+    for (std::size_t i = 0; i < project.pieces.size(); ++i) {
+        const SolidRecord& p = project.pieces[i];
         pieces.push_back({{"name", p.name}, {"cut", p.cut}, {"faces", p.faces}, {"volume_mm3", p.volume_mm3}});
+        // Along all directions that the tilt allows, not those of a setup.
+        if (i < answer.unreachable.size() && answer.unreachable[i]) {
+            pieces.back()["unreachable_all_directions"] = *answer.unreachable[i];
+        }
     }
     Json json{{"schema", "qchopper-segment-2"},
               {"project", answer.folder.string()},

@@ -42,7 +42,7 @@ Device new_device() {
     return Device(rtcNewDevice(QCHOPPER_EMBREE_CONFIG));
 }
 
-constexpr std::size_t triangles_at_once = 1 << 19;
+constexpr std::size_t triangles_at_once = 1 << 21;
 
 EmbreeScene new_scene(const Device& device) {
     EmbreeScene scene(rtcNewScene(device.get()));

@@ -14,7 +14,6 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "segment/picture/ambient.h"
-#include "segment/picture/lettering.h"
 #include "segment/picture/png.h"
 #include "segment/picture/shade.h"
 
@@ -211,7 +210,7 @@ void draw_labels(Pixels& pixels, const Scene& scene, const Film& film, const std
 
 }  // namespace
 
-Bytes render_png(const Scene& scene, const PictureOptions& options, const Context& context) {
+Pixels render(const Scene& scene, const PictureOptions& options, const Context& context) {
     check(scene.meshes(), options);
     assert(scene.has_rays() || options.ambient_rays == 0);
     context.check_cancelled();
@@ -234,9 +233,12 @@ Bytes render_png(const Scene& scene, const PictureOptions& options, const Contex
         for (std::size_t x = 0; x < width; ++x) pixels.rows[y * width + x] = developer.pixel(x, y);
     });
     if (options.labels) draw_labels(pixels, scene, film, developer.regions(), camera, options);
-    Bytes png = to_png(pixels.rows, options.width, options.height);
     report(height);
-    return png;
+    return pixels;
+}
+
+Bytes render_png(const Scene& scene, const PictureOptions& options, const Context& context) {
+    return to_png(render(scene, options, context).rows, options.width, options.height);
 }
 
 Bytes render_png(std::span<const ColouredMesh> meshes, const PictureOptions& options, const Context& context) {

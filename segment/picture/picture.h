@@ -10,12 +10,15 @@
 #include "base/context.h"
 #include "base/file.h"
 #include "segment/picture/camera.h"
+#include "segment/picture/lettering.h"
 #include "segment/picture/scene.h"
 
 namespace qchopper {
 
 // Throws InputError (use) if there is no triangle to draw or an option makes no sense; Cancelled on request. Progress:
 // rows drawn.
+Pixels render(const Scene& scene, const PictureOptions& options = {}, const Context& context = {});
+// The same as PNG.
 Bytes render_png(const Scene& scene, const PictureOptions& options = {}, const Context& context = {});
 Bytes render_png(std::span<const ColouredMesh> meshes, const PictureOptions& options = {}, const Context& context = {});
 

@@ -187,7 +187,7 @@ std::vector<Case> uses() {
         {"NoCommand", exit_use, {}, {"--help"}},
         {"UnknownOption", exit_use, {"inspect", "scan.ply", "--bogus"}, {"--bogus"}},
         {"MissingArgument", exit_use, {"inspect"}, {"SCAN"}},
-        {"UnknownPreset", exit_use, prepare("scan.ply", {"--preset", "hare"}), {"hare", "bunny"}},
+        {"UnknownPreset", exit_use, {"prepare", "scan.ply", "--preset", "hare"}, {"hare", "bunny"}},
         {"TooFewFaces", exit_use, {"sample", "femur", "--faces", "3", "-o", "f.ply"}, {"2000", "3"}},
         {"SampleOfNoFormat", exit_use, {"sample", "femur", "-o", "f.obj"}, {"f.obj", ".ply"}},
     };

@@ -74,7 +74,7 @@ TEST_F(Explain, WritesAPlotAndChangesNothingElse) {
 TEST_F(Explain, UsesTheWeightsOfThatDecision) {
     fs::copy(program::prepared() / "scan.ply", folder.path / "scan.ply");
     fs::remove_all(folder.path / "p.qch");
-    EXPECT_EQ(run({"segment", "scan.ply", "--units", "mm", "-o", "p.qch", "-q"}).code, 0);
+    EXPECT_EQ(run({"segment", "scan.ply", "--units", "mm", "--preset", "thesis", "-o", "p.qch", "-q"}).code, 0);
     EXPECT_EQ(run({"segment", "p.qch", "--accept", "2", "-q"}).code, 0);
     EXPECT_EQ(run({"segment", "p.qch", "--weights", "undercut=70,fragility=0", "-q"}).code, 0);
     EXPECT_EQ(run({"segment", "p.qch", "--accept", "1", "-q"}).code, 0);

@@ -161,7 +161,7 @@ fs::path foam_cell() {
 }
 
 Arguments prepare_arguments(const std::string& scan) {
-    return {"prepare", scan, "--units", "mm", "--cell", foam_cell().string(), "--min-cuts", "2"};
+    return {"prepare", scan, "--units", "mm", "--cell", foam_cell().string(), "--preset", "thesis", "--min-cuts", "2"};
 }
 
 const fs::path& prepared() {

@@ -39,7 +39,7 @@ struct Segment : ::testing::Test {
     }
     void SetUp() override {
         fs::copy(program::prepared() / "scan.ply", folder.path / "scan.ply");
-        begun = answer({"scan.ply", "--units", "mm", "-o", "p.qch"});
+        begun = answer({"scan.ply", "--units", "mm", "--preset", "thesis", "-o", "p.qch"});
     }
     json begun;
 };
@@ -69,7 +69,7 @@ TEST_F(Segment, SaysBeforeAndAfterTheCutWhereThePieceRunsThroughItself) {
     const TriangleMesh poking = shapes::joined(
         {shapes::box({0, 0, 0}, {40, 40, 40}, 2), shapes::turned_inside_out(shapes::ball({20, 20, 38}, 5))});
     write_file(folder.path / "poking.ply", to_ply(poking));
-    answer({"poking.ply", "--units", "mm", "-o", "x.qch"});
+    answer({"poking.ply", "--units", "mm", "--preset", "thesis", "-o", "x.qch"});
     EXPECT_EQ(answer({"x.qch", "--preview", "1,0,0,0.1"})["preview"]["sections_cross"], true);
     EXPECT_EQ(answer({"x.qch", "--preview", "1,0,0,15.1"})["preview"]["sections_cross"], false);
     const std::string shown = run({"segment", "x.qch", "--preview", "1,0,0,0.1", "-q"}).out;
@@ -204,7 +204,8 @@ TEST_F(Segment, TakesTheVolumeBelowWhichASolidIsAFragment) {
     for (const json& made : worst["makes"]) volumes.push_back(made["volume_mm3"]);
     std::sort(volumes.rbegin(), volumes.rend());
     const std::string limit = std::to_string(volumes[1] * 1.01);  // only the largest would be a piece
-    const json limited = answer({"scan.ply", "--units", "mm", "-o", "q.qch", "--fragment-volume", limit});
+    const json limited =
+        answer({"scan.ply", "--units", "mm", "--preset", "thesis", "-o", "q.qch", "--fragment-volume", limit});
     EXPECT_EQ(limited["pieces"], begun["pieces"]);
     const json left = answer({"q.qch", "--step", "--top", "200"})["proposal"]["planes"];
     EXPECT_LT(left.size(), all.size());

@@ -5,7 +5,7 @@
 namespace qchopper {
 namespace {
 
-std::string line_with(double chosen, double runner_up) {
+std::string line_with(double chosen, double runner_up, const SearchSettings& settings = {}) {
     Cut cut;
     cut.number = 1;
     cut.piece = "A";
@@ -14,7 +14,7 @@ std::string line_with(double chosen, double runner_up) {
     cut.runners_up.resize(1);
     cut.runners_up[0].terms.total = runner_up;
     cut.pieces = {"B", "C"};
-    return cut_line(cut);
+    return cut_line(cut, settings);
 }
 
 TEST(CutLine, CallsThePlaneTheBestUnlessAnotherIsBetterByMoreThanATie) {
@@ -22,6 +22,15 @@ TEST(CutLine, CallsThePlaneTheBestUnlessAnotherIsBetterByMoreThanATie) {
         EXPECT_NE(line_with(3.0, runner_up).find("best of 120 planes"), std::string::npos) << runner_up;
     }
     EXPECT_NE(line_with(3.0, 3.0 - 1e-6).find("one of 120 planes"), std::string::npos);
+}
+
+TEST(CutLine, TellsJudgedPlanesFromThoseEvaluatedWhole) {
+    SearchSettings settings;
+    settings.objectives.weights.unreachable = 100;
+    settings.candidates.offsets_per_normal = 80;
+    EXPECT_NE(line_with(3, 4, settings).find("best of up to 10,560 planes, 120 of them evaluated whole, total"),
+              std::string::npos)
+        << line_with(3, 4, settings);
 }
 
 }  // namespace

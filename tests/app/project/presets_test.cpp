@@ -24,5 +24,34 @@ TEST(Presets, CarveLooksForWhatIsOutOfReachFirst) {
     EXPECT_EQ(preset("bunny")->objectives.scope, TermScope::whole);
 }
 
+TEST(Presets, ThesisHasItsObjectivesAndNoStopRule) {
+    EXPECT_EQ(*preset("thesis"), SearchSettings{});
+    EXPECT_EQ(preset("thesis")->objectives.weights, preset("bunny")->objectives.weights);
+    EXPECT_FALSE(preset("thesis")->stop.is_any_set());
+}
+
+TEST(Presets, ACellAddsItsTiltAndThatEveryPieceFitsToCarve) {
+    const SearchSettings carve = with_cell(*preset("carve"), "carve", 30 * (1 + 1e-15));
+    EXPECT_TRUE(carve.stop.fits_cell);
+    EXPECT_EQ(carve.objectives.tilt_deg, 30);
+    for (const char* name : {"thesis", "bunny", "femur", "vertebrae", "skull"}) {
+        EXPECT_EQ(with_cell(*preset(name), name, 30), *preset(name)) << name;
+    }
+}
+
+TEST(Presets, RulesOfTheOperatorAreNotThoseOfCarve) {
+    SearchSettings settings = *preset("carve");
+    settings.stop.max_cuts = 3;
+    settings.stop.count_narrow = true;
+    EXPECT_TRUE(are_rules_of_carve("carve", settings.stop)) << "these are no rules";
+    EXPECT_FALSE(are_rules_of_carve("", settings.stop)) << "a project of before";
+    StopRules other = settings.stop;
+    other.max_unreachable = 0.05;
+    EXPECT_FALSE(are_rules_of_carve("carve", other));
+    other = settings.stop;
+    other.min_cuts = 1;
+    EXPECT_FALSE(are_rules_of_carve("carve", other));
+}
+
 }  // namespace
 }  // namespace qchopper
