@@ -43,9 +43,10 @@ struct MovingBodies {
 // tip to its stick-out with its whole diameter.
 std::vector<AxisBody> bodies_on_axis(const CarvingTool& tool, const Spindle& spindle);
 
-// The links k = 0..6 for joints: how they have moved since the arm stood straight up, all angles zero; in the base.
+// The links k = 0..6 for joints: from where a point lay in the base while the arm stood straight up, all angles zero,
+// to where it is in the cell.
 using LinkMotions = std::array<Pose, axes_of_arm + 1>;
-LinkMotions link_motions(const ArmGeometry& arm, const Joints& joints);
+LinkMotions link_motions(const ArmGeometry& arm, const Joints& joints, const Pose& base_in_cell = {});
 
 // All that moves. A gantry has no links, and `joints` are not used: its tip is at `gantry_tip`.
 // Precondition: the cell has a machine. Allocates: for pictures and reports, not for every pose of a search.

@@ -3,31 +3,26 @@
 // mm, in setup coordinates. Of each direction the tip surface is the height map of the piece, raised to where the
 // holder of the tool with the largest stick-out allows the tip (holder_limit.h); poses that no height of the tip allows
 // are left out, because no program goes there. Further points are the block's corners and edges on the sides that face
-// the direction, where roughing begins, and above all of these the height in which the tool comes and goes
-// (tests/cam/setup/carving_poses_test.cpp).
+// the direction (of the steepest one also below), where roughing begins and ends, and above all of these the height in
+// which the tool comes and goes (tests/cam/setup/carving_poses_test.cpp).
 
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "cam/cell/cell.h"
 #include "cam/setup/setup.h"
+#include "cam/setup/work_envelope.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {
 
-enum class PoseKind : std::uint8_t { tip, corner, edge, retract, home, tool_change };
-
-// "tip of the tool on the piece", "corner of the block", ...
-const char* to_words(PoseKind kind);
-
 struct CarvingPose {
     PoseKind kind = PoseKind::tip;
     Vec3 tip;
-    // Index in the region of a pose beside it and before it; its own index: the first of the region. The path between
-    // the two is taken as straight.
+    // Index in the region of a pose before it, mostly beside it, whose joints are those that its own are compared with:
+    // of the turns of an axis the nearest is meant. The first pose of the region has its own index.
     std::size_t beside = 0;
     bool operator==(const CarvingPose&) const = default;
 };
@@ -48,7 +43,7 @@ struct DirectionPoses {
 struct PoseOptions {
     double step = 20;           // between tips on the piece and along the block's edges
     double retract_step = 100;  // between poses above them
-    double map_cell = 0;        // of the height map; 0: a quarter of the step
+    double map_cell = 0;        // of the height map; 0: an eighth of the step
     bool extremes_only = false;
 };
 

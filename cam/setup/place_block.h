@@ -6,7 +6,7 @@
 
 #pragma once
 
-#include <cstddef>
+#include <vector>
 
 #include "base/context.h"
 #include "cam/cell/cell.h"
@@ -19,12 +19,18 @@ namespace qchopper {
 
 struct PlacementOptions {
     PoseOptions poses;
-    bool is_searched = true;  // false: the block stands as Setup::placement says
+    // False: the block stands as Setup::placement says; angles of a rotary table are searched if it names none.
+    bool is_searched = true;
+    bool has_other_base = true;  // whether a refused piece may be laid otherwise, for WorkEnvelope::cure
 };
 
 // Preconditions: the mesh is that of the piece, with area; setup.reach.directions is not empty. A cell of version 1 is
 // not checked. Throws InputError (use) as height_map() does, and Cancelled.
 WorkEnvelope place_block(const Setup& setup, const TriangleMesh& mesh, const Cell& cell,
+                         const PlacementOptions& options = {}, const Context& context = {});
+
+// The same for given poses, at least one direction of them, in the order of the setup's directions.
+WorkEnvelope place_block(const Setup& setup, const std::vector<DirectionPoses>& directions, const Cell& cell,
                          const PlacementOptions& options = {}, const Context& context = {});
 
 // Whether the machine holds the extreme poses of a setup at some place: the stop rule --fits-cell beyond boxes. Asks

@@ -13,11 +13,21 @@
 #include <string>
 #include <vector>
 
+#include "base/pose.h"
 #include "cam/cell/arm.h"
 #include "cam/setup/block_placement.h"
-#include "cam/setup/carving_poses.h"
 
 namespace qchopper {
+
+// Of the tool tip on the piece, at the block, where it comes and goes above them; and where programs begin and end.
+enum class PoseKind : std::uint8_t { tip, corner, edge, retract, home, tool_change };
+
+// "tip on the piece", "corner of the block", ...
+const char* to_words(PoseKind kind);
+
+// The tip's frame for a direction in which the tool comes out: its z is -out; `turn` (radians) is about the tool axis,
+// and at 0 its x lies in the vertical plane of out, along -x for straight up. R = Rz(azimuth) Ry(pi - tilt) Rz(turn).
+Pose tip_frame(Vec3 tip, Vec3 out, double turn);
 
 enum class PoseCheck : std::uint8_t {
     block_on_table,
@@ -29,12 +39,14 @@ enum class PoseCheck : std::uint8_t {
     elbow,
     wrist,
     joint_speed,  // at the feed, in every direction of motion
-    one_branch,   // each pose of the region is held, but not by the branch that holds the others
+    axis_step,    // from one pose to the one beside it
+    one_branch,   // share of a region's poses that its branch holds, where each could be held alone
     arm_to_block,
     arm_to_table,
     arm_to_floor,
     arm_to_obstacle,
     arm_to_arm,
+    tool_to_block,    // tool, holder and spindle at home and where tools are changed
     holder_to_block,  // holder and spindle to the foam that stays, the spoil layer
     tool_to_table,    // tool, holder and spindle
     tool_to_floor,
@@ -42,7 +54,7 @@ enum class PoseCheck : std::uint8_t {
     tool_to_arm
 };
 
-inline constexpr std::size_t pose_checks = 20;
+inline constexpr std::size_t pose_checks = 22;
 
 struct CheckRule {
     PoseCheck check;
