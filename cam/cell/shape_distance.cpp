@@ -10,12 +10,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace qchopper {
 namespace {
 
 constexpr int most_iterations = 100;
 constexpr double touching = 1e-9;  // mm
+constexpr double flat = 1e-5;      // mm; a tetrahedron this low has no inside
 constexpr double wanted_error = 0.1 * distance_error;
 
 double clamped(double t) {
@@ -103,7 +105,10 @@ class CylinderSupport {
     Vec3 operator()(Vec3 d) const {
         const double along = dot(d, axis_);
         const Vec3 across = d - along * axis_;
-        return middle_ + (along < 0 ? -half_ : half_) * axis_ + radius_ * normalized(across);
+        const double length = norm(across);
+        // Of a direction along the axis nothing but rounding is left, in no direction that is across it.
+        const double out = length > 1e-9 * norm(d) ? radius_ / length : 0;
+        return middle_ + (along < 0 ? -half_ : half_) * axis_ + out * across;
     }
 
  private:
@@ -149,6 +154,19 @@ Vec3 nearest_of_line(Simplex& s, Vec3 a, Vec3 b) {
     return a + t * ab;
 }
 
+// Its corners lie in a line.
+Vec3 nearest_of_flat_triangle(Simplex& s, Vec3 a, Vec3 b, Vec3 c) {
+    Vec3 best = nearest_of_line(s, a, b);
+    for (const auto& [from, to] : {std::pair(b, c), std::pair(a, c)}) {
+        Simplex edge;
+        const Vec3 nearest = nearest_of_line(edge, from, to);
+        if (dot(nearest, nearest) >= dot(best, best)) continue;
+        best = nearest;
+        s = edge;
+    }
+    return best;
+}
+
 // Ericson, section 5.1.5, with the origin as the point.
 Vec3 nearest_of_triangle(Simplex& s, Vec3 a, Vec3 b, Vec3 c) {
     const Vec3 ab = b - a;
@@ -169,7 +187,7 @@ Vec3 nearest_of_triangle(Simplex& s, Vec3 a, Vec3 b, Vec3 c) {
     const double va = d3 * d6 - d5 * d4;
     if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return nearest_of_line(s, b, c);
     const double sum = va + vb + vc;
-    if (!(sum > 0)) return nearest_of_line(s, a, b);
+    if (!(sum > 0)) return nearest_of_flat_triangle(s, a, b, c);
     s.set({a, b, c});
     return a + (vb / sum) * ab + (vc / sum) * ac;
 }
@@ -184,7 +202,8 @@ Vec3 nearest_of_tetrahedron(Simplex& s) {
         const Vec3 normal = cross(all.p[f[1]] - all.p[f[0]], all.p[f[2]] - all.p[f[0]]);
         const double origin_side = -dot(normal, all.p[f[0]]);
         const double inner_side = dot(normal, all.p[f[3]] - all.p[f[0]]);
-        if (origin_side * inner_side > 0) continue;
+        const bool is_flat = std::abs(inner_side) <= flat * norm(normal);
+        if (!is_flat && origin_side * inner_side > 0) continue;
         Simplex face;
         const Vec3 nearest = nearest_of_triangle(face, all.p[f[0]], all.p[f[1]], all.p[f[2]]);
         if (least >= 0 && dot(nearest, nearest) >= least) continue;

@@ -2,9 +2,10 @@
 //
 // mm, in setup coordinates. Of each direction the tip surface is the height map of the piece, raised to where the
 // holder of the tool with the largest stick-out allows the tip (holder_limit.h); poses that no height of the tip allows
-// are left out, because no program goes there. Further points are the block's corners and edges on the sides that face
-// the direction (of the steepest one also below), where roughing begins and ends, and above all of these the height in
-// which the tool comes and goes (tests/cam/setup/carving_poses_test.cpp).
+// are left out, because no program goes there. The direction straight up also carves down to z = 0 beside the piece.
+// Further points are the corners and edges of the block above z = 0 on the sides that the tool comes to, where roughing
+// begins, and above all of these the height in which the tool comes and goes
+// (tests/cam/setup/carving_poses_test.cpp).
 
 #pragma once
 

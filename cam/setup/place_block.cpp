@@ -87,7 +87,6 @@ class PlaceSearch {
     PlaceScore judged(BlockPlacement placement, bool all, double bound, Freedom freedom = {}) {
         ++places_;
         PlaceScore place{std::numeric_limits<double>::infinity(), std::move(placement), {}};
-        if (inside_table(cell_, setup_.block.size, place.placement) < -rounding) return {nothing, place.placement, {}};
         for (std::size_t d = 0; d < directions_.size() && place.score >= bound; ++d) {
             place.holds.emplace_back();
             place.score = std::min(place.score, direction_score(d, all, bound, freedom, place));
@@ -135,7 +134,13 @@ class PlaceSearch {
         } else {
             found = refined(std::move(found));
         }
-        return best_of_all_poses(found);
+        PlaceScore best = best_of_all_poses(found);
+        for (std::size_t i = 0; i < skipped_.size() && best.score < 0; ++i) {
+            context_.check_cancelled();
+            PlaceScore whole = judged(skipped_[i], true, std::max(best.score, -score_slack));
+            if (whole.score > best.score) best = std::move(whole);
+        }
+        return best;
     }
 
     PlaceScore fixed() {
@@ -272,16 +277,20 @@ class PlaceSearch {
                          [](const PlaceScore& a, const PlaceScore& b) { return a.score > b.score; });
     }
 
-    // All places of a grid that hold, and beside them the best one.
+    // The best places of a grid, as far as they are about as good as the best of all. Those left out that may hold are
+    // kept in skipped_.
     std::vector<PlaceScore> scanned(PlaceGrid step, std::vector<PlaceScore> found) {
         double best = found.empty() ? nothing : found.front().score;
         const std::vector<BlockPlacement> places = grid(step);
         for (std::size_t i = 0; i < places.size(); ++i) {
             context_.check_cancelled();
             if (i % 50 == 0) context_.progress("places of the block judged", i, places.size());
-            const double bound = std::min(0.0, best - score_slack);
+            const double bound = best - score_slack;
             PlaceScore place = judged(places[i], false, bound);
-            if (place.score < bound && !found.empty()) continue;
+            if (place.score < bound && !found.empty()) {
+                if (bound > 0) skipped_.push_back(places[i]);
+                continue;
+            }
             best = std::max(best, place.score);
             found.push_back(std::move(place));
         }
@@ -344,6 +353,7 @@ class PlaceSearch {
     std::vector<std::vector<std::size_t>> preferred_;  // branch by direction and region
     std::vector<double> preferred_angle_;
     bool is_angle_given_ = false;
+    std::vector<BlockPlacement> skipped_;
     std::size_t places_ = 0;
 };
 

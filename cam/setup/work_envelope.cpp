@@ -25,7 +25,7 @@ constexpr std::array<CheckRule, pose_checks> rules{{
     {PoseCheck::elbow, "elbow", "singularity of the elbow", "%", 2, 2, true},
     {PoseCheck::wrist, "wrist", "singularity of the wrist", "deg", 8, 10, true},
     {PoseCheck::joint_speed, "joint_speed", "joint speed at the feed", "deg/s", 0, 50, true},
-    {PoseCheck::axis_step, "axis_step", "step of an axis from pose to pose", "deg", 0, 45, true},
+    {PoseCheck::axis_step, "axis_step", "step of an axis from pose to pose", "deg", 0, 45, false},
     {PoseCheck::one_branch, "one_branch", "one branch of the arm", "%", 100, 100, false},
     {PoseCheck::arm_to_block, "arm_to_block", "arm to block", "mm", 10, 50, true},
     {PoseCheck::arm_to_table, "arm_to_table", "arm to table", "mm", 10, 50, true},
