@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "cam/setup/holder_limit.h"
 #include "cam/setup/pose_judge.h"
@@ -21,8 +22,9 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double nothing = -std::numeric_limits<double>::infinity();
-constexpr double rounding = 1e-9;    // of scores
-constexpr int tool_turns = 36;       // 10 degrees apart
+constexpr double rounding = 1e-9;  // of scores
+constexpr int tool_turns = 36;     // 10 degrees apart
+constexpr double table_step = 15 * degree;
 constexpr int table_angles = 24;     // 15 degrees apart
 constexpr double score_slack = 0.1;  // a place that is worse than the best by less may be the best of all poses
 constexpr std::size_t most_compared = 4;
@@ -77,6 +79,8 @@ class PlaceSearch {
             const auto home = std::find(branches_.begin(), branches_.end(), home_branch_);
             std::rotate(branches_.begin(), home, home + 1);
         }
+        order_.resize(directions.size());
+        std::iota(order_.begin(), order_.end(), std::size_t{0});
         for (std::size_t d = 0; d < directions.size(); ++d) preferred_[d].assign(directions[d].regions.size(), 0);
     }
 
@@ -87,9 +91,14 @@ class PlaceSearch {
     PlaceScore judged(BlockPlacement placement, bool all, double bound, Freedom freedom = {}) {
         ++places_;
         PlaceScore place{std::numeric_limits<double>::infinity(), std::move(placement), {}};
-        for (std::size_t d = 0; d < directions_.size() && place.score >= bound; ++d) {
-            place.holds.emplace_back();
+        place.holds.resize(directions_.size());
+        for (std::size_t i = 0; i < order_.size() && place.score >= bound; ++i) {
+            const std::size_t d = order_[i];
             place.score = std::min(place.score, direction_score(d, all, bound, freedom, place));
+            if (place.score >= bound) continue;
+            // What was too bad here is asked for first at the next place.
+            const auto own = order_.begin() + static_cast<std::ptrdiff_t>(i);
+            std::rotate(order_.begin(), own, own + 1);
         }
         if (place.score >= bound) place.score = std::min(place.score, home_score(place.placement));
         return place;
@@ -130,7 +139,10 @@ class PlaceSearch {
         std::vector<PlaceScore> found = scanned(first_grid, {});
         if (found.empty() || found.front().score < 0) {
             found = refined(std::move(found));
-            if (found.front().score < 0) found = refined(scanned(fine_grid, std::move(found)));
+            if (found.front().score < 0) {
+                is_fine_ = true;
+                found = refined(scanned(fine_grid, std::move(found)));
+            }
         } else {
             found = refined(std::move(found));
         }
@@ -143,13 +155,14 @@ class PlaceSearch {
         return best;
     }
 
-    PlaceScore fixed() {
+    PlaceScore fixed(double bound = nothing) {
         is_angle_given_ = setup_.placement.table_angles.size() == directions_.size();
-        return judged(setup_.placement, true, nothing);
+        return judged(setup_.placement, true, bound);
     }
 
     // The last cure that the place in the middle of the table needs, or that it is left.
     EnvelopeCure needed_cure() {
+        if (inside_table(cell_, setup_.block.size, {}) < -rounding) return EnvelopeCure::block_shift;
         is_angle_given_ = false;
         struct Step {
             EnvelopeCure cure;
@@ -185,11 +198,11 @@ class PlaceSearch {
     bool has_rotary() const { return cell_.machine->rotary_table.has_value(); }
 
     double direction_score(std::size_t d, bool all, double bound, Freedom freedom, PlaceScore& place) {
-        if (!has_rotary()) return score_at(d, all, bound, freedom, place.placement, place.holds.back());
+        if (!has_rotary()) return score_at(d, all, bound, freedom, place.placement, place.holds[d]);
         std::vector<double>& angles = place.placement.table_angles;
         if (is_angle_given_ || !freedom.table_angles) {
             if (!is_angle_given_) angles.assign(directions_.size(), 0);
-            return score_at(d, all, bound, freedom, place.placement, place.holds.back());
+            return score_at(d, all, bound, freedom, place.placement, place.holds[d]);
         }
         angles.resize(directions_.size(), 0);
         double best = nothing;
@@ -201,12 +214,14 @@ class PlaceSearch {
             if (score <= best) return;
             best = score;
             best_angle = angles[d];
-            place.holds.back() = std::move(holds);
+            place.holds[d] = std::move(holds);
         };
-        const double first = preferred_angle_[d];
-        for (int i = 0; i < table_angles; ++i) {
-            const int k = i % 2 == 0 ? i / 2 : -(i + 1) / 2;
-            consider(first + k * 2 * std::numbers::pi / table_angles);
+        // Next to the angle that was best at the last place first; a multiple of 15 degrees, or of 30 in a search.
+        const int every = all || is_fine_ ? 1 : 2;
+        const int first = static_cast<int>(std::lround(preferred_angle_[d] / table_step / every)) * every;
+        for (int i = 0; i < table_angles; i += every) {
+            const int k = i / every % 2 == 0 ? i / every / 2 : -(i / every + 1) / 2;
+            consider((first + k * every) * table_step);
         }
         if (all && best >= bound) {
             for (const double step : {5 * degree, 2 * degree}) {
@@ -285,7 +300,7 @@ class PlaceSearch {
         for (std::size_t i = 0; i < places.size(); ++i) {
             context_.check_cancelled();
             if (i % 50 == 0) context_.progress("places of the block judged", i, places.size());
-            const double bound = best - score_slack;
+            const double bound = best < 0 ? best + rounding : best - score_slack;
             PlaceScore place = judged(places[i], false, bound);
             if (place.score < bound && !found.empty()) {
                 if (bound > 0) skipped_.push_back(places[i]);
@@ -352,7 +367,9 @@ class PlaceSearch {
     ArmBranch home_branch_;
     std::vector<std::vector<std::size_t>> preferred_;  // branch by direction and region
     std::vector<double> preferred_angle_;
+    std::vector<std::size_t> order_;  // of the directions
     bool is_angle_given_ = false;
+    bool is_fine_ = false;
     std::vector<BlockPlacement> skipped_;
     std::size_t places_ = 0;
 };
@@ -547,6 +564,13 @@ WorkEnvelope place_block(const Setup& setup, const std::vector<DirectionPoses>& 
     envelope.places = places;
     envelope.cure = envelope.holds() ? search.needed_cure() : nearest_cure(envelope, options.has_other_base);
     return envelope;
+}
+
+bool holds_at_placement(const Setup& setup, const std::vector<DirectionPoses>& directions, const Cell& cell) {
+    if (!cell.machine) return true;
+    if (inside_table(cell, setup.block.size, setup.placement) < -rounding) return false;
+    const Context context;
+    return PlaceSearch(setup, cell, directions, context).fixed(0).score >= -rounding;
 }
 
 bool fits_machine(const Setup& setup, const TriangleMesh& mesh, const Cell& cell) {

@@ -33,6 +33,10 @@ WorkEnvelope place_block(const Setup& setup, const TriangleMesh& mesh, const Cel
 WorkEnvelope place_block(const Setup& setup, const std::vector<DirectionPoses>& directions, const Cell& cell,
                          const PlacementOptions& options = {}, const Context& context = {});
 
+// Whether all poses are held where the block stands, Setup::placement: quicker than a report, because it ends at the
+// first pose that is not.
+bool holds_at_placement(const Setup& setup, const std::vector<DirectionPoses>& directions, const Cell& cell);
+
 // Whether the machine holds the extreme poses of a setup at some place: the stop rule --fits-cell beyond boxes. Asks
 // for the corners of the block and the outermost tips of each direction alone, and ends at the first place that holds
 // them. True for a cell of version 1.

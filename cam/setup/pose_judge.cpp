@@ -81,13 +81,14 @@ bool MarginTally::wants(PoseCheck check, double least) const {
     const CheckRule& rule = rule_of(check);
     const double relative = (least - rule.needed) / rule.scale;
     if (keeps_all_) return relative < of(check).relative;
-    return relative < (rule.is_placed ? score_ : 0);
+    return relative < (rule.is_placed ? score_ : -rounding);
 }
 
 void MarginTally::add(PoseCheck check, double measured, MarginPair pair) {
     const CheckRule& rule = rule_of(check);
     const double relative = (measured - rule.needed) / rule.scale;
-    if (rule.is_placed || relative < -rounding) score_ = std::min(score_, relative);
+    if (rule.is_placed) score_ = std::min(score_, relative);
+    if (!rule.is_placed && relative < -rounding) is_refused_ = true;
     TightestMargin& kept = tightest_[static_cast<std::size_t>(check)];
     if (!(relative < kept.relative)) return;
     kept = {measured - rule.needed, relative, pair, pose_};

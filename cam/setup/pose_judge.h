@@ -44,14 +44,17 @@ class MarginTally {
     // Whether something measured that is at least `least` could change what is kept.
     bool wants(PoseCheck check, double least) const;
     void add(PoseCheck check, double measured, MarginPair pair = {});
-    // The least relative margin of checks that a place can change, and of any other that is refused.
-    double score() const { return score_; }
+    // The least relative margin of checks that a place can change, less `refused` if any other is refused; negative
+    // where anything is.
+    double score() const { return is_refused_ ? score_ - refused : score_; }
+    static constexpr double refused = 1000;
     const TightestMargin& of(PoseCheck check) const { return tightest_[static_cast<std::size_t>(check)]; }
 
  private:
     std::array<TightestMargin, pose_checks> tightest_{};
     double score_ = std::numeric_limits<double>::infinity();
     std::size_t pose_ = 0;
+    bool is_refused_ = false;
     bool keeps_all_;
 };
 

@@ -406,5 +406,55 @@ TEST(PoseJudge, AgreesWithAPlainSecondImplementationOnAThousandPoses) {
     EXPECT_LT(verdicts.unsure, 100);
 }
 
+// Counts those of many poses all over a cell that one check alone refuses.
+void count_refused_alone(double speed, std::array<int, pose_checks>& alone) {
+    Cell cell = ready_cell("kr120-r2500-pro-rotary.toml");
+    Robot& robot = *cell.machine->robot;
+    for (JointRange& range : robot.ranges) range.speed *= speed;
+    robot.base_in_cell.shift.z = 200;
+    robot.cable->axis_4 = {-2, 2};
+    cell.machine->spindle.spindle_in_flange = Pose{{Vec3{0, 0, 1}, Vec3{0, 1, 0}, Vec3{-1, 0, 0}}, {350, 0, 100}};
+    cell.machine->obstacles.push_back({"beam", {{200, -1500, 1700}, {1700, 1500, 1800}}});
+    PoseJudge judge(cell, longest_tool(cell.machine->tools));
+    const ToolArm arm = tool_arm(robot, cell.machine->spindle, longest_tool(cell.machine->tools));
+    const Pose setup = setup_in_cell(cell, 12, {}, 0);
+    const StandingBlock block = judge.standing(setup, {300, 400, 250}, 12);
+    std::mt19937 random(4);
+    for (int i = 0; i < 60'000; ++i) {
+        Joints joints{};
+        for (std::size_t axis = 0; axis < 6; ++axis) {
+            const JointRange& range = robot.ranges[axis];
+            joints[axis] = std::uniform_real_distribution<double>(range.min - 0.05, range.max + 0.05)(random);
+        }
+        const Pose tip = inverse(setup) * robot.base_in_cell * forward(robot.geometry, joints) * arm.tip_in_flange;
+        const Vec3 out = -Vec3{tip.row[0].z, tip.row[1].z, tip.row[2].z};
+        const Pose level = tip_frame({}, out, 0);
+        const Vec3 x{tip.row[0].x, tip.row[1].x, tip.row[2].x};
+        const double turn = std::atan2(dot(Vec3{level.row[0].y, level.row[1].y, level.row[2].y}, x),
+                                       dot(Vec3{level.row[0].x, level.row[1].x, level.row[2].x}, x));
+        RegionHold hold{branch_of(robot.geometry, joints), turn, false};
+        MarginTally tally;
+        judge.judge(block, out, {{{PoseKind::tip, tip.shift, 0}}, 1}, 1, hold, -1e9, tally);
+        std::vector<std::size_t> refusing;
+        for (std::size_t c = 0; c < pose_checks; ++c) {
+            if (tally.of(static_cast<PoseCheck>(c)).relative < 0) refusing.push_back(c);
+        }
+        if (refusing.size() == 1) ++alone[refusing.front()];
+    }
+}
+
+TEST(PoseJudge, HasNoCheckThatOthersMakeNeedless) {
+    std::array<int, pose_checks> alone{};
+    count_refused_alone(0.3, alone);
+    count_refused_alone(3, alone);
+    for (const PoseCheck check :
+         {PoseCheck::joint_limit, PoseCheck::cable, PoseCheck::shoulder, PoseCheck::elbow, PoseCheck::wrist,
+          PoseCheck::joint_speed, PoseCheck::arm_to_block, PoseCheck::arm_to_table, PoseCheck::arm_to_floor,
+          PoseCheck::arm_to_obstacle, PoseCheck::arm_to_arm, PoseCheck::holder_to_block, PoseCheck::tool_to_table,
+          PoseCheck::tool_to_obstacle, PoseCheck::tool_to_arm}) {
+        EXPECT_GT(alone[static_cast<std::size_t>(check)], 0) << rule_of(check).key;
+    }
+}
+
 }  // namespace
 }  // namespace qchopper
