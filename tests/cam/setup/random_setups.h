@@ -45,15 +45,15 @@ inline BoxSetup box_setup(const Cell& cell, Vec3 size, const std::vector<Vec3>& 
     return made;
 }
 
-// Of a size up to that of the table, and up to three further directions with a tilt of at most 45 degrees.
+// Of a size up to that of the table, and up to three further directions with a tilt of at most 60 degrees.
 inline BoxSetup random_setup(const Cell& cell, std::mt19937& random) {
     const auto number = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);
     };
-    const Vec3 size{number(100, 0.9 * cell.table.size_x), number(100, 0.9 * cell.table.size_y), number(50, 500)};
+    const Vec3 size{number(100, 0.9 * cell.table.size_x), number(100, 0.9 * cell.table.size_y), number(50, 950)};
     std::vector<Vec3> directions{{0, 0, 1}};
     const int further = cell.machine->robot ? static_cast<int>(number(0, 4)) : 0;
-    for (int i = 0; i < further; ++i) directions.push_back(out(number(10, 45), number(0, 360)));
+    for (int i = 0; i < further; ++i) directions.push_back(out(number(10, 60), number(0, 360)));
     return box_setup(cell, size, directions);
 }
 
