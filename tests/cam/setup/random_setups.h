@@ -64,7 +64,7 @@ struct ScanStep {
 
 // Whether any place of a scan about the middle of the table holds all poses.
 inline bool scan_holds(Setup setup, const std::vector<DirectionPoses>& poses, const Cell& cell, ScanStep step) {
-    const bool turns = !cell.machine->rotary_table && cell.machine->robot;
+    const bool turns = !cell.machine->rotary_table;
     const int count = static_cast<int>(1500 / step.shift);
     for (double turn = 0; turn < (turns ? 359.9 : 0.1); turn += step.turn_deg) {
         for (int x = -count; x <= count; ++x) {
