@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "cam/setup/height_map.h"
 #include "cam/setup/holder_limit.h"
@@ -20,6 +21,10 @@ constexpr double upright = 0.999;    // cosine; a direction this steep carves do
 constexpr double faced = 0.17;       // sine of 10 degrees; a side that is nearly parallel to the tool is not begun from
 constexpr double highest_tip = 1e6;  // mm; what the holder allows nowhere is higher
 constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
+
+double number(std::size_t count) {
+    return static_cast<double>(count);
+}
 
 Vec3 column(const Pose& pose, int i) {
     return {pose.row[0][i], pose.row[1][i], pose.row[2][i]};
@@ -171,9 +176,8 @@ class TipSurface {
     }
 
     Vec3 tip(std::size_t cell) const {
-        const Vec3 in_map{map_.cell * (static_cast<double>(cell % map_.columns) + 0.5),
-                          map_.cell * (static_cast<double>(cell / map_.columns) + 0.5),
-                          static_cast<double>(map_.height[cell])};
+        const Vec3 in_map{map_.cell * (number(cell % map_.columns) + 0.5),
+                          map_.cell * (number(cell / map_.columns) + 0.5), static_cast<double>(map_.height[cell])};
         return apply(map_in_setup_, in_map);
     }
 
@@ -238,12 +242,11 @@ class TipSurface {
         double column = 0;
         double row = 0;
         for (const std::size_t square : part) {
-            column += static_cast<double>(square % columns_) / static_cast<double>(part.size());
-            row += static_cast<double>(square / columns_) / static_cast<double>(part.size());
+            column += number(square % columns_) / number(part.size());
+            row += number(square / columns_) / number(part.size());
         }
         const auto far = [&](std::size_t square) {
-            return std::hypot(static_cast<double>(square % columns_) - column,
-                              static_cast<double>(square / columns_) - row);
+            return std::hypot(number(square % columns_) - column, number(square / columns_) - row);
         };
         return *std::min_element(part.begin(), part.end(),
                                  [&](std::size_t a, std::size_t b) { return far(a) < far(b); });
@@ -300,9 +303,21 @@ void fill_with_base(HeightMap& map, const Pose& piece_in_setup) {
     const Vec3 z = map_in_setup.row[2];
     for (std::size_t i = 0; i < map.height.size(); ++i) {
         if (map.height[i] != HeightMap::nothing) continue;
-        const double x = map.cell * (static_cast<double>(i % map.columns) + 0.5);
-        const double y = map.cell * (static_cast<double>(i / map.columns) + 0.5);
+        const double x = map.cell * (number(i % map.columns) + 0.5);
+        const double y = map.cell * (number(i / map.columns) + 0.5);
         map.height[i] = static_cast<float>(-(map_in_setup.shift.z + z.x * x + z.y * y) / z.z);
+    }
+}
+
+// One region for each connected part of the tip surface.
+void add_tips(const Setup& setup, const TriangleMesh& mesh, Vec3 out_in_piece, const ToolBody& tool,
+              const TipHeights& heights, const PoseOptions& options, DirectionPoses& poses) {
+    HeightMap map = height_map(mesh, out_in_piece, options.map_cell > 0 ? options.map_cell : options.step / 8);
+    if (heights.out.z > upright) fill_with_base(map, setup.piece_in_setup);
+    raise_to_holder_limit(map, tool, setup.piece_in_setup);
+    const Pose map_in_setup = setup.piece_in_setup * inverse(map.piece_in_map);
+    for (PoseRegion& region : TipSurface(map, map_in_setup, heights, options.step).regions(options)) {
+        poses.regions.push_back(std::move(region));
     }
 }
 
@@ -317,14 +332,8 @@ std::vector<DirectionPoses> carving_poses(const Setup& setup, const TriangleMesh
     for (const SetupDirection& direction : setup.reach.directions) {
         const Vec3 out = rotate(setup.piece_in_setup, direction.out);
         const TipHeights heights = tip_heights(block, tool, out, cell.clearance);
-        HeightMap map = height_map(mesh, direction.out, options.map_cell > 0 ? options.map_cell : options.step / 8);
-        if (out.z > upright) fill_with_base(map, setup.piece_in_setup);
-        raise_to_holder_limit(map, tool, setup.piece_in_setup);
-        const Pose map_in_setup = setup.piece_in_setup * inverse(map.piece_in_map);
         DirectionPoses poses{out, {block_region(block, heights, options)}};
-        for (PoseRegion& region : TipSurface(map, map_in_setup, heights, options.step).regions(options)) {
-            poses.regions.push_back(std::move(region));
-        }
+        if (!options.block_only) add_tips(setup, mesh, direction.out, tool, heights, options, poses);
         all.push_back(std::move(poses));
     }
     return all;

@@ -46,6 +46,7 @@ struct PoseOptions {
     double retract_step = 100;  // between poses above them
     double map_cell = 0;        // of the height map; 0: an eighth of the step
     bool extremes_only = false;
+    bool block_only = false;  // nothing of the piece: its mesh is not looked at
 };
 
 // Of all directions of a setup, in their order. Preconditions: the cell has a machine, the mesh is that of the piece

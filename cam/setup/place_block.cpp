@@ -239,12 +239,17 @@ bool holds_at_placement(const Setup& setup, const std::vector<DirectionPoses>& d
 
 bool fits_machine(const Setup& setup, const TriangleMesh& mesh, const Cell& cell) {
     if (!cell.machine) return true;
+    const Context context;
+    const auto holds = [&](const PoseOptions& options) {
+        const std::vector<DirectionPoses> directions = carving_poses(setup, mesh, cell, options);
+        return PlaceSearch(setup, cell, directions, context).any_holds(first_grid);
+    };
     PoseOptions options;
     options.extremes_only = true;
     options.map_cell = options.step / 2;
-    const std::vector<DirectionPoses> directions = carving_poses(setup, mesh, cell, options);
-    const Context context;
-    return PlaceSearch(setup, cell, directions, context).any_holds(first_grid);
+    PoseOptions block = options;
+    block.block_only = true;
+    return holds(block) && holds(options);
 }
 
 }  // namespace qchopper
