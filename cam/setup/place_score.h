@@ -1,0 +1,78 @@
+// Scores one place of the block: the smallest relative margin of all poses there, with the best branch of the arm, turn
+// about the tool axis and angle of the table for each.
+//
+// For the search of place_block.h. Remembers what was best at the last place and tries that first; the score does not
+// depend on it, only the time. Not for several threads at once (tests/cam/setup/place_block_test.cpp).
+
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "cam/cell/cell.h"
+#include "cam/setup/carving_poses.h"
+#include "cam/setup/pose_judge.h"
+#include "cam/setup/setup.h"
+
+namespace qchopper {
+
+// Which cures may be used.
+struct CureFreedom {
+    bool tool_turns = true;
+    bool branches = true;
+    bool table_angles = true;
+};
+
+struct PlaceScore {
+    double score = -std::numeric_limits<double>::infinity();  // below 0: not held
+    BlockPlacement placement;
+    std::vector<std::vector<RegionHold>> holds;  // by direction and region; not of directions that were not come to
+};
+
+constexpr int tool_turns = 36;  // tried about the tool axis, 10 degrees apart
+
+// All eight.
+std::vector<ArmBranch> all_branches();
+
+class PlaceScorer {
+ public:
+    // Preconditions: the cell has a machine, there is a direction; all arguments outlive this object.
+    PlaceScorer(const Setup& setup, const Cell& cell, const std::vector<DirectionPoses>& directions);
+
+    // With `all` of all poses, else of the extreme ones. A score below `bound` is not exact. The angles of a rotary
+    // table are searched, or with given_angles(true) those of the placement.
+    PlaceScore judged(BlockPlacement placement, bool all, double bound, CureFreedom freedom = {});
+    void given_angles(bool are_given) { are_angles_given_ = are_given; }
+    // Extreme poses are tried at every 15 degrees of the table too, not at every 30.
+    void fine_angles() { has_fine_angles_ = true; }
+
+    StandingBlock standing(const BlockPlacement& placement, std::size_t direction) const;
+    PoseJudge& judge() { return judge_; }                           // with the tool of the poses
+    std::vector<PoseJudge>& home_judges() { return home_judges_; }  // with each tool of the cell
+    bool has_rotary() const { return cell_.machine->rotary_table.has_value(); }
+    std::size_t places() const { return places_; }  // judged so far
+
+ private:
+    double direction_score(std::size_t d, bool all, double bound, CureFreedom freedom, PlaceScore& place);
+    double score_at(std::size_t d, bool all, double bound, CureFreedom freedom, const BlockPlacement& placement,
+                    std::vector<RegionHold>& holds);
+    double region_score(const StandingBlock& block, Vec3 out, const PoseRegion& region, std::size_t count, double bound,
+                        CureFreedom freedom, std::size_t& preferred, RegionHold& best_hold);
+    double home_score(const BlockPlacement& placement);
+
+    const Setup& setup_;
+    const Cell& cell_;
+    const std::vector<DirectionPoses>& directions_;
+    PoseJudge judge_;
+    std::vector<PoseJudge> home_judges_;
+    std::vector<ArmBranch> branches_;                  // that of home first
+    std::vector<std::vector<std::size_t>> preferred_;  // branch by direction and region
+    std::vector<double> preferred_angle_;
+    std::vector<std::size_t> order_;  // of the directions
+    bool are_angles_given_ = false;
+    bool has_fine_angles_ = false;
+    std::size_t places_ = 0;
+};
+
+}  // namespace qchopper
