@@ -14,9 +14,12 @@
 #include "bench/figures.h"
 #include "bench/specimens.h"
 #include "cam/setup/block.h"
+#include "cam/setup/choose_setup.h"
+#include "cam/setup/envelope.h"
 #include "cam/setup/height_map.h"
 #include "cam/setup/place_block.h"
 #include "segment/mesh/measure.h"
+#include "segment/search/search.h"
 #include "tests/cam/setup/random_setups.h"
 
 namespace {
@@ -26,7 +29,7 @@ using namespace qchopper::bench;
 
 constexpr const char* usage = R"(bench_envelope [--small] [--only GROUP]...
   --small  100,000 faces instead, and 3 setups, to check that it runs; the targets do not apply
-  --only   time or scan; both if none is named
+  --only   time, project or scan; all if none is named
 )";
 
 constexpr int runs = 3;
@@ -122,6 +125,50 @@ void measure_scan(const std::string& name, int setups, double& missed, Figures& 
     missed += by_scan;
 }
 
+// All pieces of a scan, each in the setup that is chosen for it.
+void measure_project(std::size_t faces, Figures& figures) {
+    const Measured m = whole("sample skull", piece(faces, longest_side));
+    SearchSettings settings;
+    settings.objectives.fragment_volume_mm3 = m.fragment_volume_mm3;
+    settings.stop.min_cuts = 19;
+    Segmentation pieces = uncut(*m.piece.mesh, m.fragment_volume_mm3);
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    qchopper::search(pieces, settings, cache, {}, [](const Segmentation&) {}, {});
+    for (const char* const name : {"kr60-ha", "irb6640-185-2.8", "kr120-r2500-pro-rotary", "gantry-3axis"}) {
+        const Cell cell = ready_cell(name);
+        std::vector<Setup> setups;
+        const double choosing = best_of(1, cpu_s, [&] {
+            for (const Piece& p : pieces.pieces) setups.push_back(choose_setup(p, cell).setups.front());
+            return setups.size();
+        });
+        std::size_t held = 0;
+        std::size_t in_boxes = 0;
+        const double placing = best_of(1, cpu_s, [&] {
+            for (std::size_t i = 0; i < setups.size(); ++i) {
+                const WorkEnvelope envelope = place_block(setups[i], *pieces.pieces[i].mesh, cell);
+                const bool fits = check_envelope(setups[i], cell).fits();
+                held += envelope.holds() ? 1 : 0;
+                in_boxes += fits ? 1 : 0;
+                if (fits && !envelope.holds()) {
+                    figures.record(name, "refused though its boxes fit",
+                                   describe_work_envelope(pieces.pieces[i].name, envelope));
+                }
+            }
+            return held;
+        });
+        const double asking = best_of(1, cpu_s, [&] {
+            return std::count_if(pieces.pieces.begin(), pieces.pieces.end(),
+                                 [&](const Piece& p) { return fits_cell_and_machine(p, cell); });
+        });
+        figures.record(
+            name, "pieces, of them in the cell by boxes, and held",
+            std::to_string(setups.size()) + ", " + std::to_string(in_boxes) + " and " + std::to_string(held));
+        figures.record(name, "all setups, all envelopes, all stop rules",
+                       time_text(choosing) + ", " + time_text(placing) + " and " + time_text(asking));
+        figures.at_most(name, "stop rule, CPU-s a piece", asking / static_cast<double>(setups.size()), 0.2);
+    }
+}
+
 void measure(const Choice& choice, Figures& figures) {
     const ThreadLimit one(1);
     const std::size_t faces = choice.is_small ? 100'000 : 1'900'000;
@@ -131,6 +178,7 @@ void measure(const Choice& choice, Figures& figures) {
             measure_time(name, mesh, 30 * degree, figures);
         }
     }
+    if (choice.wants("project")) measure_project(faces, figures);
     if (!choice.wants("scan")) return;
     double missed = 0;
     for (const char* const name : {"kr60-ha", "irb6640-185-2.8", "kr120-r2500-pro-rotary", "gantry-3axis"}) {

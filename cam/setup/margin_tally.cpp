@@ -27,8 +27,10 @@ bool MarginTally::wants(PoseCheck check, double least) const {
 void MarginTally::add(PoseCheck check, double measured, MarginPair pair) {
     const CheckRule& rule = rule_of(check);
     const double relative = (measured - rule.needed) / rule.scale;
+    const bool is_new_refusal = !rule.is_placed && relative < -rounding && !is_refused_;
+    if (is_new_refusal) is_refused_ = true;
+    if (is_new_refusal || (rule.is_placed && relative < score_)) worst_pose_ = pose_;
     if (rule.is_placed) score_ = std::min(score_, relative);
-    if (!rule.is_placed && relative < -rounding) is_refused_ = true;
     TightestMargin& kept = tightest_[static_cast<std::size_t>(check)];
     if (!(relative < kept.relative)) return;
     kept = {measured - rule.needed, relative, pair, pose_};

@@ -42,12 +42,15 @@ class MarginTally {
     // where anything is.
     double score() const { return is_refused_ ? score_ - refused : score_; }
     static constexpr double refused = 1000;
+    // The pose of the least margin that the score stands for.
+    std::size_t worst_pose() const { return worst_pose_; }
     const TightestMargin& of(PoseCheck check) const { return tightest_[static_cast<std::size_t>(check)]; }
 
  private:
     std::array<TightestMargin, pose_checks> tightest_{};
     double score_ = std::numeric_limits<double>::infinity();
     std::size_t pose_ = 0;
+    std::size_t worst_pose_ = 0;
     bool is_refused_ = false;
     bool keeps_all_;
 };

@@ -22,8 +22,8 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double nothing = -std::numeric_limits<double>::infinity();
-constexpr double rounding = 1e-9;    // of scores
-constexpr double score_slack = 0.1;  // a place that is worse than the best by less may be the best of all poses
+constexpr double rounding = 1e-9;     // of scores
+constexpr double score_slack = 0.02;  // a place that is worse than the best by less may be the best of all poses
 constexpr std::size_t most_compared = 4;
 
 struct PlaceGrid {

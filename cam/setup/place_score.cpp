@@ -37,7 +37,7 @@ PlaceScorer::PlaceScorer(const Setup& setup, const Cell& cell, const std::vector
       directions_(directions),
       judge_(cell, longest_tool(cell.machine->tools)),
       branches_(all_branches()),
-      preferred_(directions.size()),
+      hints_(directions.size()),
       preferred_angle_(directions.size(), 0) {
     for (const CarvingTool& tool : cell.machine->tools) home_judges_.emplace_back(cell, tool);
     if (const auto& robot = cell.machine->robot) {
@@ -47,7 +47,7 @@ PlaceScorer::PlaceScorer(const Setup& setup, const Cell& cell, const std::vector
     }
     order_.resize(directions.size());
     std::iota(order_.begin(), order_.end(), std::size_t{0});
-    for (std::size_t d = 0; d < directions.size(); ++d) preferred_[d].assign(directions[d].regions.size(), 0);
+    for (std::size_t d = 0; d < directions.size(); ++d) hints_[d].resize(directions[d].regions.size());
 }
 
 PlaceScore PlaceScorer::judged(BlockPlacement placement, bool all, double bound, CureFreedom freedom) {
@@ -123,24 +123,38 @@ double PlaceScorer::score_at(std::size_t d, bool all, double bound, CureFreedom 
     double score = std::numeric_limits<double>::infinity();
     for (std::size_t r = 0; r < direction.regions.size() && score >= bound; ++r) {
         const PoseRegion& region = direction.regions[r];
-        RegionHold hold;
         const std::size_t count = all ? region.poses.size() : region.extremes;
+        RegionHold hold;
         score =
-            std::min(score, region_score(block, direction.out, region, count, bound, freedom, preferred_[d][r], hold));
+            std::min(score, region_score({block, direction.out, region, count}, bound, freedom, hints_[d][r], hold));
         holds.push_back(hold);
     }
     return score;
 }
 
-// The best branch and turn about the tool axis; `preferred` is the branch that is tried first.
-double PlaceScorer::region_score(const StandingBlock& block, Vec3 out, const PoseRegion& region, std::size_t count,
-                                 double bound, CureFreedom freedom, std::size_t& preferred, RegionHold& best_hold) {
+double PlaceScorer::candidate_score(const PlacedRegion& placed, double bound, RegionHint& hint, RegionHold& hold) {
+    // Alone a pose is held no worse than among the others.
+    if (hint.worst < placed.count) {
+        alone_.poses.assign(1, placed.region.poses[hint.worst]);
+        alone_.poses.front().beside = 0;
+        RegionHold own = hold;
+        MarginTally tally(false);
+        judge_.judge(placed.block, placed.out, alone_, 1, own, bound, tally);
+        if (tally.score() < bound) return nothing;
+    }
+    MarginTally tally(false);
+    judge_.judge(placed.block, placed.out, placed.region, placed.count, hold, bound, tally);
+    hint.worst = tally.worst_pose();
+    return tally.score();
+}
+
+double PlaceScorer::region_score(const PlacedRegion& placed, double bound, CureFreedom freedom, RegionHint& hint,
+                                 RegionHold& best_hold) {
     double best = nothing;
     const auto consider = [&](RegionHold hold) {
-        MarginTally tally(false);
-        judge_.judge(block, out, region, count, hold, std::max(bound, best), tally);
-        if (tally.score() <= best) return false;
-        best = tally.score();
+        const double score = candidate_score(placed, std::max(bound, best), hint, hold);
+        if (score <= best) return false;
+        best = score;
         best_hold = hold;
         return true;
     };
@@ -151,11 +165,11 @@ double PlaceScorer::region_score(const StandingBlock& block, Vec3 out, const Pos
     const bool is_free = freedom.tool_turns && judge_.turns_by_axis_6();
     const int turns = freedom.tool_turns && !is_free ? tool_turns : 1;
     const std::size_t branches = freedom.branches ? branches_.size() : 1;
-    const std::size_t first = freedom.branches ? preferred : 0;
+    const std::size_t first = freedom.branches ? hint.branch : 0;
     for (std::size_t i = 0; i < branches; ++i) {
         const std::size_t b = (first + i) % branches_.size();
         for (int turn = 0; turn < turns; ++turn) {
-            if (consider({branches_[b], turn * 10 * degree, is_free}) && best >= bound) preferred = b;
+            if (consider({branches_[b], turn * 10 * degree, is_free}) && best >= bound) hint.branch = b;
         }
     }
     if (turns == 1 || best < bound) return best;

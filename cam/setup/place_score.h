@@ -54,11 +54,26 @@ class PlaceScorer {
     std::size_t places() const { return places_; }  // judged so far
 
  private:
+    struct PlacedRegion {
+        const StandingBlock& block;
+        Vec3 out;
+        const PoseRegion& region;
+        std::size_t count;  // of its poses
+    };
+    // What was best and what was worst at the last place.
+    struct RegionHint {
+        std::size_t branch = 0;  // index in branches_
+        std::size_t worst = 0;   // pose
+    };
+
     double direction_score(std::size_t d, bool all, double bound, CureFreedom freedom, PlaceScore& place);
     double score_at(std::size_t d, bool all, double bound, CureFreedom freedom, const BlockPlacement& placement,
                     std::vector<RegionHold>& holds);
-    double region_score(const StandingBlock& block, Vec3 out, const PoseRegion& region, std::size_t count, double bound,
-                        CureFreedom freedom, std::size_t& preferred, RegionHold& best_hold);
+    // The best branch and turn about the tool axis of a region.
+    double region_score(const PlacedRegion& placed, double bound, CureFreedom freedom, RegionHint& hint,
+                        RegionHold& best_hold);
+    // Of one branch and turn; any number below `bound` if it is below.
+    double candidate_score(const PlacedRegion& placed, double bound, RegionHint& hint, RegionHold& hold);
     double home_score(const BlockPlacement& placement);
 
     const Setup& setup_;
@@ -66,8 +81,9 @@ class PlaceScorer {
     const std::vector<DirectionPoses>& directions_;
     PoseJudge judge_;
     std::vector<PoseJudge> home_judges_;
-    std::vector<ArmBranch> branches_;                  // that of home first
-    std::vector<std::vector<std::size_t>> preferred_;  // branch by direction and region
+    std::vector<ArmBranch> branches_;             // that of home first
+    std::vector<std::vector<RegionHint>> hints_;  // by direction and region
+    PoseRegion alone_;                            // one pose
     std::vector<double> preferred_angle_;
     std::vector<std::size_t> order_;  // of the directions
     bool are_angles_given_ = false;

@@ -12,6 +12,7 @@
 
 #include "cam/cell/reach_map.h"
 #include "cam/setup/holder_limit.h"
+#include "cam/setup/place_score.h"
 #include "tests/cam/setup/random_setups.h"
 
 namespace qchopper {
@@ -276,6 +277,63 @@ TEST(PlaceBlock, TurnsARotaryTableForADirection) {
     const double between =
         std::abs(std::remainder(envelope.placement.table_angles[1] - envelope.placement.table_angles[2], 360 * degree));
     EXPECT_GT(between, 90 * degree);  // opposite directions are turned to the same side of the robot
+}
+
+// The best score of a region over all branches and turns about the tool axis so many degrees apart.
+double best_by_trying(const Cell& cell, const BoxSetup& s, const DirectionPoses& direction, const PoseRegion& region,
+                      double step_deg) {
+    PoseJudge judge(cell, longest_tool(cell.machine->tools));
+    const StandingBlock block =
+        judge.standing(setup_in_cell(cell, s.setup.spoil, s.setup.placement, 0), s.setup.block.size, s.setup.spoil);
+    double best = -1e9;
+    for (const ArmBranch& branch : all_branches()) {
+        for (double turn = 0; turn < 360; turn += step_deg) {
+            MarginTally tally;
+            RegionHold hold{branch, turn * degree, false};
+            judge.judge(block, direction.out, region, region.poses.size(), hold, -1e9, tally);
+            best = std::max(best, tally.score());
+        }
+    }
+    return best;
+}
+
+TEST(PlaceBlock, TurnsTheToolAboutItsAxisAsWellAsCanBe) {
+    for (const bool is_across : {false, true}) {
+        Cell cell = kr60();
+        // With a spindle across the flange the turn moves all joints, else axis 6 alone.
+        if (is_across) {
+            cell.machine->spindle.spindle_in_flange = {{Vec3{0, 0, 1}, Vec3{0, 1, 0}, Vec3{-1, 0, 0}}, {250, 0, 90}};
+        }
+        const BoxSetup s = box_setup(cell, {200, 250, 100}, {up});
+        const std::vector<DirectionPoses> poses = carving_poses(s.setup, s.mesh, cell, {.step = 50});
+        const WorkEnvelope envelope = at_placement(s.setup, poses, cell);
+        ASSERT_EQ(envelope.regions.size(), poses[0].regions.size());
+        for (std::size_t r = 0; r < envelope.regions.size(); ++r) {
+            const PoseRegion& region = poses[0].regions[r];
+            const double tried = best_by_trying(cell, s, poses[0], region, is_across ? 10 : 2);
+            EXPECT_GE(envelope.regions[r].relative, tried - 1e-6);
+            EXPECT_EQ(envelope.regions[r].holds, envelope.regions[r].relative >= 0);
+        }
+        EXPECT_TRUE(envelope.holds()) << describe_work_envelope("A", envelope);
+    }
+}
+
+TEST(PlaceBlock, IsNeverWorseThanTheMiddleOfTheTable) {
+    std::mt19937 random(23);
+    int better = 0;
+    for (const Cell& cell : ready_cells()) {
+        for (int i = 0; i < 5; ++i) {
+            const BoxSetup s = test_setups::random_setup(cell, random);
+            const std::vector<DirectionPoses> poses = carving_poses(s.setup, s.mesh, cell, {.step = 50});
+            const WorkEnvelope middle = at_placement(s.setup, poses, cell);
+            const WorkEnvelope best = place_block(s.setup, poses, cell);
+            EXPECT_TRUE(best.holds() || !middle.holds());
+            if (!middle.holds()) continue;
+            EXPECT_GE(best.tightest().relative, middle.tightest().relative - 1e-6) << cell.name;
+            better += best.tightest().relative > middle.tightest().relative + 0.01 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(better, 3);
 }
 
 // The whole cell about the vertical by a quarter, the block with it.
