@@ -188,7 +188,11 @@ class Choice {
                                            [&](const Setup& s) { return s.base_number == base.number; });
             std::vector<Vec3> in_setup;
             for (const Vec3& d : directions) in_setup.push_back(rotate(laid->piece_in_setup, d));
-            return held_directions(cell_, laid->box, laid->spoil, in_setup);
+            std::vector<std::uint8_t> held = held_directions(cell_, laid->box, laid->spoil, in_setup);
+            for (std::size_t d = 0; options_.is_allowed && d < held.size(); ++d) {
+                if (!options_.is_allowed(directions[d])) held[d] = 0;
+            }
+            return held;
         };
     }
 

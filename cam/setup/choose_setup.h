@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -30,6 +31,9 @@ struct SetupOptions {
     // without count_narrow, no surface is judged too narrow.
     std::size_t mapped = 2;
     MapOptions map;
+    // Directions, in piece coordinates, that may be chosen beside straight up, of those that the cell holds; empty:
+    // all.
+    std::function<bool(Vec3)> is_allowed = {};
 };
 
 // All ways to lay a piece, best first.

@@ -52,13 +52,6 @@ std::string tenths(double value) {
     return significant(std::round(value * 10) / 10, 15);
 }
 
-std::string describe_tip(const EnvelopePose& pose) {
-    std::string text = to_words(pose.kind);
-    if (pose.kind == PoseKind::home || pose.kind == PoseKind::tool_change) return text;
-    return text + " at " + tenths(pose.tip.x) + ", " + tenths(pose.tip.y) + ", " + tenths(pose.tip.z) +
-           " mm, direction " + std::to_string(pose.direction + 1);
-}
-
 }  // namespace
 
 const char* to_words(PoseKind kind) {
@@ -94,9 +87,26 @@ const CheckRule& rule_of(PoseCheck check) {
     return rules[static_cast<std::size_t>(check)];
 }
 
+bool is_held(const EnvelopeMargin& margin) {
+    return margin.relative >= -rounding;
+}
+
+std::string describe_pose(const EnvelopePose& pose) {
+    std::string text = to_words(pose.kind);
+    if (pose.kind == PoseKind::home || pose.kind == PoseKind::tool_change) return text;
+    return text + " at " + tenths(pose.tip.x) + ", " + tenths(pose.tip.y) + ", " + tenths(pose.tip.z) +
+           " mm, direction " + std::to_string(pose.direction + 1);
+}
+
+std::string describe_margin(const EnvelopeMargin& margin) {
+    const CheckRule& rule = rule_of(margin.check);
+    const std::string text =
+        std::string(rule.name) + ", " + margin.pair + ": " + tenths(margin.margin) + " " + rule.unit;
+    return has_pose(margin) ? text + " (" + describe_pose(margin.pose) + ")" : text;
+}
+
 bool WorkEnvelope::holds() const {
-    return std::all_of(margins.begin(), margins.end(),
-                       [](const EnvelopeMargin& margin) { return margin.relative >= -rounding; });
+    return std::all_of(margins.begin(), margins.end(), is_held);
 }
 
 const EnvelopeMargin& WorkEnvelope::tightest() const {
@@ -112,16 +122,13 @@ const EnvelopeMargin& WorkEnvelope::tightest() const {
 
 std::string describe_work_envelope(const std::string& piece, const WorkEnvelope& envelope) {
     if (!envelope.is_arm_checked) return "piece " + piece + ": arm not checked";
-    const EnvelopeMargin& tightest = envelope.tightest();
-    const std::string what = std::string(rule_of(tightest.check).name) + ", " + tightest.pair + ": ";
-    const std::string much = tenths(tightest.margin) + " " + rule_of(tightest.check).unit;
-    const std::string where = " (" + describe_tip(tightest.pose) + ")";
-    if (envelope.holds()) {
-        std::string text = "piece " + piece + " can be carved, tightest: " + what + much + where;
-        if (envelope.cure != EnvelopeCure::none) text += std::string("; needed: ") + to_words(envelope.cure);
-        return text;
+    const std::string tightest = describe_margin(envelope.tightest());
+    if (!envelope.holds()) {
+        return "piece " + piece + " cannot be carved: " + tightest + "; to do: " + to_words(envelope.cure);
     }
-    return "piece " + piece + " cannot be carved: " + what + much + where + "; to do: " + to_words(envelope.cure);
+    std::string text = "piece " + piece + " can be carved, tightest: " + tightest;
+    if (envelope.cure != EnvelopeCure::none) text += std::string("; needed: ") + to_words(envelope.cure);
+    return text;
 }
 
 }  // namespace qchopper

@@ -92,6 +92,17 @@ struct EnvelopeMargin {
     bool operator==(const EnvelopeMargin&) const = default;
 };
 
+// Whether nothing is missing, but for rounding.
+bool is_held(const EnvelopeMargin& margin);
+// False where it is the block that is asked, not a pose.
+inline bool has_pose(const EnvelopeMargin& margin) {
+    return margin.check != PoseCheck::block_on_table;
+}
+// "corner of the block at 300, -200, 390 mm, direction 2"; "home".
+std::string describe_pose(const EnvelopePose& pose);
+// "arm to block, link 3 and the block: 12.5 mm (corner of the block at ...)".
+std::string describe_margin(const EnvelopeMargin& margin);
+
 // How a region is carved.
 struct HeldRegion {
     std::size_t direction = 0;
