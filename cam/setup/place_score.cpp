@@ -64,7 +64,6 @@ PlaceScore PlaceScorer::judged(BlockPlacement placement, const ScoreOptions& opt
         const auto worst = order_.begin() + static_cast<std::ptrdiff_t>(i);
         std::rotate(order_.begin(), worst, worst + 1);
     }
-    if (place.score >= options.bound) place.score = std::min(place.score, home_score(place.placement));
     return place;
 }
 
@@ -125,7 +124,8 @@ double PlaceScorer::score_at(std::size_t d, ScoreOptions options, const BlockPla
                              std::vector<RegionHold>& holds) {
     const StandingBlock block = standing(placement, d);
     const DirectionPoses& direction = directions_[d];
-    double score = std::numeric_limits<double>::infinity();
+    // Home is where the table stands as for the first direction.
+    double score = d == 0 ? home_score(placement) : std::numeric_limits<double>::infinity();
     for (std::size_t r = 0; r < direction.regions.size() && score >= options.bound; ++r) {
         const PoseRegion& region = direction.regions[r];
         const std::size_t count = options.all ? region.poses.size() : region.extremes;
