@@ -35,6 +35,8 @@ constexpr PlaceGrid fine_grid{50, 10 * degree};
 constexpr std::array<PlaceGrid, 4> refinements{
     {{50, 15 * degree}, {25, 10 * degree}, {10, 5 * degree}, {5, 2 * degree}}};
 
+const ScoreOptions in_full{.all = true, .best_everywhere = true};
+
 class PlaceSearch {
  public:
     PlaceSearch(const Setup& setup, const Cell& cell, const std::vector<DirectionPoses>& directions,
@@ -71,8 +73,9 @@ class PlaceSearch {
     // The first place whose extreme poses are held; nothing if there is none.
     bool any_holds(PlaceGrid step) {
         const std::vector<BlockPlacement> places = grid(step);
-        return std::any_of(places.begin(), places.end(),
-                           [&](const BlockPlacement& p) { return scorer_.judged(p, false, 0).score >= -rounding; });
+        return std::any_of(places.begin(), places.end(), [&](const BlockPlacement& p) {
+            return scorer_.judged(p, {false, 0, {}, 0}).score >= -rounding;
+        });
     }
 
     PlaceScore searched() {
@@ -89,15 +92,17 @@ class PlaceSearch {
         PlaceScore best = best_of_all_poses(found);
         for (std::size_t i = 0; i < skipped_.size() && best.score < 0; ++i) {
             context_.check_cancelled();
-            PlaceScore whole = scorer_.judged(skipped_[i], true, std::max(best.score, -score_slack));
+            PlaceScore whole = scorer_.judged(skipped_[i], {true, std::max(best.score, -score_slack)});
             if (whole.score > best.score) best = std::move(whole);
         }
-        return best;
+        PlaceScore everywhere = scorer_.judged(best.placement, in_full);
+        return everywhere.score >= best.score - rounding ? everywhere : best;
     }
 
-    PlaceScore fixed(double bound = nothing) {
+    // Of all poses where the block stands.
+    PlaceScore fixed(const ScoreOptions& options) {
         scorer_.given_angles(are_angles_given_);
-        return scorer_.judged(setup_.placement, true, bound);
+        return scorer_.judged(setup_.placement, options);
     }
 
     // The last cure that the place in the middle of the table needs, or that it is left.
@@ -114,7 +119,7 @@ class PlaceSearch {
                                              {EnvelopeCure::table_turn, {true, true, true}}}};
         for (const Step& step : steps) {
             if (step.cure == EnvelopeCure::table_turn && !scorer_.has_rotary()) continue;
-            if (scorer_.judged({}, true, 0, step.freedom).score >= -rounding) return step.cure;
+            if (scorer_.judged({}, {true, 0, step.freedom, 0}).score >= -rounding) return step.cure;
         }
         return EnvelopeCure::block_shift;
     }
@@ -134,7 +139,7 @@ class PlaceSearch {
             context_.check_cancelled();
             if (i % 50 == 0) context_.progress("places of the block judged", i, places.size());
             const double bound = best < 0 ? best + rounding : best - score_slack;
-            PlaceScore place = scorer_.judged(places[i], false, bound);
+            PlaceScore place = scorer_.judged(places[i], {false, bound});
             if (place.score < bound && !found.empty()) {
                 if (bound > 0) skipped_.push_back(places[i]);
                 continue;
@@ -142,7 +147,7 @@ class PlaceSearch {
             best = std::max(best, place.score);
             found.push_back(std::move(place));
         }
-        if (found.empty()) found.push_back(scorer_.judged({}, false, nothing));
+        if (found.empty()) found.push_back(scorer_.judged({}, {}));
         sort(found);
         return found;
     }
@@ -161,7 +166,7 @@ class PlaceSearch {
                         double& value = axis == 0 ? moved.x : axis == 1 ? moved.y : moved.turn;
                         value += side * (axis == 2 ? step.turn : step.shift);
                         if (inside_table(cell_, setup_.block.size, moved) < 0) continue;
-                        PlaceScore place = scorer_.judged(moved, false, best.score);
+                        PlaceScore place = scorer_.judged(moved, {false, best.score});
                         if (place.score <= best.score + 1e-6) continue;
                         best = std::move(place);
                         is_better = true;
@@ -183,7 +188,7 @@ class PlaceSearch {
             if (place.score <= best.score || held > most_compared) break;
             // Of places that hold not even the extreme poses the best one is enough, to tell what is wrong.
             if (best.score > nothing && best.score < 0 && place.score < 0) break;
-            PlaceScore whole = scorer_.judged(place.placement, true, best.score);
+            PlaceScore whole = scorer_.judged(place.placement, {true, best.score});
             if (whole.score > best.score) best = std::move(whole);
             if (best.score >= 0) ++held;
         }
@@ -222,7 +227,7 @@ WorkEnvelope place_block(const Setup& setup, const std::vector<DirectionPoses>& 
     if (!cell.machine) return {};
     assert(!directions.empty());
     PlaceSearch search(setup, cell, directions, context);
-    const PlaceScore place = options.is_searched ? search.searched() : search.fixed();
+    const PlaceScore place = options.is_searched ? search.searched() : search.fixed(in_full);
     const std::size_t places = search.scorer().places();
     WorkEnvelope envelope = envelope_at(setup, cell, directions, search.scorer(), place);
     envelope.places = places;
@@ -234,7 +239,7 @@ bool holds_at_placement(const Setup& setup, const std::vector<DirectionPoses>& d
     if (!cell.machine) return true;
     if (inside_table(cell, setup.block.size, setup.placement) < -rounding) return false;
     const Context context;
-    return PlaceSearch(setup, cell, directions, context).fixed(0).score >= -rounding;
+    return PlaceSearch(setup, cell, directions, context).fixed({true, 0, {}, 0}).score >= -rounding;
 }
 
 bool fits_machine(const Setup& setup, const TriangleMesh& mesh, const Cell& cell) {

@@ -50,19 +50,20 @@ PlaceScorer::PlaceScorer(const Setup& setup, const Cell& cell, const std::vector
     for (std::size_t d = 0; d < directions.size(); ++d) hints_[d].resize(directions[d].regions.size());
 }
 
-PlaceScore PlaceScorer::judged(BlockPlacement placement, bool all, double bound, CureFreedom freedom) {
+PlaceScore PlaceScorer::judged(BlockPlacement placement, const ScoreOptions& options) {
     ++places_;
     PlaceScore place{std::numeric_limits<double>::infinity(), std::move(placement), {}};
     place.holds.resize(directions_.size());
-    for (std::size_t i = 0; i < order_.size() && place.score >= bound; ++i) {
+    for (std::size_t i = 0; i < order_.size() && place.score >= options.bound; ++i) {
         const std::size_t d = order_[i];
-        place.score = std::min(place.score, direction_score(d, all, bound, freedom, place));
-        if (place.score >= bound) continue;
+        ScoreOptions own = options;
+        if (!options.best_everywhere) own.enough = std::min(own.enough, place.score);
+        place.score = std::min(place.score, direction_score(d, own, place));
+        if (place.score >= options.bound) continue;
         // What was too bad here is asked for first at the next place.
-        const auto own = order_.begin() + static_cast<std::ptrdiff_t>(i);
-        std::rotate(order_.begin(), own, own + 1);
+        const auto worst = order_.begin() + static_cast<std::ptrdiff_t>(i);
+        std::rotate(order_.begin(), worst, worst + 1);
     }
-    if (place.score >= bound) place.score = std::min(place.score, home_score(place.placement));
     return place;
 }
 
@@ -78,33 +79,36 @@ double PlaceScorer::home_score(const BlockPlacement& placement) {
     return tally.score();
 }
 
-double PlaceScorer::direction_score(std::size_t d, bool all, double bound, CureFreedom freedom, PlaceScore& place) {
-    if (!has_rotary()) return score_at(d, all, bound, freedom, place.placement, place.holds[d]);
+double PlaceScorer::direction_score(std::size_t d, const ScoreOptions& options, PlaceScore& place) {
+    if (!has_rotary()) return score_at(d, options, place.placement, place.holds[d]);
     std::vector<double>& angles = place.placement.table_angles;
-    if (are_angles_given_ || !freedom.table_angles) {
+    if (are_angles_given_ || !options.freedom.table_angles) {
         if (!are_angles_given_) angles.assign(directions_.size(), 0);
-        return score_at(d, all, bound, freedom, place.placement, place.holds[d]);
+        return score_at(d, options, place.placement, place.holds[d]);
     }
     angles.resize(directions_.size(), 0);
     double best = nothing;
     double best_angle = preferred_angle_[d];
     const auto consider = [&](double angle) {
+        if (best >= options.enough) return;
         angles[d] = std::remainder(angle, 2 * std::numbers::pi);
         std::vector<RegionHold> holds;
-        const double score = score_at(d, all, std::max(bound, best), freedom, place.placement, holds);
+        ScoreOptions better = options;
+        better.bound = std::max(options.bound, best);
+        const double score = score_at(d, better, place.placement, holds);
         if (score <= best) return;
         best = score;
         best_angle = angles[d];
         place.holds[d] = std::move(holds);
     };
     // Next to the angle that was best at the last place first; a multiple of 15 degrees, or of 30 in a search.
-    const int every = all || has_fine_angles_ ? 1 : 2;
+    const int every = options.all || has_fine_angles_ ? 1 : 2;
     const int first = static_cast<int>(std::lround(preferred_angle_[d] / table_step / every)) * every;
     for (int i = 0; i < table_angles; i += every) {
         const int k = i / every % 2 == 0 ? i / every / 2 : -(i / every + 1) / 2;
         consider((first + k * every) * table_step);
     }
-    if (all && best >= bound) {
+    if (options.all && best >= options.bound) {
         for (const double step : {5 * degree, 2 * degree}) {
             const double middle = best_angle;
             consider(middle - step);
@@ -112,21 +116,22 @@ double PlaceScorer::direction_score(std::size_t d, bool all, double bound, CureF
         }
     }
     angles[d] = best_angle;
-    if (best >= bound) preferred_angle_[d] = best_angle;
+    if (best >= options.bound) preferred_angle_[d] = best_angle;
     return best;
 }
 
-double PlaceScorer::score_at(std::size_t d, bool all, double bound, CureFreedom freedom,
-                             const BlockPlacement& placement, std::vector<RegionHold>& holds) {
+double PlaceScorer::score_at(std::size_t d, ScoreOptions options, const BlockPlacement& placement,
+                             std::vector<RegionHold>& holds) {
     const StandingBlock block = standing(placement, d);
     const DirectionPoses& direction = directions_[d];
-    double score = std::numeric_limits<double>::infinity();
-    for (std::size_t r = 0; r < direction.regions.size() && score >= bound; ++r) {
+    // Home is where the table stands as for the first direction.
+    double score = d == 0 ? home_score(placement) : std::numeric_limits<double>::infinity();
+    for (std::size_t r = 0; r < direction.regions.size() && score >= options.bound; ++r) {
         const PoseRegion& region = direction.regions[r];
-        const std::size_t count = all ? region.poses.size() : region.extremes;
+        const std::size_t count = options.all ? region.poses.size() : region.extremes;
         RegionHold hold;
-        score =
-            std::min(score, region_score({block, direction.out, region, count}, bound, freedom, hints_[d][r], hold));
+        if (!options.best_everywhere) options.enough = std::min(options.enough, score);
+        score = std::min(score, region_score({block, direction.out, region, count}, options, hints_[d][r], hold));
         holds.push_back(hold);
     }
     return score;
@@ -148,11 +153,13 @@ double PlaceScorer::candidate_score(const PlacedRegion& placed, double bound, Re
     return tally.score();
 }
 
-double PlaceScorer::region_score(const PlacedRegion& placed, double bound, CureFreedom freedom, RegionHint& hint,
+double PlaceScorer::region_score(const PlacedRegion& placed, const ScoreOptions& options, RegionHint& hint,
                                  RegionHold& best_hold) {
     double best = nothing;
+    const CureFreedom& freedom = options.freedom;
     const auto consider = [&](RegionHold hold) {
-        const double score = candidate_score(placed, std::max(bound, best), hint, hold);
+        if (best >= options.enough) return false;
+        const double score = candidate_score(placed, std::max(options.bound, best), hint, hold);
         if (score <= best) return false;
         best = score;
         best_hold = hold;
@@ -169,10 +176,10 @@ double PlaceScorer::region_score(const PlacedRegion& placed, double bound, CureF
     for (std::size_t i = 0; i < branches; ++i) {
         const std::size_t b = (first + i) % branches_.size();
         for (int turn = 0; turn < turns; ++turn) {
-            if (consider({branches_[b], turn * 10 * degree, is_free}) && best >= bound) hint.branch = b;
+            if (consider({branches_[b], turn * 10 * degree, is_free}) && best >= options.bound) hint.branch = b;
         }
     }
-    if (turns == 1 || best < bound) return best;
+    if (turns == 1 || best < options.bound) return best;
     for (const double step : {5 * degree, 2.5 * degree, 1.25 * degree}) {
         const RegionHold middle = best_hold;
         for (const double turn : {middle.tool_turn - step, middle.tool_turn + step}) {

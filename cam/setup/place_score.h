@@ -24,6 +24,15 @@ struct CureFreedom {
     bool table_angles = true;
 };
 
+struct ScoreOptions {
+    bool all = false;                                         // of all poses, else of the extreme ones
+    double bound = -std::numeric_limits<double>::infinity();  // a score below it is not exact
+    CureFreedom freedom = {};
+    double enough = std::numeric_limits<double>::infinity();  // nor is one above it
+    // Every region is held as well as it can be, not only the one that decides.
+    bool best_everywhere = false;
+};
+
 struct PlaceScore {
     double score = -std::numeric_limits<double>::infinity();  // below 0: not held
     BlockPlacement placement;
@@ -40,9 +49,8 @@ class PlaceScorer {
     // Preconditions: the cell has a machine, there is a direction; all arguments outlive this object.
     PlaceScorer(const Setup& setup, const Cell& cell, const std::vector<DirectionPoses>& directions);
 
-    // With `all` of all poses, else of the extreme ones. A score below `bound` is not exact. The angles of a rotary
-    // table are searched, or with given_angles(true) those of the placement.
-    PlaceScore judged(BlockPlacement placement, bool all, double bound, CureFreedom freedom = {});
+    // The angles of a rotary table are searched, or with given_angles(true) those of the placement.
+    PlaceScore judged(BlockPlacement placement, const ScoreOptions& options);
     void given_angles(bool are_given) { are_angles_given_ = are_given; }
     // Extreme poses are tried at every 15 degrees of the table too, not at every 30.
     void fine_angles() { has_fine_angles_ = true; }
@@ -66,11 +74,11 @@ class PlaceScorer {
         std::size_t worst = 0;   // pose
     };
 
-    double direction_score(std::size_t d, bool all, double bound, CureFreedom freedom, PlaceScore& place);
-    double score_at(std::size_t d, bool all, double bound, CureFreedom freedom, const BlockPlacement& placement,
+    double direction_score(std::size_t d, const ScoreOptions& options, PlaceScore& place);
+    double score_at(std::size_t d, ScoreOptions options, const BlockPlacement& placement,
                     std::vector<RegionHold>& holds);
     // The best branch and turn about the tool axis of a region.
-    double region_score(const PlacedRegion& placed, double bound, CureFreedom freedom, RegionHint& hint,
+    double region_score(const PlacedRegion& placed, const ScoreOptions& options, RegionHint& hint,
                         RegionHold& best_hold);
     // Of one branch and turn; any number below `bound` if it is below.
     double candidate_score(const PlacedRegion& placed, double bound, RegionHint& hint, RegionHold& hold);

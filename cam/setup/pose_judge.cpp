@@ -120,7 +120,7 @@ void PoseJudge::judge(const StandingBlock& block, Vec3 out, const PoseRegion& re
             joints_[i] = joints_at(walk, i, rotate(walk.setup_in_base, pose.tip), tally);
             if (!joints_[i] || tally.score() < bound) continue;
             const double link_feed = pose.kind == PoseKind::retract ? machine_.program.link_feed_mm_per_s : 0;
-            judge_pose(block, std::max(feed_, link_feed), *joints_[i], tally);
+            judge_pose(block, std::max(feed_, link_feed), *joints_[i], bound, tally);
             if (tally.score() < bound) continue;
         } else {
             judge_travel(apply(block.setup_in_cell, pose.tip), rotate(block.setup_in_cell, out), tally);
@@ -180,15 +180,18 @@ void PoseJudge::judge_limit(std::size_t axis, double joint, std::uint16_t side, 
     tally.add(PoseCheck::cable, beyond(cable.min, cable.max), {number, side});
 }
 
-void PoseJudge::judge_pose(const StandingBlock& block, double feed, const Joints& joints, MarginTally& tally) {
+void PoseJudge::judge_pose(const StandingBlock& block, double feed, const Joints& joints, double bound,
+                           MarginTally& tally) {
     for (const std::size_t axis : {0U, 1U, 2U, 4U}) {
         judge_limit(axis, joints[axis], 0, tally);
         judge_limit(axis, joints[axis], 1, tally);
     }
     judge_singularity(joints, tally);
-    judge_speed(joints, feed, tally);
     place_links(joints);
+    if (tally.score() < bound) return;
     judge_links(block, tally);
+    if (tally.score() < bound) return;
+    judge_speed(joints, feed, tally);
 }
 
 void PoseJudge::judge_singularity(const Joints& joints, MarginTally& tally) const {

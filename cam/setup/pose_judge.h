@@ -64,7 +64,7 @@ class PoseJudge {
     struct Walk;
 
     std::optional<Joints> joints_at(const Walk& walk, std::size_t index, Vec3 tip_in_base, MarginTally& tally) const;
-    void judge_pose(const StandingBlock& block, double feed, const Joints& joints, MarginTally& tally);
+    void judge_pose(const StandingBlock& block, double feed, const Joints& joints, double bound, MarginTally& tally);
     void judge_travel(Vec3 tip, Vec3 out, MarginTally& tally) const;
     void judge_limit(std::size_t axis, double joint, std::uint16_t side, MarginTally& tally) const;
     void judge_singularity(const Joints& joints, MarginTally& tally) const;
