@@ -31,8 +31,8 @@ void measure_many(const Measured& measured, const Baseline& base, Figures& figur
 // From a mesh in memory to the first cut, with its steps; the box; new weights.
 void measure_decision(const Measured& measured, const Baseline& base, const Effort& effort, Figures& figures);
 
-// CPU seconds of a search until there are so many pieces, on one thread, samples and their rays included if the settings
-// ask for them.
+// CPU seconds of a search until there are so many pieces, on one thread, samples and their rays included if the
+// settings ask for them.
 double run_s(const Measured& measured, const SearchSettings& settings, std::size_t pieces);
 // A search until there are so many pieces, on one and on two threads.
 void measure_run(const Measured& measured, std::size_t pieces, Figures& figures);

@@ -61,7 +61,7 @@ BlockPlaces block_places(const Cell& cell, Vec3 block, double tilt, double step,
             const BlockPlacement placement{place.x, place.y, 0, {}};
             place.is_on_table = inside_table(cell, block, placement) >= -rounding;
             if (!place.is_on_table) continue;
-            const double score = scorer.judged(placement, true, 0).score;
+            const double score = scorer.judged(placement, {true, 0}).score;
             if (score >= -rounding) place.margin = std::max(0.0, score);
         }
     });

@@ -18,6 +18,7 @@ namespace qchopper {
 namespace {
 
 constexpr double same_direction = 1 - 1e-9;  // cosine
+constexpr int replacements = 2;              // so many times others are chosen for directions that are not held
 
 bool contains(const std::vector<Vec3>& directions, Vec3 direction) {
     return std::any_of(directions.begin(), directions.end(),
@@ -33,18 +34,18 @@ class HeldSearch {
     HeldSetup run(SetupChoice choice) {
         if (!cell_.machine || !check_envelope(choice.setups.front(), cell_).fits()) return {std::move(choice), {}};
         WorkEnvelope first = placed(choice.setups.front());
-        if (first.holds()) return taken(std::move(choice), std::move(first));
+        if (first.holds()) return taken(std::move(choice), first, first.cure);
         const std::vector<Setup> bases = bases_in_order(choice);
         if (std::optional<HeldSetup> held = on_another_base(bases)) return std::move(*held);
         for (const Setup& setup : bases) {
             if (std::optional<HeldSetup> held = with_other_directions(setup)) return std::move(*held);
         }
-        first.cure = options_.setup.base ? EnvelopeCure::base : EnvelopeCure::cut;
-        return taken(std::move(choice), std::move(first));
+        return taken(std::move(choice), first, options_.setup.base ? EnvelopeCure::base : EnvelopeCure::cut);
     }
 
  private:
-    static HeldSetup taken(SetupChoice choice, WorkEnvelope envelope) {
+    static HeldSetup taken(SetupChoice choice, WorkEnvelope envelope, EnvelopeCure cure) {
+        envelope.cure = cure;
         choice.setups.front().placement = envelope.placement;
         return {std::move(choice), std::move(envelope)};
     }
@@ -76,19 +77,28 @@ class HeldSearch {
     std::optional<HeldSetup> with_other_directions(const Setup& setup) {
         std::vector<Vec3> kept;
         std::vector<Vec3> refused;
-        if (!divide_directions(setup, kept, refused)) return std::nullopt;
+        if (!divide_directions(setup, poses_of(setup), kept, refused)) return std::nullopt;
         const auto is_not_refused = [&](Vec3 direction) { return !contains(refused, direction); };
-        if (auto held = chosen_again(setup.base_number, is_not_refused, EnvelopeCure::directions)) return held;
+        for (int trial = 0; trial < replacements; ++trial) {
+            SetupChoice choice = chosen(setup.base_number, is_not_refused);
+            const Setup& other = choice.setups.front();
+            const std::vector<DirectionPoses> poses = carving_poses(other, *piece_.mesh, cell_);
+            WorkEnvelope envelope = place_block(other, poses, cell_, {}, context_);
+            if (envelope.holds()) return taken(std::move(choice), std::move(envelope), EnvelopeCure::directions);
+            kept.clear();
+            if (!divide_directions(other, poses, kept, refused)) return std::nullopt;
+        }
         const auto is_kept = [&](Vec3 direction) { return contains(kept, direction); };
         return chosen_again(setup.base_number, is_kept, EnvelopeCure::directions);
     }
 
-    // Of the directions those that are held together at some place, and the others; false if not even the first is.
-    bool divide_directions(const Setup& setup, std::vector<Vec3>& kept, std::vector<Vec3>& refused) {
-        const std::vector<DirectionPoses>& all = poses_of(setup);
+    // Of the directions those that are held together at some place, and, added to `refused`, the others; false if not
+    // even the first is held.
+    bool divide_directions(const Setup& setup, const std::vector<DirectionPoses>& poses, std::vector<Vec3>& kept,
+                           std::vector<Vec3>& refused) const {
         std::vector<DirectionPoses> together;
-        for (std::size_t d = 0; d < all.size(); ++d) {
-            together.push_back(all[d]);
+        for (std::size_t d = 0; d < poses.size(); ++d) {
+            together.push_back(poses[d]);
             const bool holds = place_block(setup, together, cell_, {}, context_).holds();
             if (!holds && d == 0) return false;
             if (!holds) together.pop_back();
@@ -97,17 +107,19 @@ class HeldSearch {
         return true;
     }
 
-    std::optional<HeldSetup> chosen_again(int base, const std::function<bool(Vec3)>& is_allowed, EnvelopeCure cure) {
+    SetupChoice chosen(int base, const std::function<bool(Vec3)>& is_allowed) const {
         context_.check_cancelled();
         SetupOptions options = options_.setup;
         options.base = base;
         options.is_allowed = is_allowed;
-        SetupChoice choice = choose_setup(piece_, cell_, options);
-        const Setup& setup = choice.setups.front();
-        WorkEnvelope envelope = place_block(setup, *piece_.mesh, cell_, {}, context_);
+        return choose_setup(piece_, cell_, options);
+    }
+
+    std::optional<HeldSetup> chosen_again(int base, const std::function<bool(Vec3)>& is_allowed, EnvelopeCure cure) {
+        SetupChoice choice = chosen(base, is_allowed);
+        WorkEnvelope envelope = place_block(choice.setups.front(), *piece_.mesh, cell_, {}, context_);
         if (!envelope.holds()) return std::nullopt;
-        envelope.cure = cure;
-        return taken(std::move(choice), std::move(envelope));
+        return taken(std::move(choice), std::move(envelope), cure);
     }
 
     WorkEnvelope placed(const Setup& setup) { return place_block(setup, poses_of(setup), cell_, {}, context_); }
