@@ -68,7 +68,7 @@ class HeldSearch {
 
     std::optional<HeldSetup> on_another_base(const std::vector<Setup>& bases) {
         for (std::size_t i = 1; i < bases.size() && is_good(bases[i], bases.front()); ++i) {
-            if (!placed(bases[i]).holds()) continue;
+            if (!first_place(bases[i], poses_of(bases[i]), cell_, {}, context_)) continue;
             if (std::optional<HeldSetup> held = chosen_again(bases[i].base_number, {}, EnvelopeCure::base)) return held;
         }
         return std::nullopt;
@@ -83,8 +83,10 @@ class HeldSearch {
             SetupChoice choice = chosen(setup.base_number, is_not_refused);
             const Setup& other = choice.setups.front();
             const std::vector<DirectionPoses> poses = carving_poses(other, *piece_.mesh, cell_);
-            WorkEnvelope envelope = place_block(other, poses, cell_, {}, context_);
-            if (envelope.holds()) return taken(std::move(choice), std::move(envelope), EnvelopeCure::directions);
+            if (first_place(other, poses, cell_, {}, context_)) {
+                WorkEnvelope envelope = place_block(other, poses, cell_, {}, context_);
+                if (envelope.holds()) return taken(std::move(choice), std::move(envelope), EnvelopeCure::directions);
+            }
             kept.clear();
             if (!divide_directions(other, poses, kept, refused)) return std::nullopt;
         }
@@ -97,12 +99,14 @@ class HeldSearch {
     bool divide_directions(const Setup& setup, const std::vector<DirectionPoses>& poses, std::vector<Vec3>& kept,
                            std::vector<Vec3>& refused) const {
         std::vector<DirectionPoses> together;
+        BlockPlacement place;
         for (std::size_t d = 0; d < poses.size(); ++d) {
             together.push_back(poses[d]);
-            const bool holds = place_block(setup, together, cell_, {}, context_).holds();
-            if (!holds && d == 0) return false;
-            if (!holds) together.pop_back();
-            (holds ? kept : refused).push_back(setup.reach.directions[d].out);
+            std::optional<BlockPlacement> found = first_place(setup, together, cell_, place, context_);
+            if (!found && d == 0) return false;
+            if (!found) together.pop_back();
+            (found ? kept : refused).push_back(setup.reach.directions[d].out);
+            if (found) place = std::move(*found);
         }
         return true;
     }

@@ -78,6 +78,20 @@ class PlaceSearch {
         });
     }
 
+    // The first place whose poses are all held.
+    std::optional<BlockPlacement> first_held(BlockPlacement first) {
+        std::vector<BlockPlacement> places = grid(first_grid);
+        first.table_angles.clear();
+        if (inside_table(cell_, setup_.block.size, first) >= 0) places.insert(places.begin(), std::move(first));
+        for (const BlockPlacement& place : places) {
+            context_.check_cancelled();
+            if (scorer_.judged(place, {false, 0, {}, 0}).score < -rounding) continue;
+            PlaceScore whole = scorer_.judged(place, {true, 0, {}, 0});
+            if (whole.score >= -rounding) return std::move(whole.placement);
+        }
+        return std::nullopt;
+    }
+
     PlaceScore searched() {
         std::vector<PlaceScore> found = scanned(first_grid, {});
         if (found.empty() || found.front().score < 0) {
@@ -240,6 +254,12 @@ bool holds_at_placement(const Setup& setup, const std::vector<DirectionPoses>& d
     if (inside_table(cell, setup.block.size, setup.placement) < -rounding) return false;
     const Context context;
     return PlaceSearch(setup, cell, directions, context).fixed({true, 0, {}, 0}).score >= -rounding;
+}
+
+std::optional<BlockPlacement> first_place(const Setup& setup, const std::vector<DirectionPoses>& directions,
+                                          const Cell& cell, const BlockPlacement& first, const Context& context) {
+    assert(cell.machine && !directions.empty());
+    return PlaceSearch(setup, cell, directions, context).first_held(first);
 }
 
 bool fits_machine(const Setup& setup, const TriangleMesh& mesh, const Cell& cell) {

@@ -79,7 +79,7 @@ TEST_F(Cells, TellsWhereABlockCanStand) {
     }
     const json map = json::parse(run({"cells", "reach", "cells/irb6640-185-2.8.toml", "--tilt", "30", "--json"}).out);
     EXPECT_EQ(map["schema"], "qchopper-cell-reach-1");
-    EXPECT_EQ(map["tilt_deg"], 30);
+    EXPECT_NEAR(map["tilt_deg"].get<double>(), 30, 1e-9);
     EXPECT_EQ(map["best"]["arm_checked"], true);
     EXPECT_TRUE(map["best"]["margins"].contains("joint_limit"));
     EXPECT_GT(map["places"].size(), 10U);
@@ -89,7 +89,7 @@ TEST_F(Cells, SaysWhereNoBlockCanStand) {
     const program::Ended none = run({"cells", "reach", "cells/gantry-3axis.toml", "--tilt", "30"});
     EXPECT_EQ(none.code, 1) << none.err;
     EXPECT_NE(none.out.find("No place holds. The best is x "), std::string::npos) << none.out;
-    EXPECT_NE(none.out.find("a gantry and a tilted tool"), std::string::npos) << none.out;
+    EXPECT_NE(none.out.find("; travel, "), std::string::npos) << none.out;
     const program::Ended old = run({"cells", "reach", "cells/foam-1.toml", "--tilt", "0"});
     EXPECT_EQ(old.code, 64);
     EXPECT_NE(old.err.find("describes no machine"), std::string::npos) << old.err;

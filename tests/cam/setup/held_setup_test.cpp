@@ -101,6 +101,27 @@ TEST(HeldSetup, IsNotAskedOfAPieceWithoutABlock) {
     EXPECT_EQ(result.envelope, WorkEnvelope{});
 }
 
+TEST(FirstPlace, IsHeldAndIsFoundWhereTheSearchFindsOne) {
+    const Piece piece = ball_on_cap();
+    for (const bool has_wall : {false, true}) {
+        for (const char* name : {"kr60-ha.toml", "kr120-r2500-pro-rotary.toml"}) {
+            const Cell cell = has_wall ? with_wall(name) : ready_cell(name);
+            SetupChoice choice = choose_setup(piece, cell);
+            auto& setup = choice.setups.front();
+            const std::vector<DirectionPoses> poses = carving_poses(setup, *piece.mesh, cell);
+            const std::optional<BlockPlacement> found = first_place(setup, poses, cell);
+            const WorkEnvelope searched = place_block(setup, poses, cell);
+            EXPECT_TRUE(searched.holds() || !found) << name;
+            if (!found) continue;
+            setup.placement = *found;
+            EXPECT_TRUE(holds_at_placement(setup, poses, cell)) << name;
+            const std::vector<DirectionPoses> one{poses.front()};
+            EXPECT_TRUE(first_place(setup, one, cell)) << "fewer directions ask less";
+            EXPECT_EQ(first_place(setup, poses, cell, *found)->x, found->x) << "that place is tried first";
+        }
+    }
+}
+
 TEST(ChooseSetup, TakesOnlyAllowedDirections) {
     const Piece piece = ball_on_cap();
     const Cell cell = ready_cell("irb6640-185-2.8.toml");
