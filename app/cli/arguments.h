@@ -116,6 +116,12 @@ struct CellsShowArguments {
     std::optional<std::filesystem::path> out;  // picture of the reach
 };
 
+struct CellsReachArguments {
+    std::filesystem::path file;
+    double tilt_deg = 0;
+    std::optional<std::string> block;  // option_values.h reads it; the largest of the cell
+};
+
 struct CellsCheckArguments {
     std::filesystem::path file;
 };
@@ -158,7 +164,7 @@ struct Arguments {
     bool timings = false;
     std::variant<SampleArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
                  ExplainArguments, ExportArguments, CellsListArguments, CellsShowArguments, CellsCheckArguments,
-                 SetupArguments, DryRunArguments, CellSimArguments, DispatchArguments>
+                 CellsReachArguments, SetupArguments, DryRunArguments, CellSimArguments, DispatchArguments>
         command;
 };
 

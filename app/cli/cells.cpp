@@ -1,9 +1,13 @@
-// Lists, shows and checks cell files. O(files), beside the picture of the reach.
+// Lists, shows and checks cell files, and tells where blocks can stand. O(files), beside the picture of the reach and
+// the places of a block (cam/setup/block_places.h).
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
+#include "app/cli/option_values.h"
 #include "app/report/cell_report.h"
 #include "app/report/reach_picture.h"
 #include "base/error.h"
@@ -41,6 +45,13 @@ ListedCell listed(const fs::path& file) {
     }
 }
 
+Vec3 largest_block(const Cell& cell) {
+    const auto volume = [](const Stock& s) { return s.size.x * s.size.y * s.size.z; };
+    return std::max_element(cell.stock.begin(), cell.stock.end(),
+                            [&](const Stock& a, const Stock& b) { return volume(a) < volume(b); })
+        ->size;
+}
+
 }  // namespace
 
 int run(const CellsListArguments& arguments, Terminal& terminal) {
@@ -74,6 +85,23 @@ int run(const CellsCheckArguments& arguments, Terminal& terminal) {
     const CheckedCell checked{arguments.file.string(), cell, check_cell(cell)};
     terminal.show(lines(checked), document(checked));
     return checked.check.may_be_dispatched() ? exit_done : exit_demand_broken;
+}
+
+int run(const CellsReachArguments& arguments, Terminal& terminal) {
+    terminal.set_unchanged("Nothing was changed.");
+    const Cell cell = read_cell(arguments.file);
+    if (!cell.machine) {
+        throw InputError(InputFault::use,
+                         arguments.file.string() + " describes no machine (version 1), so what it holds is not known",
+                         "describe it as docs/cell-file.md says, or ask a cell of version 2: qchopper cells list");
+    }
+    const Vec3 block = arguments.block ? *lengths_from(*arguments.block) : largest_block(cell);
+    const double tilt = arguments.tilt_deg * std::numbers::pi / 180;
+    // So that a line of the map has at most 15 places.
+    const double step = 100 * std::max(1.0, std::ceil(std::max(cell.table.size_x, cell.table.size_y) / 1500));
+    const PlacesInCell places{arguments.file.string(), cell, block_places(cell, block, tilt, step, terminal.context())};
+    terminal.show(lines(places), document(places));
+    return places.map.best.holds() ? exit_done : exit_demand_broken;
 }
 
 }  // namespace qchopper

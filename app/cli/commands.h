@@ -21,6 +21,7 @@ int run(const ExportArguments& arguments, Terminal& terminal);
 int run(const CellsListArguments& arguments, Terminal& terminal);
 int run(const CellsShowArguments& arguments, Terminal& terminal);
 int run(const CellsCheckArguments& arguments, Terminal& terminal);
+int run(const CellsReachArguments& arguments, Terminal& terminal);
 int run(const SetupArguments& arguments, Terminal& terminal);
 int run(const DryRunArguments& arguments, Terminal& terminal);
 int run(const CellSimArguments& arguments, Terminal& terminal);

@@ -49,7 +49,8 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
   qchopper export vertebra.qch --format stl --pose setup --simplify 0.05 -o models)"},
     {"cells", R"(  qchopper cells list
   qchopper cells show cells/kr60-ha.toml -o reach.png
-  qchopper cells check cells/kr60-ha.toml --json)"},
+  qchopper cells check cells/kr60-ha.toml --json
+  qchopper cells reach cells/kr60-ha.toml --tilt 30 --block 300,300,200)"},
     {"setup", R"(  qchopper setup vertebra.qch
   qchopper setup vertebra.qch --piece B
   qchopper setup vertebra.qch --piece B --base 2 --directions 3)"},

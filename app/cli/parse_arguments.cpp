@@ -42,6 +42,7 @@ struct Parser {
     CellsListArguments cells_list;
     CellsShowArguments cells_show;
     CellsCheckArguments cells_check;
+    CellsReachArguments cells_reach;
     SetupArguments setup;
     DryRunArguments dry_run;
     CellSimArguments cell_sim;
@@ -130,7 +131,7 @@ struct Parser {
     }
 
     void add_cells() {
-        CLI::App* c = app.add_subcommand("cells", "list, show and check cell files");
+        CLI::App* c = app.add_subcommand("cells", "list, show and check cell files, and tell where a block can stand");
         c->require_subcommand(1);
         CLI::App* list = c->add_subcommand("list", "list the cell files of a folder");
         list->add_option("FOLDER", cells_list.folder, "where they lie (cells)");
@@ -144,6 +145,16 @@ struct Parser {
             "check", "tell what is assumed or missing in a cell file, and whether its jobs may be dispatched");
         check->add_option("CELL", cells_check.file, "the cell file, NAME.toml")->required();
         add_common(check, common, [this] { common.command = cells_check; });
+        CLI::App* reach = c->add_subcommand(
+            "reach",
+            "tell where on the table a block can stand so that the machine comes to it at a tilt from all around");
+        reach->add_option("CELL", cells_reach.file, "the cell file, NAME.toml")->required();
+        reach->add_option("--tilt", cells_reach.tilt_deg, "of the tool from the vertical, degrees")
+            ->required()
+            ->check(number_between(0, 90, "an angle from 0 to 90 degrees"));
+        reach->add_option("--block", cells_reach.block, "its size X,Y,Z in mm (the largest block of the cell file)")
+            ->check(read_by(lengths_from, "not X,Y,Z in mm"));
+        add_common(reach, common, [this] { common.command = cells_reach; });
     }
 
     void add_setup() {

@@ -102,9 +102,9 @@ std::vector<ExportedPiece> rows_of(OpenProject& open, const ExportRequest& reque
         if (request.piece && pieces[i].name != *request.piece) continue;
         ExportedPiece row{exported(pieces[i], i, open.project()), {}, {}};
         if (setups != nullptr) {
-            const Carving& carving = setups->of(pieces[i]);
+            const Carving& carving = setups->held(pieces[i]);
             row.piece.pose = carving.setup().piece_in_setup;
-            row.piece.fits = carving.envelope.fits();
+            row.piece.fits = carving.fits();
         }
         rows.push_back(std::move(row));
     }

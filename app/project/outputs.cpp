@@ -117,7 +117,7 @@ MadeJob make_job(const fs::path& folder, const Project& project, const Segmentat
     made.report.carving.choice.states.clear();
     made.report.advice = advice_for(folder, project, piece, carving.setup().reach, cell);
     const fs::path file = folder / "jobs" / job_file_name(piece.name);
-    if (!carving.envelope.fits()) {
+    if (!carving.fits()) {
         fs::remove(file);  // an earlier job of a piece that cannot be carved must not stay
         return made;
     }
@@ -131,6 +131,7 @@ MadeJob make_job(const fs::path& folder, const Project& project, const Segmentat
     input.cell = cell;
     input.setup = carving.setup();
     input.envelope = carving.envelope;
+    input.work_envelope = carving.work_envelope;
     input.alternatives.assign(carving.choice.setups.begin() + 1, carving.choice.setups.end());
     input.states = carving.choice.states;
     input.max_unreachable = most_unreachable(project, cell);
@@ -147,7 +148,7 @@ MadeJob make_job(const fs::path& folder, const Project& project, const Segmentat
 PieceReport write_job(const fs::path& folder, Project& project, const Segmentation& segmentation, std::size_t index,
                       Setups& setups, const std::string& program_version) {
     const Piece& piece = segmentation.pieces[index];
-    MadeJob made = make_job(folder, project, segmentation, index, setups.of(piece), setups.cell(), program_version);
+    MadeJob made = make_job(folder, project, segmentation, index, setups.held(piece), setups.cell(), program_version);
     std::erase_if(project.jobs, [&](const WrittenJob& job) { return job.piece == piece.name; });
     const auto later = std::find_if(project.jobs.begin(), project.jobs.end(),
                                     [&](const WrittenJob& job) { return place_of(job.piece, segmentation) > index; });
@@ -161,10 +162,12 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
     const std::size_t count = segmentation.pieces.size();
     context.progress("setups chosen", 0, count);
     setups.compute(segmentation.pieces, context);
+    stage.next("work envelopes judged");
+    setups.compute_held(segmentation.pieces, context);
     stage.next("jobs written");
     context.progress("jobs written", 0, count);
     std::vector<const Carving*> carvings;
-    for (const Piece& piece : segmentation.pieces) carvings.push_back(&setups.of(piece));
+    for (const Piece& piece : segmentation.pieces) carvings.push_back(&setups.held(piece));
     std::vector<MadeJob> made(count);
     std::mutex reporting;
     std::size_t done = 0;

@@ -1,4 +1,4 @@
-// The cost is that of choose_setup() for each piece that is new.
+// The cost is that of choose_setup() for each piece that is new, for held() also that of held_setup().
 
 #include "app/project/setups.h"
 
@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "base/parallel.h"
+#include "cam/setup/held_setup.h"
 #include "segment/score/piece_reach.h"
 
 namespace qchopper {
@@ -14,12 +15,14 @@ void Setups::set_orders(std::vector<SetupOrder> orders) {
     if (orders == orders_) return;
     orders_ = std::move(orders);
     carvings_.clear();
+    held_.clear();
 }
 
 void Setups::set_count_narrow(bool count_narrow) {
     if (count_narrow == count_narrow_) return;
     count_narrow_ = count_narrow;
     carvings_.clear();
+    held_.clear();
 }
 
 void Setups::compute(std::span<const Piece> pieces, const Context& context) {
@@ -44,11 +47,46 @@ const Carving& Setups::of(const Piece& piece) {
     return it->second;
 }
 
-void Setups::keep_only(std::span<const Piece> pieces) {
-    std::erase_if(carvings_, [&](const auto& carving) {
-        return std::none_of(pieces.begin(), pieces.end(),
-                            [&](const Piece& piece) { return piece.mesh.get() == carving.first; });
+void Setups::compute_held(std::span<const Piece> pieces, const Context& context) {
+    compute(pieces, context);
+    std::vector<const Piece*> missing;
+    for (const Piece& piece : pieces) {
+        if (!held_.contains(piece.mesh.get())) missing.push_back(&piece);
+    }
+    context.progress("work envelopes judged", 0, missing.size());
+    std::mutex changing;
+    std::size_t done = 0;
+    Context quiet;  // several pieces at a time: places of one are no progress of all
+    quiet.cancelled = context.cancelled;
+    parallel_for(0, missing.size(), [&](std::size_t i) {
+        context.check_cancelled();
+        const Piece& piece = *missing[i];
+        Carving carving = held_of(piece, carvings_.at(piece.mesh.get()), quiet);
+        const std::lock_guard lock(changing);
+        held_[piece.mesh.get()] = std::move(carving);
+        context.progress("work envelopes judged", ++done, missing.size());
     });
+}
+
+const Carving& Setups::held(const Piece& piece) {
+    const auto known = held_.find(piece.mesh.get());
+    if (known != held_.end()) return known->second;
+    return held_[piece.mesh.get()] = held_of(piece, of(piece), {});
+}
+
+void Setups::keep_only(std::span<const Piece> pieces) {
+    for (Carvings* carvings : {&carvings_, &held_}) {
+        std::erase_if(*carvings, [&](const auto& carving) {
+            return std::none_of(pieces.begin(), pieces.end(),
+                                [&](const Piece& piece) { return piece.mesh.get() == carving.first; });
+        });
+    }
+}
+
+bool Setups::fits(const Piece& piece) {
+    Fit& known = fits_[piece.mesh.get()];
+    if (known.mesh.expired()) known = {piece.mesh, fits_cell_and_machine(piece, cell_)};
+    return known.fits;
 }
 
 UnreachableSurface Setups::unreachable(const Piece& piece) {
@@ -74,6 +112,15 @@ SetupOptions Setups::options_for(const Piece& piece) const {
 
 Carving Setups::carving_of(const Piece& piece) const {
     Carving carving{choose_setup(piece, cell_, options_for(piece)), {}, piece.mesh};
+    carving.envelope = check_envelope(carving.setup(), cell_);
+    return carving;
+}
+
+Carving Setups::held_of(const Piece& piece, const Carving& best, const Context& context) const {
+    if (!cell_.machine) return best;
+    const HeldOptions options{options_for(piece), cell_.machine->max_unreachable};
+    HeldSetup held = held_setup(piece, best.choice, cell_, options, context);
+    Carving carving{std::move(held.choice), {}, piece.mesh, std::move(held.envelope)};
     carving.envelope = check_envelope(carving.setup(), cell_);
     return carving;
 }

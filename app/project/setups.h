@@ -14,6 +14,7 @@
 #include "cam/cell/cell.h"
 #include "cam/setup/choose_setup.h"
 #include "cam/setup/envelope.h"
+#include "cam/setup/work_envelope.h"
 #include "segment/search/stop_rules.h"
 
 namespace qchopper {
@@ -22,7 +23,9 @@ struct Carving {
     SetupChoice choice;
     EnvelopeReport envelope;                   // of the setup
     std::shared_ptr<const TriangleMesh> mesh;  // of the piece; while it is held, its address is not used again
+    WorkEnvelope work_envelope = {};           // of the setup; not checked but by held()
     const Setup& setup() const { return choice.setups.front(); }
+    bool fits() const { return envelope.fits() && work_envelope.holds(); }
 };
 
 class Setups {
@@ -41,21 +44,36 @@ class Setups {
     // Valid while this object lives. Pieces are identified by their mesh.
     const Carving& of(const Piece& piece);
 
+    // The setups that jobs are made of: with the place of the block, and another base or other directions where the
+    // machine does not hold every pose of the best one (held_setup.h). The same as compute() and of() in a cell of
+    // version 1.
+    void compute_held(std::span<const Piece> pieces, const Context& context);
+    const Carving& held(const Piece& piece);
+
     // Forgets those of all other pieces.
     void keep_only(std::span<const Piece> pieces);
 
-    // For the stop rules, cheaper than of(): by boxes, and on samples of the surface from the best base.
-    bool fits(const Piece& piece) const { return fits_cell(piece, cell_); }
+    // For the stop rules, cheaper than held() and of(): whether block and extreme poses of carving from above are
+    // possible, kept per mesh; and on samples of the surface from the best base.
+    bool fits(const Piece& piece);
     UnreachableSurface unreachable(const Piece& piece);
 
  private:
+    using Carvings = std::map<const TriangleMesh*, Carving>;
+    struct Fit {
+        std::weak_ptr<const TriangleMesh> mesh;  // expired: the address may be that of another mesh
+        bool fits = false;
+    };
     SetupOptions options_for(const Piece& piece) const;
     Carving carving_of(const Piece& piece) const;
+    Carving held_of(const Piece& piece, const Carving& best, const Context& context) const;
 
     Cell cell_;
     std::vector<SetupOrder> orders_;
     bool count_narrow_ = false;
-    std::map<const TriangleMesh*, Carving> carvings_;
+    Carvings carvings_;
+    Carvings held_;
+    std::map<const TriangleMesh*, Fit> fits_;
 };
 
 }  // namespace qchopper

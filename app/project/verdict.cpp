@@ -31,7 +31,7 @@ RulesHeld rules_held(std::span<const Piece> pieces, const StopRules& rules, Setu
     for (const Piece& piece : pieces) {
         if (rules.max_faces && piece.mesh->triangles.size() >= *rules.max_faces) held.faces = false;
         if (rules.max_obb && !fits_in(oriented_box(piece.mesh->points).size(), *rules.max_obb)) held.box = false;
-        if (!setups.of(piece).envelope.fits()) held.fits = false;
+        if (!setups.of(piece).envelope.fits() || !setups.fits(piece)) held.fits = false;
     }
     return held;
 }

@@ -6,6 +6,7 @@
 
 #include "app/project/value_json.h"
 #include "app/report/cell_report.h"
+#include "app/report/work_envelope_report.h"
 
 namespace qchopper {
 namespace {
@@ -175,6 +176,23 @@ std::string document(const ShownCell& shown) {
                  {"machine", cell.machine ? machine_json(*cell.machine) : Json()}};
     if (shown.picture) json["picture"] = shown.picture->file;
     return text_of(json);
+}
+
+std::string document(const PlacesInCell& places) {
+    const BlockPlaces& map = places.map;
+    return text_of({{"schema", "qchopper-cell-reach-1"},
+                    {"file", places.file},
+                    {"block_mm", json_of(map.block)},
+                    {"tilt_deg", degrees(map.tilt)},
+                    {"step_mm", map.step},
+                    {"places", list_json(map.places,
+                                         [](const BlockPlace& place) {
+                                             return Json{{"x", place.x},
+                                                         {"y", place.y},
+                                                         {"on_table", place.is_on_table},
+                                                         {"margin", place.margin ? Json(*place.margin) : Json()}};
+                                         })},
+                    {"best", json_of(map.best)}});
 }
 
 std::string document(const CheckedCell& checked) {

@@ -1,5 +1,5 @@
-// The results of `cells list`, `cells show` and `cells check`: lines for people and documents for programs
-// (docs/cell-file.md). O(values of the files).
+// The results of `cells list`, `cells show`, `cells check` and `cells reach`: lines for people and documents for
+// programs (docs/cell-file.md). O(values of the files).
 
 #pragma once
 
@@ -9,6 +9,7 @@
 
 #include "cam/cell/cell.h"
 #include "cam/cell/cell_check.h"
+#include "cam/setup/block_places.h"
 
 namespace qchopper {
 
@@ -38,11 +39,20 @@ struct CheckedCell {
     CellCheck check;
 };
 
+struct PlacesInCell {
+    std::string file;
+    const Cell& cell;  // outlives this object
+    BlockPlaces map;
+};
+
 std::vector<std::string> lines(const std::vector<ListedCell>& cells);
 std::string document(const std::vector<ListedCell>& cells);
 std::vector<std::string> lines(const ShownCell& shown);
 std::string document(const ShownCell& shown);
 std::vector<std::string> lines(const CheckedCell& checked);
 std::string document(const CheckedCell& checked);
+// Of the map a row per y, the largest first, as one looks at a drawing.
+std::vector<std::string> lines(const PlacesInCell& places);
+std::string document(const PlacesInCell& places);
 
 }  // namespace qchopper

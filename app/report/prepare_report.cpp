@@ -11,6 +11,7 @@
 #include "app/report/columns.h"
 #include "app/report/segment_report.h"
 #include "app/report/setup_report.h"
+#include "app/report/work_envelope_report.h"
 #include "base/text.h"
 
 namespace qchopper {
@@ -65,8 +66,9 @@ Json piece_json(const PieceReport& piece, const Cell& cell) {
             {"base", s.base_description},
             {"undercut", s.undercut},
             {"reach", reach_json(s.reach)},
-            {"fits", piece.carving.envelope.fits()},
+            {"fits", piece.carving.fits()},
             {"margins_mm", margins},
+            {"work_envelope", json_of(piece.carving.work_envelope)},
             {"out_of_reach", advice_json(piece.advice)},
             {"job", piece.job.empty() ? Json() : Json(piece.job.string())}};
 }
@@ -78,7 +80,9 @@ std::vector<std::string> warnings(const PreparedProject& prepared) {
     for (const PieceReport& p : prepared.pieces) {
         const double share = p.carving.setup().reach.unreachable_share();
         if (p.job.empty()) {
-            text.push_back(describe_envelope(p.name, p.carving.envelope) + "; it gets no job");
+            text.push_back((p.carving.envelope.fits() ? describe_work_envelope(p.name, p.carving.work_envelope)
+                                                      : describe_envelope(p.name, p.carving.envelope)) +
+                           "; it gets no job");
         } else if (share > prepared.max_unreachable) {
             text.push_back("piece " + p.name + ": " + share_word(share) +
                            " of its surface is out of reach, more than " + share_word(prepared.max_unreachable) +
@@ -100,12 +104,13 @@ std::vector<std::string> table(const PreparedProject& prepared) {
                         std::to_string(s.reach.directions.size()), share_word(s.reach.unreachable_share()),
                         is_mapped ? describe_volume(s.reach.foam_mm3) : "-",
                         is_mapped ? fixed(s.reach.foam_depth_mm, 0) : "-", p.job.empty() ? "no" : "yes"});
+        if (prepared.cell.machine) rows.back().push_back(margin_word(p.carving.work_envelope));
     }
+    if (prepared.cell.machine) rows.front().emplace_back("tightest margin");
     std::vector<std::string> lines = columns(rows);
     lines.emplace_back(
         "unreachable: of the surface without the base, along the directions of the setup; foam: what they leave, and "
-        "its "
-        "depth.");
+        "its depth.");
     if (const std::string note = arm_note(prepared.cell); !note.empty()) lines.push_back(note);
     for (const std::string& line : ignored_lines(prepared.project)) lines.push_back(line);
     const std::size_t fragments = prepared.project.fragment_list.size();

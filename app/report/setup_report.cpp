@@ -11,6 +11,7 @@
 #include "app/project/shell_word.h"
 #include "app/project/value_json.h"
 #include "app/report/columns.h"
+#include "app/report/work_envelope_report.h"
 #include "base/text.h"
 
 namespace qchopper {
@@ -29,7 +30,8 @@ std::string size_word(Vec3 v) {
 const std::vector<std::string> setup_columns{"base", "unreachable", "hidden",  "steep",      "holder",   "too narrow",
                                              "foam", "depth mm",    "residue", "directions", "block mm", "fits"};
 
-std::vector<std::string> row_of(const Setup& setup, const Cell& cell) {
+// `is_held`: whether the machine holds all poses, as far as it was asked.
+std::vector<std::string> row_of(const Setup& setup, const Cell& cell, bool is_held) {
     const SurfaceReach& r = setup.reach;
     const bool is_mapped = r.method == ReachMethod::mapped;
     const std::string mark = is_mapped ? "" : "~";
@@ -44,7 +46,7 @@ std::vector<std::string> row_of(const Setup& setup, const Cell& cell) {
             is_mapped ? describe_volume(r.residue_mm3) : "-",
             std::to_string(r.directions.size()),
             size_word(setup.block.size),
-            check_envelope(setup, cell).fits() ? "yes" : "no"};
+            check_envelope(setup, cell).fits() && is_held ? "yes" : "no"};
 }
 
 // Degrees from x towards y of the setup, of the way the tool comes out.
@@ -72,7 +74,9 @@ void add_piece(const PieceSetups& p, const SetupAnswer& answer, std::vector<std:
     lines.push_back("Piece " + p.piece + " lies on " + base_word(chosen) +
                     (p.order && p.order->base ? " by decision" : "") + "; all ways to lay it, the one in force first:");
     std::vector<std::vector<std::string>> rows{setup_columns};
-    for (const Setup& setup : p.carving.choice.setups) rows.push_back(row_of(setup, answer.cell));
+    for (const Setup& setup : p.carving.choice.setups) {
+        rows.push_back(row_of(setup, answer.cell, &setup != &chosen || p.carving.work_envelope.holds()));
+    }
     for (const std::string& line : columns(rows)) lines.push_back(line);
     lines.emplace_back("Shares are of the area without the base; ~ marks those judged on samples alone.");
     lines.emplace_back("Directions of the setup in force, in degrees:");
@@ -88,6 +92,7 @@ void add_piece(const PieceSetups& p, const SetupAnswer& answer, std::vector<std:
                         share_word(reach.further->gained_share) + " more.");
     }
     for (const std::string& warning : chosen.warnings) lines.push_back("Note: " + warning + ".");
+    for (const std::string& line : qchopper::lines(p.piece, p.carving.work_envelope)) lines.push_back(line);
     if (!p.carving.envelope.fits()) {
         lines.push_back(describe_envelope(p.piece, p.carving.envelope) + ".");
         lines.push_back("To do: cut it, qchopper segment " + shell_word(answer.folder) + " --piece " + p.piece +
@@ -164,7 +169,7 @@ std::vector<std::string> lines(const SetupAnswer& answer) {
         std::vector<std::vector<std::string>> rows{setup_columns};
         rows.front().insert(rows.front().begin(), "piece");
         for (const PieceSetups& p : answer.pieces) {
-            std::vector<std::string> row = row_of(p.carving.setup(), answer.cell);
+            std::vector<std::string> row = row_of(p.carving.setup(), answer.cell, p.carving.work_envelope.holds());
             row.insert(row.begin(), p.piece);
             rows.push_back(std::move(row));
         }
@@ -192,7 +197,10 @@ std::string document(const SetupAnswer& answer) {
             ordered = Json{{"base", p.order->base ? Json(*p.order->base) : Json()},
                            {"max_directions", p.order->max_directions ? Json(*p.order->max_directions) : Json()}};
         }
-        pieces.push_back({{"name", p.piece}, {"ordered", ordered}, {"setups", setups}});
+        pieces.push_back({{"name", p.piece},
+                          {"ordered", ordered},
+                          {"setups", setups},
+                          {"work_envelope", json_of(p.carving.work_envelope)}});
     }
     Json json{{"schema", "qchopper-setup-1"},
               {"project", answer.folder.string()},

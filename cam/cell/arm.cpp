@@ -338,4 +338,23 @@ std::optional<Joints> joint_speeds(const ArmGeometry& arm, const Joints& joints,
                   {scale * linear.x, scale * linear.y, scale * linear.z, tip.angular.x, tip.angular.y, tip.angular.z});
 }
 
+std::optional<Joints> largest_joint_speeds(const ArmGeometry& arm, const Joints& joints) {
+    if (!is_finite(joints)) return std::nullopt;
+    const double scale = 1 / (arm.c2 + Forearm(arm).length);
+    Jacobian rows = jacobian(arm, joints);
+    for (std::size_t row = 0; row < 3; ++row) {
+        for (double& value : rows[row]) value *= scale;
+    }
+    Joints squares{};
+    for (std::size_t direction = 0; direction < 3; ++direction) {
+        std::array<double, 6> velocity{};
+        velocity[direction] = scale;
+        const std::optional<Joints> speeds = solved(rows, velocity);
+        if (!speeds) return std::nullopt;
+        for (std::size_t axis = 0; axis < axes_of_arm; ++axis) squares[axis] += (*speeds)[axis] * (*speeds)[axis];
+    }
+    for (double& square : squares) square = std::sqrt(square);
+    return squares;
+}
+
 }  // namespace qchopper

@@ -146,4 +146,9 @@ struct CartesianVelocity {
 std::optional<Joints> joint_speeds(const ArmGeometry& arm, const Joints& joints, Vec3 tip_in_flange,
                                    const CartesianVelocity& tip);
 
+// Of each joint the largest speed, per mm/s of the tool tip (radians/mm), over all directions in which the tip may move
+// while its orientation stays: the norm of the first three columns in its row of the inverse Jacobian. Where the tip
+// lies in the flange has no influence. Nothing as for joint_speeds().
+std::optional<Joints> largest_joint_speeds(const ArmGeometry& arm, const Joints& joints);
+
 }  // namespace qchopper

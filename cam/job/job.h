@@ -15,11 +15,12 @@
 #include "cam/job/ticket.h"
 #include "cam/setup/envelope.h"
 #include "cam/setup/setup.h"
+#include "cam/setup/work_envelope.h"
 #include "segment/cut/piece.h"
 
 namespace qchopper {
 
-constexpr int job_schema_version = 3;
+constexpr int job_schema_version = 4;
 
 // Precondition of all functions that take it: piece.mesh is not null, setup.block.stock is an index in cell.stock, so
 // are those of the alternatives, the envelope has a margin, states are empty or one per triangle, and max_unreachable
@@ -38,6 +39,7 @@ struct JobInput {
     std::vector<SurfaceState> states;   // per triangle of the piece; empty: not known
     double max_unreachable = 1;         // share beyond which dispatch asks for the operator's word
     std::vector<std::string> warnings;  // of the project: "scaled by 0.5 on request"
+    WorkEnvelope work_envelope = {};    // of the setup
 };
 
 // Another way to lay the piece, as far as a person needs it to choose; mm, mm3.
@@ -76,6 +78,9 @@ struct ReadJob {
     std::string block_name;              // in the cell's list of stock
     std::vector<HalfSpace> half_spaces;  // in piece coordinates
     EnvelopeReport envelope;
+    bool is_arm_checked = false;      // whether envelope.json tells of poses
+    bool holds_poses = true;          // whether the machine holds all of them; true where they are not checked
+    std::vector<Pose> setup_in_cell;  // of a rotary table one per direction, else one
     std::uint64_t faces = 0;
     double volume_mm3 = 0;
     TicketTemplate ticket;

@@ -2,12 +2,14 @@
 
 #include "cam/job/manifest.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/json.h"
+#include "cam/setup/block_placement.h"
 
 namespace qchopper {
 namespace {
@@ -71,16 +73,39 @@ Json from_alternatives(const std::vector<Alternative>& alternatives) {
     return list;
 }
 
-Json from_setup(const Setup& setup) {
+Json from_pose(const Pose& pose) {
     Json rows = Json::array();
-    for (const Vec3& row : setup.piece_in_setup.row) rows.push_back(from_vector(row));
+    for (const Vec3& row : pose.row) rows.push_back(from_vector(row));
+    return {{"rows", rows}, {"shift", from_vector(pose.shift)}};
+}
+
+Json from_placement(const BlockPlacement& placement) {
+    return {{"x", placement.x},
+            {"y", placement.y},
+            {"turn_rad", placement.turn},
+            {"table_angles_rad", placement.table_angles}};
+}
+
+Json from_frames(const JobInput& input) {
+    Json frames = Json::array();
+    const BlockPlacement& placement = input.setup.placement;
+    for (std::size_t d = 0; d < std::max<std::size_t>(1, placement.table_angles.size()); ++d) {
+        frames.push_back(from_pose(setup_in_cell(input.cell, input.setup.spoil, placement, d)));
+    }
+    return frames;
+}
+
+Json from_setup(const JobInput& input) {
+    const Setup& setup = input.setup;
     return {{"base_number", setup.base_number},
             {"base", setup.base ? Json(*setup.base) : Json(nullptr)},
             {"base_description", setup.base_description},
             {"up", from_vector(setup.up)},
-            {"piece_in_setup", {{"rows", rows}, {"shift", from_vector(setup.piece_in_setup.shift)}}},
+            {"piece_in_setup", from_pose(setup.piece_in_setup)},
             {"box", from_box(setup.box)},
             {"spoil", setup.spoil},
+            {"placement", from_placement(setup.placement)},
+            {"setup_in_cell", from_frames(input)},
             {"undercut", setup.undercut},
             {"undercut_by_count", setup.undercut_by_count},
             {"base_mm2", setup.base_mm2},
@@ -142,7 +167,7 @@ std::int32_t cut_number(const Json& object, const std::string& key) {
     return static_cast<std::int32_t>(number);
 }
 
-Pose to_pose(const Json& json) {
+Pose to_pose(const Json& json, const std::string& key) {
     const Json& rows = member(json, "rows");
     if (!rows.is_array() || rows.size() != 3) throw wrong("rows", "is not three rows");
     Pose pose;
@@ -150,7 +175,7 @@ Pose to_pose(const Json& json) {
     pose.shift = vector(json, "shift");
     // A mirror image would pass all other checks and be carved.
     const double turn = dot(pose.row[0], cross(pose.row[1], pose.row[2]));
-    if (!(std::abs(turn - 1) < 1e-6)) throw wrong("piece_in_setup", "is not a rotation");
+    if (!(std::abs(turn - 1) < 1e-6)) throw wrong(key, "is not a rotation");
     return pose;
 }
 
@@ -206,15 +231,37 @@ std::vector<Alternative> to_alternatives(const Json& json) {
     return alternatives;
 }
 
+BlockPlacement to_placement(const Json& json) {
+    BlockPlacement placement{real(json, "x"), real(json, "y"), real(json, "turn_rad"), {}};
+    for (const Json& angle : items(json, "table_angles_rad")) {
+        if (!angle.is_number()) throw wrong("table_angles_rad", "is not a list of numbers");
+        placement.table_angles.push_back(angle.get<double>());
+    }
+    return placement;
+}
+
+// One per direction of the tool for which the table has an angle of its own, else one.
+std::vector<Pose> to_frames(const Json& json, const Setup& setup) {
+    std::vector<Pose> frames;
+    for (const Json& frame : items(json, "setup_in_cell")) frames.push_back(to_pose(frame, "setup_in_cell"));
+    const std::size_t angles = setup.placement.table_angles.size();
+    if (angles != 0 && angles != setup.reach.directions.size()) {
+        throw wrong("table_angles_rad", "is not one per direction");
+    }
+    if (frames.size() != std::max<std::size_t>(1, angles)) throw wrong("setup_in_cell", "is not one per angle");
+    return frames;
+}
+
 Setup to_setup(const Json& json, const Json& stock) {
     Setup setup;
     setup.base_number = base_number(json);
     if (!member(json, "base").is_null()) setup.base = cut_number(json, "base");
     setup.base_description = text(json, "base_description");
     setup.up = vector(json, "up");
-    setup.piece_in_setup = to_pose(member(json, "piece_in_setup"));
+    setup.piece_in_setup = to_pose(member(json, "piece_in_setup"), "piece_in_setup");
     setup.box = box(json, "box");
     setup.spoil = not_negative(json, "spoil");
+    setup.placement = to_placement(member(json, "placement"));
     setup.undercut = real(json, "undercut");
     setup.undercut_by_count = real(json, "undercut_by_count");
     setup.base_mm2 = real(json, "base_mm2");
@@ -280,6 +327,7 @@ ReadJob to_job(const Json& json) {
     if (job.cell_id == 0) throw wrong("id", "is the number of no cell");
     job.half_spaces = to_half_spaces(json);
     job.setup = to_setup(member(json, "setup"), member(json, "stock"));
+    job.setup_in_cell = to_frames(member(json, "setup"), job.setup);
     job.alternatives = to_alternatives(json);
     job.max_unreachable = real_within(json, "max_unreachable", 0, 1);
     if (text(json, "state") != state_word(job.setup, job.max_unreachable)) {
@@ -287,6 +335,9 @@ ReadJob to_job(const Json& json) {
     }
     job.block_name = text(member(json, "stock"), "name");
     job.envelope = to_envelope(member(json, "envelope"));
+    const Json& poses = member(json, "work_envelope");
+    job.is_arm_checked = truth(poses, "arm_checked");
+    job.holds_poses = truth(poses, "holds");
     job.entries = to_entries(json);
     return job;
 }
@@ -323,12 +374,14 @@ std::string to_manifest(const JobInput& input, const std::vector<JobEntry>& entr
         {"scan_sha256", to_hex(input.scan_sha256)},
         {"cell", {{"name", input.cell.name}, {"id", input.cell.id}}},
         {"half_spaces", from_half_spaces(input.piece.half_spaces)},
-        {"setup", from_setup(input.setup)},
+        {"setup", from_setup(input)},
         {"stock", from_stock(input)},
         {"alternatives", from_alternatives(alternatives_of(input))},
         {"max_unreachable", input.max_unreachable},
         {"state", state_word(input.setup, input.max_unreachable)},
         {"envelope", from_envelope(input.envelope)},
+        {"work_envelope",
+         {{"arm_checked", input.work_envelope.is_arm_checked}, {"holds", input.work_envelope.holds()}}},
         {"warnings", input.warnings},
         {"files", files},
     };

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/portable_name.h"
 #include "base/zip.h"
+#include "cam/job/envelope_document.h"
 #include "cam/job/manifest.h"
 
 namespace qchopper {
@@ -15,6 +16,7 @@ namespace {
 constexpr std::uint64_t largest_text = 16u << 20;  // of manifest and ticket, which have kilobytes
 constexpr const char* manifest_name = "manifest.json";
 constexpr const char* ticket_name = "ticket.json";
+constexpr const char* envelope_name = "envelope.json";
 
 std::string_view as_text(const Bytes& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -35,7 +37,8 @@ void check_entries(const ReadJob& job, const std::string& source) {
             refuse(source, entry.name + " has another size than the manifest lists");
         if (sha256(found->second) != entry.sha256) refuse(source, entry.name + " does not match its SHA-256");
     }
-    constexpr std::array names{"piece.stl", "preview.glb", "setup-1.png", "setup-2.png", "setup.html", ticket_name};
+    constexpr std::array names{envelope_name, "piece.stl",  "preview.glb", "setup-1.png",
+                               "setup-2.png", "setup.html", ticket_name};
     for (const char* name : names) {
         if (!job.files.contains(name)) refuse(source, std::string(name) + " is missing");
     }
@@ -48,6 +51,15 @@ void check_ticket(const ReadJob& job, const std::string& source) {
                       ticket.piece_count == job.piece_count && ticket.project_id == job.project_id &&
                       ticket.box == job.setup.box && ticket.stock == job.setup.block.size && ticket.base_plane == base;
     if (!same) refuse(source, "ticket.json and manifest.json describe different jobs");
+}
+
+void check_poses(const ReadJob& job, const std::string& source) {
+    const EnvelopeSummary poses = read_envelope_document(as_text(job.files.at(envelope_name)), source);
+    const bool same = poses.piece == job.piece && poses.is_arm_checked == job.is_arm_checked &&
+                      poses.holds == job.holds_poses && poses.placement == job.setup.placement;
+    if (!same) refuse(source, "envelope.json and manifest.json describe different jobs");
+    const bool has_picture = job.files.contains("envelope.png");
+    if (has_picture != job.is_arm_checked) refuse(source, "envelope.png is there without poses, or missing");
 }
 
 }  // namespace
@@ -64,7 +76,7 @@ std::string job_file_name(const std::string& piece) {
 ReadJob parse_job(const Bytes& bytes, const std::string& source) {
     if (bytes.size() > job_limit.bytes) refuse(source, "it is larger than 4 GB");
     std::map<std::string, Bytes> files = unzip(bytes, source);
-    for (const char* name : {manifest_name, ticket_name}) {
+    for (const char* name : {manifest_name, ticket_name, envelope_name}) {
         if (!files.contains(name)) refuse(source, std::string(name) + " is missing");
         if (files[name].size() > largest_text) refuse(source, std::string(name) + " is too large");
     }
@@ -73,6 +85,7 @@ ReadJob parse_job(const Bytes& bytes, const std::string& source) {
     check_entries(job, source);
     job.ticket = ticket_template_from_json(as_text(job.files[ticket_name]), source);
     check_ticket(job, source);
+    check_poses(job, source);
     job.file_size = static_cast<std::uint32_t>(bytes.size());
     job.file_sha256 = sha256(bytes);
     return job;

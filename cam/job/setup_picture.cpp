@@ -9,9 +9,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <utility>
 
+#include "cam/job/solid_shapes.h"
 #include "segment/picture/picture.h"
 
 namespace qchopper {
@@ -28,20 +28,6 @@ constexpr Rgb touch_colour{25, 27, 30};
 Box block_box(const Setup& setup) {
     const Vec3 size = setup.block.size;
     return {{-size.x / 2, -size.y / 2, -setup.spoil}, {size.x / 2, size.y / 2, size.z - setup.spoil}};
-}
-
-void add_box(TriangleMesh& mesh, const Box& box) {
-    const auto first = static_cast<std::uint32_t>(mesh.points.size());
-    for (std::uint32_t i = 0; i < 8; ++i) {
-        mesh.points.push_back({(i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
-                               (i & 4) != 0 ? box.max.z : box.min.z});
-    }
-    constexpr std::array<std::array<std::uint32_t, 4>, 6> sides{
-        {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
-    for (const auto& s : sides) {
-        mesh.triangles.push_back({first + s[0], first + s[1], first + s[2]});
-        mesh.triangles.push_back({first + s[0], first + s[2], first + s[3]});
-    }
 }
 
 // Bars of so many mm along those edges of a box whose middle the test accepts.
@@ -73,33 +59,6 @@ TriangleMesh bars_of(const Setup& setup, double width) {
     return bars;
 }
 
-// Distance along the axis (mm) and radius there.
-using Profile = std::vector<std::pair<double, double>>;
-
-// The profile turned about an axis through `origin`; it begins and ends with radius 0.
-TriangleMesh turned(Vec3 origin, Vec3 axis, const Profile& profile) {
-    constexpr std::uint32_t sides = 16;
-    const Vec3 aside = std::abs(axis.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    const Vec3 u = normalized(cross(axis, aside));
-    const Vec3 v = cross(axis, u);
-    TriangleMesh mesh;
-    for (const auto& [along, radius] : profile) {
-        for (std::uint32_t i = 0; i < sides; ++i) {
-            const double angle = 2 * std::numbers::pi * i / sides;
-            mesh.points.push_back(origin + along * axis + radius * (std::cos(angle) * u + std::sin(angle) * v));
-        }
-    }
-    for (std::uint32_t ring = 0; ring + 1 < profile.size(); ++ring) {
-        for (std::uint32_t i = 0; i < sides; ++i) {
-            const std::uint32_t a = ring * sides + i;
-            const std::uint32_t b = ring * sides + (i + 1) % sides;
-            mesh.triangles.push_back({a, b, b + sides});
-            mesh.triangles.push_back({a, b + sides, a + sides});
-        }
-    }
-    return mesh;
-}
-
 // From outside towards the middle of the piece, its tip just outside of the block.
 TriangleMesh arrow(const Setup& setup, Vec3 out, double diagonal) {
     const Box block = block_box(setup);
@@ -114,18 +73,8 @@ TriangleMesh arrow(const Setup& setup, Vec3 out, double diagonal) {
     const double head = 0.09 * diagonal;
     const Vec3 tail = middle + (inside + 0.015 * diagonal + length) * out;
     const double shaft = 0.010 * diagonal;
-    return turned(tail, -out,
-                  {{0, 0}, {0, shaft}, {length - head, shaft}, {length - head, 0.03 * diagonal}, {length, 0}});
-}
-
-TriangleMesh ball(Vec3 middle, double radius) {
-    Profile profile;
-    constexpr int rings = 8;
-    for (int i = 0; i <= rings; ++i) {
-        const double angle = std::numbers::pi * i / rings;
-        profile.emplace_back(-radius * std::cos(angle), radius * std::sin(angle));
-    }
-    return turned(middle, {0, 0, 1}, profile);
+    return turned_profile(tail, -out,
+                          {{0, 0}, {0, shaft}, {length - head, shaft}, {length - head, 0.03 * diagonal}, {length, 0}});
 }
 
 std::vector<std::uint8_t> colours_of(const JobInput& input, const TriangleMesh& lying) {
@@ -179,7 +128,7 @@ SetupPictures setup_pictures(const JobInput& input, const TriangleMesh& lying) {
     }
     const std::size_t arrows = named.size();
     for (const TouchPoint& point : touch_points(setup))
-        named.emplace_back(ball(point.at, 0.016 * diagonal), point.name);
+        named.emplace_back(ball_mesh(point.at, 0.016 * diagonal), point.name);
     const TriangleMesh bars = bars_of(setup, 0.0045 * diagonal);
 
     std::vector<ColouredMesh> meshes;

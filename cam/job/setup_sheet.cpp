@@ -9,12 +9,17 @@
 
 #include "base/hex.h"
 #include "base/text.h"
+#include "cam/job/envelope_picture.h"
+#include "cam/job/envelope_section.h"
 #include "cam/job/manifest.h"
 #include "cam/job/setup_picture.h"
+#include "cam/job/sheet_html.h"
 #include "segment/picture/svg.h"
 
 namespace qchopper {
 namespace {
+
+using namespace sheet;
 
 constexpr const char* style = R"(
   body { font: 10.5pt/1.35 sans-serif; color: #111; max-width: 190mm; margin: 8mm auto; padding: 0 4mm; }
@@ -41,55 +46,6 @@ constexpr const char* style = R"(
   }
 )";
 
-// What stands in a cell of a table. `html` is taken as it is.
-struct Entry {
-    std::string html;
-    bool is_number = false;
-};
-
-using Rows = std::vector<std::vector<Entry>>;
-
-Entry word(const std::string& text) {
-    return {svg_text(text)};
-}
-
-Entry number(double value, int decimals) {
-    return {fixed(value, decimals), true};
-}
-
-Entry right(const std::string& text) {
-    return {svg_text(text), true};
-}
-
-std::string row_of(const std::vector<Entry>& entries, const std::string& tag) {
-    std::string html = "<tr>";
-    for (const Entry& entry : entries) {
-        html += "<";
-        html += tag;
-        html += entry.is_number ? " class=\"n\">" : ">";
-        html += entry.html;
-        html += "</";
-        html += tag;
-        html += ">";
-    }
-    return html + "</tr>\n";
-}
-
-// The first row is the head; its entries stand as those of the second.
-std::string table(const Rows& rows) {
-    std::string html = "<table>\n<thead>" + row_of(rows.front(), "th") + "</thead>\n<tbody>\n";
-    for (std::size_t i = 1; i < rows.size(); ++i) html += row_of(rows[i], "td");
-    return html + "</tbody>\n</table>\n";
-}
-
-std::string paragraph(const std::string& text) {
-    return "<p>" + svg_text(text) + "</p>\n";
-}
-
-std::string section(const std::string& title, const std::string& html) {
-    return "<section>\n<h2>" + svg_text(title) + "</h2>\n" + html + "</section>\n";
-}
-
 // "100 x 60.5 x 50": to tenths.
 std::string size_text(Vec3 size) {
     const auto length = [](double mm) { return significant(std::round(10 * mm) / 10, 8); };
@@ -114,6 +70,9 @@ std::string head(const JobInput& input) {
                        paragraph("Cell " + input.cell.name + ". Lengths are in mm where nothing else is stated.");
     const auto stop = [&](const std::string& text) { html += "<p class=\"stop\">" + svg_text(text) + "</p>\n"; };
     if (!input.envelope.fits()) stop("DO NOT START: " + describe_envelope(input.piece.name, input.envelope) + ".");
+    if (!input.work_envelope.holds()) {
+        stop("DO NOT START: " + describe_work_envelope(input.piece.name, input.work_envelope) + ".");
+    }
     if (is_unreachable(input.setup, input.max_unreachable)) {
         stop("The state of this job is \"unreachable\": the tool does not reach " +
              percent(input.setup.reach.unreachable_share()) + " of the surface, and the limit is " +
@@ -183,35 +142,54 @@ std::string block_section(const JobInput& input) {
     return section("1. Block", html);
 }
 
+// The sides of the block lie along the axes of the cell where it is not turned.
+std::string where_it_stands(const Cell& cell, const Setup& setup) {
+    const BlockPlacement& place = setup.placement;
+    const std::string size = size_text(setup.block.size) + " mm along x, y and z";
+    const bool is_rotary = cell.machine && cell.machine->rotary_table;
+    const std::string axes = is_rotary ? "the rotary table at 0 degrees" : "the cell";
+    if (place.x == 0 && place.y == 0 && place.turn == 0) {
+        return "Stand the block in the middle of the table, its sides along the axes of " + axes + ": " + size + ".";
+    }
+    std::string text = "Stand the block, " + size + ", with its middle " + fixed(place.x, 1) + " mm along x and " +
+                       fixed(place.y, 1) + " mm along y from the middle of the table";
+    if (place.turn == 0) return text + ", its sides along the axes of " + axes + ".";
+    return text + ", its x turned by " + fixed(degrees(place.turn), 1) + " degrees from that of " + axes +
+           ", counted from x towards y.";
+}
+
 std::string place_section(const JobInput& input) {
     const Setup& setup = input.setup;
     const Vec3 block = setup.block.size;
     const Vec3 piece = setup.box.size();
     const double beside_x = (block.x - piece.x) / 2;
     const double beside_y = (block.y - piece.y) / 2;
-    std::string html = paragraph("Stand the block in the middle of the table, its sides along the axes of the cell: " +
-                                 size_text(block) + " mm along x, y and z.");
+    std::string html = paragraph(where_it_stands(input.cell, setup));
     html += paragraph("How exactly it must lie: the foam around the piece is what the block may be off, " +
                       fixed(beside_x, 1) + " mm along x and " + fixed(beside_y, 1) +
                       " mm along y. Further off, the piece sticks out of the block. A turn by 1 degree moves the "
                       "corners of the block by " +
                       fixed(std::hypot(block.x, block.y) / 2 * std::sin(std::numbers::pi / 180), 1) +
                       " mm. The underside must lie flat on the table.");
-    const Vec3 origin{input.cell.table.centre_x, input.cell.table.centre_y, input.cell.table.height + setup.spoil};
+    const Pose in_cell =
+        setup_in_cell(input.cell, setup.spoil, {setup.placement.x, setup.placement.y, setup.placement.turn, {}}, 0);
+    const bool is_rotary = input.cell.machine && input.cell.machine->rotary_table;
     html += paragraph(
         "Base frame of the program: its origin lies on the vertical through the middle of the block, at the height of "
         "the piece's base, " +
-        fixed(setup.spoil, 1) + " mm above the table, its axes along those of the cell, z up. In the cell it is at (" +
-        fixed(origin.x, 1) + ", " + fixed(origin.y, 1) + ", " + fixed(origin.z, 1) + ").");
+        fixed(setup.spoil, 1) +
+        " mm above the table, its axes along the sides of the block, z up. In the cell it is at (" +
+        fixed(in_cell.shift.x, 1) + ", " + fixed(in_cell.shift.y, 1) + ", " + fixed(in_cell.shift.z, 1) + ")" +
+        (is_rotary ? " with the rotary table at 0 degrees." : "."));
     html += paragraph(
         "Touch off three corners with the tool tip: P1 and P2 give the direction of x, P3 the side of y. If one is "
         "off its place, move the block, or correct the base frame by as much.");
     Rows rows{{word("point"), word("where"), right("x"), right("y"), right("z"), right("x in the cell"),
                right("y in the cell"), right("z in the cell")}};
     for (const TouchPoint& point : touch_points(setup)) {
-        const Vec3 in_cell = point.at + origin;
+        const Vec3 at = apply(in_cell, point.at);
         rows.push_back({word(point.name), word(point.where), number(point.at.x, 1), number(point.at.y, 1),
-                        number(point.at.z, 1), number(in_cell.x, 1), number(in_cell.y, 1), number(in_cell.z, 1)});
+                        number(point.at.z, 1), number(at.x, 1), number(at.y, 1), number(at.z, 1)});
     }
     return section("2. Place of the block and base frame", html + table(rows));
 }
@@ -387,11 +365,11 @@ std::string warning_section(const JobInput& input) {
     for (const std::vector<std::string>& warnings : {input.setup.warnings, input.warnings}) {
         for (const std::string& warning : warnings) list += "<li>" + svg_text(warning) + "</li>\n";
     }
-    return section("11. Warnings", list.empty() ? paragraph("None.") : "<ul>\n" + list + "</ul>\n");
+    return section("12. Warnings", list.empty() ? paragraph("None.") : "<ul>\n" + list + "</ul>\n");
 }
 
 std::string time_section(const Tool& tool, std::uint32_t seconds) {
-    return section("12. Time", paragraph("About " + duration(seconds) + ". Crude: foam to remove over " +
+    return section("13. Time", paragraph("About " + duration(seconds) + ". Crude: foam to remove over " +
                                          fixed(tool.removal_mm3_per_s / 1000, 1) + " cm3/s, no finishing, no travel."));
 }
 
@@ -403,7 +381,8 @@ std::string setup_sheet(const JobInput& input, std::uint32_t estimated_time_s) {
            head(input) + pictures(input) + block_section(input) + place_section(input) + holding_section(input.setup) +
            piece_section(input.setup) + tool_section(input.cell) + direction_section(input) + reach_section(input) +
            parting_section(input.setup) + alternative_section(input) + margin_section(input.envelope) +
-           warning_section(input) + time_section(input.cell.tool, estimated_time_s) + "<footer>" +
+           envelope_section(input) + warning_section(input) + time_section(input.cell.tool, estimated_time_s) +
+           "<footer>" +
            svg_text("Project " + to_hex(input.project_id) + ". Scan " + to_hex(input.scan_sha256) +
                     ". Written by qchopper " + input.program_version + ".") +
            "</footer>\n</body>\n</html>\n";

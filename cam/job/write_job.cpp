@@ -5,6 +5,8 @@
 
 #include "base/error.h"
 #include "base/zip.h"
+#include "cam/job/envelope_document.h"
+#include "cam/job/envelope_picture.h"
 #include "cam/job/manifest.h"
 #include "cam/job/preview.h"
 #include "cam/job/read_job.h"
@@ -69,9 +71,11 @@ Bytes job_file(const JobInput& input) {
         const SetupPictures pictures = setup_pictures(input, lying);
         files["setup-1.png"] = pictures.front;
         files["setup-2.png"] = pictures.back;
+        if (input.work_envelope.is_arm_checked) files["envelope.png"] = envelope_picture(input, lying);
     }
     const TicketTemplate ticket = ticket_template(input);
     files["setup.html"] = to_bytes(setup_sheet(input, ticket.estimated_time_s));
+    files["envelope.json"] = to_bytes(envelope_document(input));
     files[ticket_name] = to_bytes(to_json(ticket));
     std::vector<JobEntry> entries;
     std::uint64_t total = 0;

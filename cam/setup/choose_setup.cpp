@@ -16,6 +16,7 @@
 #include "cam/setup/held_directions.h"
 #include "cam/setup/mapped_reach.h"
 #include "cam/setup/paint_narrow.h"
+#include "cam/setup/place_block.h"
 #include "cam/setup/undercut.h"
 #include "segment/score/piece_reach.h"
 #include "segment/score/tool_fit.h"
@@ -187,7 +188,11 @@ class Choice {
                                            [&](const Setup& s) { return s.base_number == base.number; });
             std::vector<Vec3> in_setup;
             for (const Vec3& d : directions) in_setup.push_back(rotate(laid->piece_in_setup, d));
-            return held_directions(cell_, laid->box, laid->spoil, in_setup);
+            std::vector<std::uint8_t> held = held_directions(cell_, laid->box, laid->spoil, in_setup);
+            for (std::size_t d = 0; options_.is_allowed && d < held.size(); ++d) {
+                if (!options_.is_allowed(directions[d])) held[d] = 0;
+            }
+            return held;
         };
     }
 
@@ -319,6 +324,16 @@ bool fits_cell(const Piece& piece, const Cell& cell) {
     const std::vector<PieceBase> bases = bases_of(piece);
     return std::any_of(bases.begin(), bases.end(),
                        [&](const PieceBase& base) { return check_envelope(laid_out(piece, base, cell), cell).fits(); });
+}
+
+bool fits_cell_and_machine(const Piece& piece, const Cell& cell) {
+    const std::vector<PieceBase> bases = bases_of(piece);
+    return std::any_of(bases.begin(), bases.end(), [&](const PieceBase& base) {
+        Setup setup = laid_out(piece, base, cell);
+        if (!check_envelope(setup, cell).fits()) return false;
+        setup.reach.directions.push_back({setup.up, 0, 0, 0});
+        return fits_machine(setup, *piece.mesh, cell);
+    });
 }
 
 }  // namespace qchopper

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -30,6 +31,9 @@ struct SetupOptions {
     // without count_narrow, no surface is judged too narrow.
     std::size_t mapped = 2;
     MapOptions map;
+    // Directions, in piece coordinates, that may be chosen beside straight up, of those that the cell holds; empty:
+    // all.
+    std::function<bool(Vec3)> is_allowed = {};
 };
 
 // All ways to lay a piece, best first.
@@ -50,5 +54,11 @@ SetupChoice choose_setup(const Piece& piece, const Cell& cell, const SetupOption
 // Whether some way to lay the piece fits into the cell, by boxes alone: the stop rule of that name. Far cheaper than
 // choose_setup().
 bool fits_cell(const Piece& piece, const Cell& cell);
+
+// Whether in addition, for one of these ways, the machine holds the extreme poses of carving straight from above, along
+// which every setup is carved, without a collision: the stop rule where the arm is known. Further directions are not
+// chosen yet when it is asked; held_directions() asks the arm for each of them. The same as fits_cell() in a cell of
+// version 1. Throws as height_map() does.
+bool fits_cell_and_machine(const Piece& piece, const Cell& cell);
 
 }  // namespace qchopper

@@ -17,6 +17,7 @@
 #include "base/pose.h"
 #include "cam/cell/cell.h"
 #include "cam/setup/block.h"
+#include "cam/setup/block_placement.h"
 #include "cam/setup/surface_reach.h"
 #include "segment/mesh/measure.h"
 
@@ -32,6 +33,7 @@ struct Setup {
 
     double spoil = 0;  // thickness of the layer under the piece that stays on the table; 0 in a cell of version 1
     CarvingBlock block;
+    BlockPlacement placement;  // of the block on the table
 
     SurfaceReach reach;             // what the tool reaches
     double undercut = 0;            // share of the projected area that faces down, base left out

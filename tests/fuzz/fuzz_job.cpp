@@ -1,6 +1,6 @@
 // Bytes that begin with "PK" are a job file. Mutations do not keep its checksums, so other bytes are the text of the
-// ticket and, after a zero, of the manifest; both are packed here, once as they are and once with the sizes and hashes
-// in the manifest made right.
+// ticket and, after a zero each, of the manifest and of the envelope report; they are packed here, once as they are and
+// once with the sizes and hashes in the manifest made right.
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -67,11 +67,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     const std::size_t end = text.find('\0');
-    const std::string manifest = end == std::string::npos ? "" : text.substr(end + 1);
-    std::map<std::string, Bytes> files{
-        {"piece.stl", to_bytes("solid")},  {"preview.glb", to_bytes("glTF")},
-        {"setup-1.png", to_bytes("PNG")},  {"setup-2.png", to_bytes("PNG")},
-        {"setup.html", to_bytes("setup")}, {"ticket.json", to_bytes(text.substr(0, end))}};
+    const std::string rest = end == std::string::npos ? "" : text.substr(end + 1);
+    const std::size_t middle = rest.find('\0');
+    const std::string manifest = rest.substr(0, middle);
+    const std::string envelope = middle == std::string::npos ? "" : rest.substr(middle + 1);
+    std::map<std::string, Bytes> files{{"envelope.json", to_bytes(envelope)},
+                                       {"piece.stl", to_bytes("solid")},
+                                       {"preview.glb", to_bytes("glTF")},
+                                       {"setup-1.png", to_bytes("PNG")},
+                                       {"setup-2.png", to_bytes("PNG")},
+                                       {"setup.html", to_bytes("setup")},
+                                       {"ticket.json", to_bytes(text.substr(0, end))}};
     const std::string right = agreeing(manifest, files);
     for (const std::string& one : {manifest, right}) {
         std::map<std::string, Bytes> all = files;

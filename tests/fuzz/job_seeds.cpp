@@ -57,6 +57,8 @@ std::vector<Encoded> job_seeds() {
     Bytes texts = files["ticket.json"];
     texts.push_back(0);
     texts.insert(texts.end(), files["manifest.json"].begin(), files["manifest.json"].end());
+    texts.push_back(0);
+    texts.insert(texts.end(), files["envelope.json"].begin(), files["envelope.json"].end());
     const auto cell = [](const std::string& name) { return read_file(QCHOPPER_SOURCE_DIR "/cells/" + name + ".toml"); };
     std::string small =
         "name = \"test\"\nid = 7\nstock_margin = 10\n[reach]\nmin = [-1200, -1200, 0]\nmax = [1200, 1200, 1400]\n"

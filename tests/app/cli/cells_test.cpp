@@ -69,6 +69,35 @@ TEST_F(Cells, ShowsWhatTheFileDescribes) {
     EXPECT_TRUE(json::parse(run({"cells", "show", "cells/foam-1.toml", "--json"}).out)["machine"].is_null());
 }
 
+TEST_F(Cells, TellsWhereABlockCanStand) {
+    const program::Ended shown =
+        run({"cells", "reach", "cells/irb6640-185-2.8.toml", "--tilt", "30", "--block", "400,400,300"});
+    EXPECT_EQ(shown.code, 0) << shown.err;
+    for (const char* text :
+         {"block of 400 x 400 x 300 mm", "tilt of 30 degrees from all around", "y \\ x", "\n-200 ", "Best place: x "}) {
+        EXPECT_NE(shown.out.find(text), std::string::npos) << text << "\n" << shown.out;
+    }
+    const json map = json::parse(run({"cells", "reach", "cells/irb6640-185-2.8.toml", "--tilt", "30", "--json"}).out);
+    EXPECT_EQ(map["schema"], "qchopper-cell-reach-1");
+    EXPECT_NEAR(map["tilt_deg"].get<double>(), 30, 1e-9);
+    EXPECT_EQ(map["best"]["arm_checked"], true);
+    EXPECT_TRUE(map["best"]["margins"].contains("joint_limit"));
+    EXPECT_GT(map["places"].size(), 10U);
+}
+
+TEST_F(Cells, SaysWhereNoBlockCanStand) {
+    const program::Ended none = run({"cells", "reach", "cells/gantry-3axis.toml", "--tilt", "30"});
+    EXPECT_EQ(none.code, 1) << none.err;
+    EXPECT_NE(none.out.find("No place holds. The best is x "), std::string::npos) << none.out;
+    EXPECT_NE(none.out.find("; travel, "), std::string::npos) << none.out;
+    const program::Ended old = run({"cells", "reach", "cells/foam-1.toml", "--tilt", "0"});
+    EXPECT_EQ(old.code, 64);
+    EXPECT_NE(old.err.find("describes no machine"), std::string::npos) << old.err;
+    EXPECT_EQ(run({"cells", "reach", "cells/kr60-ha.toml"}).code, 64) << "no tilt";
+    EXPECT_EQ(run({"cells", "reach", "cells/kr60-ha.toml", "--tilt", "91"}).code, 64);
+    EXPECT_EQ(run({"cells", "reach", "cells/kr60-ha.toml", "--tilt", "0", "--block", "1,2"}).code, 64);
+}
+
 TEST_F(Cells, DrawsTheReach) {
     const std::string png = "\x89PNG\r\n\x1a\n";
     program::put(folder.path / "reach.png", "an older file");

@@ -456,6 +456,33 @@ TEST(Arm, JointSpeedsMoveTheToolTip) {
     }
 }
 
+TEST(Arm, LargestJointSpeedsAreThoseOfAllDirections) {
+    for (const NamedArm& arm : real_arms()) {
+        std::mt19937 random(12);
+        for (int i = 0; i < 50; ++i) {
+            const Joints joints = random_joints(arm, random);
+            const auto largest = largest_joint_speeds(arm.geometry, joints);
+            const ArmSingularity nearness = singularity(arm.geometry, joints);
+            if (nearness.wrist < 0.15 || nearness.shoulder < 150 || nearness.elbow < 0.02) continue;
+            ASSERT_TRUE(largest);
+            Joints found{};
+            for (int k = 0; k < 2000; ++k) {
+                const double z = 1 - (2.0 * k + 1) / 2000;
+                const double a = k * 2.399963;
+                const Vec3 unit{std::sqrt(1 - z * z) * std::cos(a), std::sqrt(1 - z * z) * std::sin(a), z};
+                const auto speeds = joint_speeds(arm.geometry, joints, {20, 30, 500}, {unit, {}});
+                ASSERT_TRUE(speeds);
+                for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
+                    found[axis] = std::max(found[axis], std::abs((*speeds)[axis]));
+                    EXPECT_LE(std::abs((*speeds)[axis]), (*largest)[axis] * (1 + 1e-9));
+                }
+            }
+            for (std::size_t axis = 0; axis < axes_of_arm; ++axis) EXPECT_GE(found[axis], 0.99 * (*largest)[axis]);
+        }
+        EXPECT_FALSE(largest_joint_speeds(arm.geometry, Joints{NAN}));
+    }
+}
+
 TEST(Arm, NoJointSpeedsAtASingularity) {
     for (const NamedArm& arm : real_arms()) {
         const ArmGeometry& g = arm.geometry;

@@ -99,8 +99,8 @@ TEST(Job, WhatIsReadIsWhatWasWritten) {
         names.push_back(entry.name);
         EXPECT_EQ(entry.sha256, sha256(job.files.at(entry.name)));
     }
-    const std::vector<std::string> listed{"piece.stl",   "preview.glb", "setup-1.png",
-                                          "setup-2.png", "setup.html",  "ticket.json"};
+    const std::vector<std::string> listed{"envelope.json", "piece.stl",  "preview.glb", "setup-1.png",
+                                          "setup-2.png",   "setup.html", "ticket.json"};
     EXPECT_EQ(names, listed);
 }
 
@@ -116,7 +116,7 @@ TEST(Job, WhatTheToolReachesIsReadBack) {
         {3, "without a cap, lying on its side", ReachMethod::sampled, 0.225, 12345, 890, {58, 56, 44}, 2}};
     EXPECT_EQ(job.alternatives, others);
     const auto manifest = nlohmann::json::parse(text_of(job.files.at("manifest.json")));
-    EXPECT_EQ(manifest["schema"], 3);
+    EXPECT_EQ(manifest["schema"], 4);
     EXPECT_EQ(manifest["state"], "unreachable");
     EXPECT_EQ(manifest["setup"]["reach"]["method"], "mapped");
     EXPECT_EQ(manifest["setup"]["reach"]["unreachable_share"], 0.05);
@@ -208,10 +208,10 @@ TEST(Job, TheTextsInsideHaveOneForm) {
     const auto compact = [](const std::string& text) { return nlohmann::ordered_json::parse(text).dump(); };
     EXPECT_NE(with(compact).find("the one form"), std::string::npos) << with(compact);
     EXPECT_NE(with([](const std::string& text) { return text + " "; }).find("the one form"), std::string::npos);
-    const auto twice = [](const std::string& text) { return "{\n  \"schema\": 3," + text.substr(1); };
+    const auto twice = [](const std::string& text) { return "{\n  \"schema\": 4," + text.substr(1); };
     EXPECT_NE(with(twice).find("the one form"), std::string::npos) << with(twice);
     const auto huge = [](std::string text) {
-        return text.replace(text.find("\"schema\": 3"), 11, "\"schema\": 1e999");
+        return text.replace(text.find("\"schema\": 4"), 11, "\"schema\": 1e999");
     };
     EXPECT_NE(with(huge).find("out of range"), std::string::npos) << with(huge);
     const auto deep = [](const std::string&) { return std::string(5'000'000, '['); };
@@ -227,7 +227,7 @@ TEST(Job, TheTextsInsideHaveOneForm) {
 TEST(Job, AnyValueOfAnotherKindEndsInOneWay) {
     using Json = nlohmann::ordered_json;
     const std::vector<Json> others{nullptr, true, -1, 0, 4294967296ULL, 1e300, "text", Json::array(), Json::object()};
-    for (const char* name : {"manifest.json", "ticket.json"}) {
+    for (const char* name : {"manifest.json", "ticket.json", "envelope.json"}) {
         const std::map<std::string, Bytes> files = unzip(job_file(some_job()), "AB.qjob");
         const Json places = Json::parse(text_of(files.at(name))).flatten();
         for (const auto& [place, old] : places.items()) {
@@ -242,7 +242,7 @@ TEST(Job, AnyValueOfAnotherKindEndsInOneWay) {
 TEST(Job, ForgedManifestsAreRefusedAndSayWhere) {
     using Json = nlohmann::ordered_json;
     const std::vector<std::pair<std::function<void(Json&)>, std::string>> cases{
-        {[](Json& j) { j["schema"] = 2; }, "schema 2 is not 3"},
+        {[](Json& j) { j["schema"] = 2; }, "schema 2 is not 4"},
         {[](Json& j) { j["format"] = "other"; }, "format"},
         {[](Json& j) { j.erase("piece"); }, "piece is missing"},
         {[](Json& j) { j["piece"]["number"] = 70000; }, "number is not a whole number"},
@@ -278,11 +278,20 @@ TEST(Job, ForgedManifestsAreRefusedAndSayWhere) {
         {[](Json& j) { j["setup"]["reach"].erase("further"); }, "further is missing"},
         {[](Json& j) { j["setup"].erase("base_number"); }, "base_number is missing"},
         {[](Json& j) { j["setup"]["spoil"] = -1; }, "spoil"},
+        {[](Json& j) { j["setup"]["placement"]["x"] = 5; }, "different jobs"},
+        {[](Json& j) { j["setup"]["placement"]["table_angles_rad"] = {0.5}; }, "table_angles_rad is not one per"},
+        {[](Json& j) { j["setup"]["setup_in_cell"] = Json::array(); }, "setup_in_cell is not one per angle"},
+        {[](Json& j) {
+             j["setup"]["setup_in_cell"][0]["rows"][2] = {0, 0, -1};
+         },
+         "setup_in_cell is not a rotation"},
+        {[](Json& j) { j["work_envelope"]["holds"] = false; }, "different jobs"},
+        {[](Json& j) { j["work_envelope"].erase("arm_checked"); }, "arm_checked is missing"},
         {[](Json& j) { j["stock"]["offcuts"][0] = 3; }, "offcuts is not three numbers"},
         {[](Json& j) { j["alternatives"][0]["base_number"] = -1; }, "base_number is not a whole number"},
         {[](Json& j) { j["envelope"]["margins"] = Json::array(); }, "margins is empty"},
-        {[](Json& j) { j["files"][0]["sha256"] = std::string(64, '0'); }, "piece.stl does not match its SHA-256"},
-        {[](Json& j) { j["files"][0]["size"] = 1; }, "piece.stl has another size"},
+        {[](Json& j) { j["files"][0]["sha256"] = std::string(64, '0'); }, "envelope.json does not match its SHA-256"},
+        {[](Json& j) { j["files"][0]["size"] = 1; }, "envelope.json has another size"},
         {[](Json& j) { j["files"][0]["name"] = "../piece.stl"; }, "../piece.stl is missing"},
         {[](Json& j) { j["files"].erase(0); }, "lists other files"},
         {[](Json& j) { j = Json::array(); }, "manifest.json"},

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <cmath>
+#include <filesystem>
 #include <string>
 
 #include "cam/job/job.h"
 #include "cam/setup/choose_setup.h"
+#include "cam/setup/place_block.h"
 #include "tests/cam/setup/pieces.h"
 
 namespace qchopper::test_pieces {
@@ -95,6 +97,22 @@ inline JobInput tilting_job(int rings = 8) {
     other.reach.method = ReachMethod::sampled;
     input.alternatives.push_back(other);
     return input;
+}
+
+// In a ready cell with an arm: its block is placed, and every pose of its carving is held.
+inline const JobInput& placed_job() {
+    static const JobInput job = [] {
+        JobInput input = some_job();
+        input.cell = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
+        SetupOptions options;
+        options.max_directions = 2;
+        input.setup = choose_setup(input.piece, input.cell, options).setups.front();
+        input.envelope = check_envelope(input.setup, input.cell);
+        input.work_envelope = place_block(input.setup, *input.piece.mesh, input.cell);
+        input.setup.placement = input.work_envelope.placement;
+        return input;
+    }();
+    return job;
 }
 
 inline std::string text_of(const Bytes& bytes) {

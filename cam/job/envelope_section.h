@@ -1,0 +1,14 @@
+// The section of the setup sheet on the work envelope: every check with its margin, and the tightest pose.
+
+#pragma once
+
+#include <string>
+
+#include "cam/job/job.h"
+
+namespace qchopper {
+
+// HTML. Of a cell of version 1: that the arm was not checked.
+std::string envelope_section(const JobInput& input);
+
+}  // namespace qchopper

@@ -1,0 +1,36 @@
+// Takes the setup of a piece at which the machine holds every pose of its carving: the cures that go beyond one place.
+//
+// Where the best setup is not held wherever its block stands (place_block.h), the piece is laid on another base, then
+// carved from other directions. Pure functions; the result does not depend on the number of threads
+// (tests/cam/setup/held_setup_test.cpp).
+
+#pragma once
+
+#include "base/context.h"
+#include "cam/cell/cell.h"
+#include "cam/setup/choose_setup.h"
+#include "cam/setup/work_envelope.h"
+#include "segment/cut/piece.h"
+
+namespace qchopper {
+
+struct HeldSetup {
+    SetupChoice choice;     // with the setup that is taken first, its placement filled in
+    WorkEnvelope envelope;  // of that setup; WorkEnvelope::cure names base or directions if these were needed
+};
+
+struct HeldOptions {
+    SetupOptions setup;          // with what `choice` was chosen
+    double max_unreachable = 1;  // a base that leaves a larger share out of reach, and more than the best, comes last
+};
+
+// In their order are tried: the best setup at any place of its block; the other bases, unless the operator ordered one;
+// and directions that are held, of each base in the same order: those that are not held are left out and others chosen
+// in their place, twice, then left out without others. Where nothing helps, the best setup is taken with its refusal.
+// A cell of version 1 is not checked, nor a piece whose block does not fit into the cell: the choice is handed back.
+//
+// Precondition: `choice` is choose_setup() of the same piece, cell and options. Throws what place_block() throws.
+HeldSetup held_setup(const Piece& piece, SetupChoice choice, const Cell& cell, const HeldOptions& options = {},
+                     const Context& context = {});
+
+}  // namespace qchopper

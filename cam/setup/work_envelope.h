@@ -1,0 +1,145 @@
+// The work envelope of a setup: whether the machine can hold every pose of its carving, by how much, and where the
+// block has to stand for it.
+//
+// Values; mm and radians in the cell's frame unless a field says otherwise. A margin is in the unit of its check (mm,
+// degrees or degrees/s) and what is left beyond what the check asks for: negative means refused. docs/envelope.md
+// explains every check. Computed by place_block.h.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/pose.h"
+#include "cam/cell/arm.h"
+#include "cam/setup/block_placement.h"
+
+namespace qchopper {
+
+// Of the tool tip on the piece, at the block, where it comes and goes above them; and where programs begin and end.
+enum class PoseKind : std::uint8_t { tip, corner, edge, retract, home, tool_change };
+
+// "tip on the piece", "corner of the block", ...
+const char* to_words(PoseKind kind);
+
+// The tip's frame for a direction in which the tool comes out: its z is -out; `turn` (radians) is about the tool axis,
+// and at 0 its x lies in the vertical plane of out, along -x for straight up. R = Rz(azimuth) Ry(pi - tilt) Rz(turn).
+Pose tip_frame(Vec3 tip, Vec3 out, double turn);
+
+enum class PoseCheck : std::uint8_t {
+    block_on_table,
+    travel,  // of a gantry: the tip in the reach box
+    reach,   // the wrist centre is neither too far for the arm nor too near
+    joint_limit,
+    cable,
+    shoulder,  // singularities
+    elbow,
+    wrist,
+    joint_speed,  // at the feed, in every direction of motion
+    axis_step,    // from one pose to the one beside it
+    one_branch,   // share of a region's poses that its branch holds, where each could be held alone
+    arm_to_block,
+    arm_to_table,
+    arm_to_floor,
+    arm_to_obstacle,
+    arm_to_arm,
+    tool_to_block,    // tool, holder and spindle at home and where tools are changed
+    holder_to_block,  // holder and spindle to the foam that stays, the spoil layer
+    tool_to_table,    // tool, holder and spindle
+    tool_to_floor,
+    tool_to_obstacle,
+    tool_to_arm
+};
+
+inline constexpr std::size_t pose_checks = 22;
+
+struct CheckRule {
+    PoseCheck check;
+    const char* key;   // "joint_limit", for JSON
+    const char* name;  // "joint limit"
+    const char* unit;  // "mm", "deg", "deg/s" or "%"
+    double needed;     // of what is measured, in the unit; the margin is what is left beyond
+    double scale;      // a margin of so much counts as 1 when margins of several checks are compared
+    bool is_placed;    // whether another place of the block can change it; the others are not maximised
+};
+
+// In the order of PoseCheck.
+const CheckRule& rule_of(PoseCheck check);
+
+// One pose of the machine.
+struct EnvelopePose {
+    PoseKind kind = PoseKind::tip;
+    std::size_t direction = 0;  // index in SurfaceReach::directions; 0 for home and tool change
+    Vec3 tip;                   // in setup coordinates; of home and tool change in the cell
+    Vec3 tip_in_cell;
+    Vec3 out_in_cell;              // unit, the way the tool comes out
+    double table_angle = 0;        // of a rotary table
+    double tool_turn = 0;          // about the tool axis
+    std::optional<Joints> joints;  // nothing: not reached, or a gantry
+    bool operator==(const EnvelopePose&) const = default;
+};
+
+// The tightest of all poses for one check.
+struct EnvelopeMargin {
+    PoseCheck check = PoseCheck::reach;
+    double margin = 0;    // in rule_of(check).unit; where parts overlap, less what is needed
+    double relative = 0;  // margin / rule_of(check).scale
+    std::string pair;     // what is near what: "link 3 and the block", "axis 5 and its upper limit"
+    EnvelopePose pose;
+    bool operator==(const EnvelopeMargin&) const = default;
+};
+
+// Whether nothing is missing, but for rounding.
+bool is_held(const EnvelopeMargin& margin);
+// False where it is the block that is asked, not a pose.
+inline bool has_pose(const EnvelopeMargin& margin) {
+    return margin.check != PoseCheck::block_on_table;
+}
+// "corner of the block at 300, -200, 390 mm, direction 2"; "home".
+std::string describe_pose(const EnvelopePose& pose);
+// "arm to block, link 3 and the block: 12.5 mm (corner of the block at ...)".
+std::string describe_margin(const EnvelopeMargin& margin);
+
+// How a region is carved.
+struct HeldRegion {
+    std::size_t direction = 0;
+    std::size_t poses = 0;
+    bool holds = false;
+    ArmBranch branch;      // of all its poses
+    double tool_turn = 0;  // about the tool axis, of all its poses, radians
+    double relative = 0;   // the smallest relative margin of what a place can change
+    bool operator==(const HeldRegion&) const = default;
+};
+
+// In the order in which they are tried. The last three are named, not tried.
+enum class EnvelopeCure : std::uint8_t { none, tool_turn, branch, table_turn, block_shift, base, directions, cut };
+
+// "turn the tool about its axis", "another branch of the arm", ...
+const char* to_words(EnvelopeCure cure);
+
+struct WorkEnvelope {
+    bool is_arm_checked = false;          // false: a cell of version 1, boxes only; all else is empty then
+    BlockPlacement placement;             // best of those searched, also where none holds
+    std::vector<EnvelopeMargin> margins;  // one per check that was made, in the order of PoseCheck
+    std::vector<HeldRegion> regions;      // by direction; none for a gantry
+    // If all holds: the last cure that was needed, beginning with the block in the middle of the table, the tool not
+    // turned and the arm as at home. Else the nearest cure that is left: base, directions or cut.
+    EnvelopeCure cure = EnvelopeCure::none;
+    std::size_t poses = 0;   // checked at the final place
+    std::size_t places = 0;  // of the block, tried
+
+    bool holds() const;
+    // Of the smallest relative margin: of refused ones if there are any, else of those that a place can change, else of
+    // all. Precondition: is_arm_checked.
+    const EnvelopeMargin& tightest() const;
+    bool operator==(const WorkEnvelope&) const = default;
+};
+
+// "piece B can be carved, tightest: axis 5 and its upper limit 4.2 deg (...)" or "piece B cannot be carved: link 3 and
+// the block 12 mm too near at ...; try another base"; "arm not checked" for version 1.
+std::string describe_work_envelope(const std::string& piece, const WorkEnvelope& envelope);
+
+}  // namespace qchopper

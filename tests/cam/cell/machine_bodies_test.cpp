@@ -1,0 +1,100 @@
+// Bodies of the machine: against forward() and the shape of the arms, and what may touch.
+
+#include "cam/cell/machine_bodies.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <random>
+
+#include "cam/cell/reach_map.h"
+
+namespace qchopper {
+namespace {
+
+Cell ready_cell(const std::string& name) {
+    return read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / name);
+}
+
+Joints random_joints(const JointRanges& ranges, std::mt19937& random) {
+    Joints joints{};
+    for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
+        joints[axis] = std::uniform_real_distribution<double>(ranges[axis].min, ranges[axis].max)(random);
+    }
+    return joints;
+}
+
+TEST(MachineBodies, MoveAsTheArmDoes) {
+    std::mt19937 random(5);
+    for (const char* const name : {"kr60-ha.toml", "irb6640-185-2.8.toml", "kr120-r2500-pro-rotary.toml"}) {
+        const Cell cell = ready_cell(name);
+        const Robot& robot = *cell.machine->robot;
+        const CarvingTool& tool = cell.machine->tools.front();
+        const ToolArm arm = tool_arm(robot, cell.machine->spindle, tool);
+        for (int i = 0; i < 100; ++i) {
+            const Joints joints = random_joints(robot.ranges, random);
+            const Pose flange = robot.base_in_cell * forward(robot.geometry, joints);
+            const Vec3 z{flange.row[0].z, flange.row[1].z, flange.row[2].z};
+            const MovingBodies bodies = bodies_at(cell, tool, joints);
+            // In these cells the forearm's capsule ends in the wrist centre, and the wrist's in the flange.
+            const Vec3 wrist = flange.shift - robot.geometry.c4 * z;
+            EXPECT_LT(norm(bodies.links[1].shape.to - wrist), 1e-9);
+            EXPECT_LT(norm(bodies.links[2].shape.from - wrist), 1e-9);
+            EXPECT_NEAR(norm(bodies.links[0].shape.to - bodies.links[0].shape.from), robot.geometry.c2, 1e-9);
+            const Pose tip = flange * arm.tip_in_flange;
+            EXPECT_LT(norm(bodies.on_axis.front().shape.from - tip.shift), 1e-9);
+            EXPECT_EQ(bodies.on_axis.back().part, BodyPart::spindle);
+            EXPECT_LT(norm(bodies.on_axis.back().shape.to - flange.shift), 1e-9);  // its body ends at the flange
+        }
+    }
+}
+
+TEST(MachineBodies, OfEveryLinkTurnWithItsAxisAlone) {
+    const Cell cell = ready_cell("kr60-ha.toml");
+    const Robot& robot = *cell.machine->robot;
+    const Joints home = cell.machine->start.joints;
+    const LinkMotions before = link_motions(robot.geometry, home);
+    for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
+        Joints joints = home;
+        joints[axis] += 0.2;
+        const LinkMotions after = link_motions(robot.geometry, joints);
+        for (std::size_t link = 0; link <= axes_of_arm; ++link) EXPECT_EQ(before[link] == after[link], link <= axis);
+    }
+}
+
+TEST(MachineBodies, StandWhereTheCellFileSays) {
+    const StandingBodies fixed = standing_bodies(ready_cell("kr60-ha.toml"));
+    ASSERT_TRUE(fixed.table && !fixed.rotary);
+    EXPECT_EQ(fixed.table->half, (Vec3{350, 500, 150}));
+    EXPECT_EQ(fixed.table->box_in_frame.shift, (Vec3{1200, 0, 150}));
+    const StandingBodies rotary = standing_bodies(ready_cell("kr120-r2500-pro-rotary.toml"));
+    ASSERT_TRUE(!rotary.table && rotary.rotary);
+    EXPECT_EQ(rotary.rotary->radius, 750);
+    EXPECT_EQ(rotary.rotary->from.z, 300);
+    EXPECT_EQ(rotary.rotary->to.z, 0);
+    EXPECT_EQ(rotary.obstacles.size(), 1U);
+    EXPECT_EQ(standing_bodies(ready_cell("gantry-3axis.toml")).floor_z, 0);
+}
+
+TEST(MachineBodies, OfAGantryHangAboveItsTip) {
+    const Cell cell = ready_cell("gantry-3axis.toml");
+    const MovingBodies bodies = bodies_at(cell, cell.machine->tools.front(), {}, {100, 200, 300});
+    EXPECT_TRUE(bodies.links.empty());
+    EXPECT_EQ(bodies.on_axis.front().shape.from, (Vec3{100, 200, 300}));
+    EXPECT_EQ(bodies.on_axis.back().shape.to.z, 300 + 200 + 350);
+}
+
+TEST(MachineBodies, NeighboursMayTouchBothWays) {
+    for (int a = 0; a < 8; ++a) {
+        EXPECT_TRUE(may_touch(a, a));
+        for (int b = 0; b < 8; ++b) EXPECT_EQ(may_touch(a, b), may_touch(b, a));
+        if (a < 6) {
+            EXPECT_TRUE(may_touch(a, a + 1));
+        }
+    }
+    EXPECT_FALSE(may_touch(2, 5));
+    EXPECT_FALSE(may_touch(3, 7));
+}
+
+}  // namespace
+}  // namespace qchopper
