@@ -40,7 +40,7 @@ class HeldSearch {
         for (const Setup& setup : bases) {
             if (std::optional<HeldSetup> held = with_other_directions(setup)) return std::move(*held);
         }
-        return taken(std::move(choice), first, options_.setup.base ? EnvelopeCure::base : EnvelopeCure::cut);
+        return refused(std::move(choice), std::move(first));
     }
 
  private:
@@ -48,6 +48,15 @@ class HeldSearch {
         envelope.cure = cure;
         choice.setups.front().placement = envelope.placement;
         return {std::move(choice), std::move(envelope)};
+    }
+
+    // What refuses the first direction is told, if it is not held alone: the others could be left out.
+    HeldSetup refused(SetupChoice choice, WorkEnvelope first) {
+        const Setup& setup = choice.setups.front();
+        WorkEnvelope alone = place_block(setup, {poses_of(setup).front()}, cell_, {}, context_);
+        if (!alone.holds()) first = std::move(alone);
+        first.cure = options_.setup.base ? EnvelopeCure::base : EnvelopeCure::cut;
+        return {std::move(choice), std::move(first)};
     }
 
     // The best one first, those that would leave too much out of reach last.
