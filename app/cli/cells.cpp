@@ -45,7 +45,7 @@ ListedCell listed(const fs::path& file) {
     }
 }
 
-Vec3 largest_block(const Cell& cell) {
+Vec3 largest_stock_size(const Cell& cell) {
     const auto volume = [](const Stock& s) { return s.size.x * s.size.y * s.size.z; };
     return std::max_element(cell.stock.begin(), cell.stock.end(),
                             [&](const Stock& a, const Stock& b) { return volume(a) < volume(b); })
@@ -95,7 +95,7 @@ int run(const CellsReachArguments& arguments, Terminal& terminal) {
                          arguments.file.string() + " describes no machine (version 1), so what it holds is not known",
                          "describe it as docs/cell-file.md says, or ask a cell of version 2: qchopper cells list");
     }
-    const Vec3 block = arguments.block ? *lengths_from(*arguments.block) : largest_block(cell);
+    const Vec3 block = arguments.block ? *lengths_from(*arguments.block) : largest_stock_size(cell);
     const double tilt = arguments.tilt_deg * std::numbers::pi / 180;
     // So that a line of the map has at most 15 places.
     const double step = 100 * std::max(1.0, std::ceil(std::max(cell.table.size_x, cell.table.size_y) / 1500));
