@@ -17,8 +17,8 @@ struct CandidateOptions {
     bool operator==(const CandidateOptions&) const = default;
 };
 
-// Candidate::normal_index and offset_index of planes that are not proposed: the operator's own, and the best of a ranking
-// moved and turned a little (segment/search/refined_plane.h).
+// Candidate::normal_index and offset_index of planes that are not proposed: the operator's own, and the best of a
+// ranking moved and turned a little (segment/search/refined_plane.h).
 constexpr int own_index = -1;
 constexpr int refined_index = -2;
 
