@@ -93,6 +93,7 @@ class ReachRanking {
         }
         if (other >= 0 && static_cast<std::size_t>(other) < reach_.normals.size()) normals.insert(other);
         std::vector<Group> groups;
+        groups.reserve(normals.size());
         for (const int n : normals) groups.push_back({static_cast<std::size_t>(n), {}});
         takes_whole_normals_ = true;
         evaluate_solids(groups, infinite);
@@ -115,8 +116,6 @@ class ReachRanking {
     }
 
  private:
-    using Key = std::pair<std::size_t, std::size_t>;
-
     // Planes of one normal that are evaluated together.
     struct Group {
         std::size_t normal = 0;
@@ -183,6 +182,7 @@ class ReachRanking {
             std::sort(open.begin(), open.end());
             open.resize(std::min(open.size(), normals_at_once));
             std::vector<Group> groups;
+            groups.reserve(open.size());
             for (const auto& [least, n] : open) groups.push_back({n, {}});
             evaluate_solids(groups, most);
             evaluate_fragility(groups, limit());
