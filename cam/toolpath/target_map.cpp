@@ -38,7 +38,7 @@ void raise_cell(float& cell, float to) {
 }
 
 // A convex polygon in cells across and mm along the direction: a triangle cut by two lines has five corners.
-struct Polygon {
+struct StripPart {
     std::array<Vec3, 8> corner;
     std::size_t size = 0;
     void add(Vec3 p) { corner[size++] = p; }
@@ -54,8 +54,8 @@ Vec3 at_y(Vec3 a, Vec3 b, double y) {
 }
 
 // The part of a polygon on one side of a line of constant y.
-Polygon cut_at(const Polygon& polygon, double y, bool keeps_above) {
-    Polygon part;
+StripPart cut_at(const StripPart& polygon, double y, bool keeps_above) {
+    StripPart part;
     for (std::size_t k = 0; k < polygon.size; ++k) {
         const Vec3& a = polygon.corner[k];
         const Vec3& b = polygon.corner[(k + 1) % polygon.size];
@@ -97,7 +97,7 @@ class CellRow {
 };
 
 // Precondition: the corners lie in the map.
-void raise_under(HeightMap& map, const Polygon& triangle) {
+void raise_under(HeightMap& map, const StripPart& triangle) {
     double low = triangle.corner[0].y;
     double high = low;
     for (std::size_t k = 1; k < 3; ++k) {
@@ -107,10 +107,10 @@ void raise_under(HeightMap& map, const Polygon& triangle) {
     // A corner on the line between rows touches both.
     const auto first = static_cast<std::size_t>(std::max(0.0, std::ceil(low) - 1));
     const auto last = std::min(static_cast<std::size_t>(std::max(0.0, std::floor(high))), map.rows - 1);
-    Polygon rest = triangle;
+    StripPart rest = triangle;
     for (std::size_t row = first; row <= last && rest.size > 0; ++row) {
         const auto line = static_cast<double>(row + 1);
-        const Polygon strip = row == last ? rest : cut_at(rest, line, false);
+        const StripPart strip = row == last ? rest : cut_at(rest, line, false);
         CellRow cells(map, row);
         for (std::size_t k = 0; k < strip.size; ++k) {
             cells.raise_along(strip.corner[k], strip.corner[(k + 1) % strip.size]);
@@ -122,7 +122,7 @@ void raise_under(HeightMap& map, const Polygon& triangle) {
 void raise_to_mesh(HeightMap& map, const TriangleMesh& mesh) {
     parallel_ranges(0, mesh.triangles.size(), triangles_at_once, [&](std::size_t first, std::size_t end) {
         for (std::size_t t = first; t < end; ++t) {
-            Polygon triangle;
+            StripPart triangle;
             for (const auto index : mesh.triangles[t]) {
                 const Vec3 p = apply(map.piece_in_map, mesh.points[index]);
                 triangle.add({p.x / map.cell, p.y / map.cell, p.z});
@@ -148,9 +148,9 @@ Box box_in_map(const Pose& piece_in_map, const Setup& setup, const TriangleMesh&
 }
 
 // A plane of constant z of the setup, as far as it lies between two heights of the map.
-class Floor {
+class FloorPlane {
  public:
-    Floor(const Setup& setup, const HeightMap& map, double floor_z, double low, double high)
+    FloorPlane(const Setup& setup, const HeightMap& map, double floor_z, double low, double high)
         : cell_(map.cell), low_(low), high_(high) {
         const Pose map_in_setup = setup.piece_in_setup * inverse(map.piece_in_map);
         upright_ = map_in_setup.row[2];
@@ -205,7 +205,7 @@ HeightMap target_map(const Setup& setup, const TriangleMesh& mesh, std::size_t d
     const double middle = box.centre().z;
     map.piece_in_map.shift = {options.border - box.min.x, options.border - box.min.y, -middle};
     map.height.resize(map.columns * map.rows);
-    const Floor floor(setup, map, options.floor_z, box.min.z - middle, box.max.z - middle);
+    const FloorPlane floor(setup, map, options.floor_z, box.min.z - middle, box.max.z - middle);
     parallel_for(0, map.rows, [&](std::size_t row) {
         for (std::size_t c = 0; c < map.columns; ++c) map.height[row * map.columns + c] = floor.height(c, row);
     });

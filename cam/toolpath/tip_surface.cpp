@@ -24,7 +24,7 @@ constexpr std::size_t block = 32;        // cells of a row of which the highest 
 constexpr std::size_t rows_at_once = 8;  // of a map
 
 // A tool of any of the shapes, and the points within a distance of it.
-struct Profile {
+struct RoundProfile {
     double radius = 0;
     double corner = 0;      // radius of the tip or of the rounded edge
     double half_angle = 0;  // of a cone; 0: the edge ends in the shank
@@ -41,7 +41,7 @@ struct Profile {
     }
 };
 
-Profile profile_of(const CarvingTool& tool, double allowance) {
+RoundProfile profile_of(const CarvingTool& tool, double allowance) {
     const double radius = 0.5 * tool.diameter + allowance;
     if (tool.shape == ToolShape::cone) return {radius, tool.corner_radius + allowance, 0.5 * tool.tip_angle};
     if (tool.shape == ToolShape::ball) return {radius, radius, 0};
@@ -66,9 +66,9 @@ double tool_profile(const CarvingTool& tool, double r) {
     return profile_of(tool, 0).height(r);
 }
 
-TipSurface::TipSurface(const HeightMap& target, const CarvingTool& tool, double allowance) : target_(&target) {
+TipDilation::TipDilation(const HeightMap& target, const CarvingTool& tool, double allowance) : target_(&target) {
     check_allowance(allowance);
-    const Profile profile = profile_of(tool, allowance);
+    const RoundProfile profile = profile_of(tool, allowance);
     for (std::size_t row = 0; nearest(0, row, target.cell) <= profile.radius; ++row) {
         std::vector<float> drops;
         for (std::size_t column = 0; nearest(column, row, target.cell) <= profile.radius; ++column) {
@@ -88,12 +88,12 @@ TipSurface::TipSurface(const HeightMap& target, const CarvingTool& tool, double 
     });
 }
 
-float TipSurface::highest(std::size_t row, std::size_t first, std::size_t end) const {
+float TipDilation::highest(std::size_t row, std::size_t first, std::size_t end) const {
     const float* tops = &block_top_[row * blocks_];
     return *std::max_element(tops + first / block, tops + (end - 1) / block + 1);
 }
 
-void TipSurface::fill_chunk(std::size_t row, std::size_t first, std::size_t count, float* tip, float* pair) const {
+void TipDilation::fill_chunk(std::size_t row, std::size_t first, std::size_t count, float* tip, float* pair) const {
     const HeightMap& map = *target_;
     std::array<float, chunk> own;
     own.fill(HeightMap::nothing);
@@ -125,7 +125,7 @@ void TipSurface::fill_chunk(std::size_t row, std::size_t first, std::size_t coun
     std::copy_n(own.begin(), count, tip);
 }
 
-void TipSurface::fill(std::size_t row, std::size_t first, std::size_t end, float* tip) const {
+void TipDilation::fill(std::size_t row, std::size_t first, std::size_t end, float* tip) const {
     assert(row < target_->rows && end <= target_->columns);
     std::vector<float> pair(chunk + 2 * drop_[0].size());
     for (std::size_t c = first; c < end; c += chunk) {
@@ -134,7 +134,7 @@ void TipSurface::fill(std::size_t row, std::size_t first, std::size_t end, float
 }
 
 HeightMap tip_surface(const HeightMap& target, const CarvingTool& tool, double allowance) {
-    const TipSurface surface(target, tool, allowance);
+    const TipDilation surface(target, tool, allowance);
     HeightMap tip = target;
     parallel_ranges(0, tip.rows, rows_at_once, [&](std::size_t first, std::size_t end) {
         for (std::size_t row = first; row < end; ++row) {

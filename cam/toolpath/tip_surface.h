@@ -41,10 +41,10 @@ double tool_profile(const CarvingTool& tool, double r);
 
 // The least height at which the tip may stand over cells of a map: dilation of the map by the tool, each cell taken as
 // its point nearest to the tool axis. Cells beside the map count as `nothing`.
-class TipSurface {
+class TipDilation {
  public:
     // The map must outlive it. Throws InputError (use) if the allowance is negative or not finite. O(cells).
-    TipSurface(const HeightMap& target, const CarvingTool& tool, double allowance = 0);
+    TipDilation(const HeightMap& target, const CarvingTool& tool, double allowance = 0);
 
     // The tip heights of the cells [first, end) of a row, in `tip`. O(cells * (radius / cell)^2) at most; terms that
     // cannot be the largest are left out.

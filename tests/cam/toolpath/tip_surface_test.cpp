@@ -194,7 +194,7 @@ TEST(TipSurface, EqualsTheDefinition) {
             }
         }
         std::vector<float> part(70);
-        TipSurface(map, tool).fill(30, 41, 111, part.data());
+        TipDilation(map, tool).fill(30, 41, 111, part.data());
         for (std::size_t c = 0; c < part.size(); ++c) ASSERT_EQ(part[c], tip.at(41 + c, 30));
     }
 }
