@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "cam/toolpath/disc_max.h"
-#include "cam/toolpath/level_passes.h"
+#include "cam/toolpath/roughing_passes.h"
 
 namespace qchopper {
 namespace {
@@ -98,7 +98,7 @@ std::vector<PathRun> rough(CarvingSpace& space, const CarvingTool& tool, const T
         const double level = k == count ? heights.bottom : heights.top - static_cast<double>(k) * down;
         // The float of the lowest tip is not above the level.
         space.holder_limit = holder_limit_over(space.foam, body);
-        runs.add(level_passes(levels.region(level), level, operation.step));
+        runs.add(roughing_passes(levels.region(level), level, operation.step));
     }
     return runs.finish();
 }

@@ -66,7 +66,7 @@ double tool_profile(const CarvingTool& tool, double r) {
     return profile_of(tool, 0).height(r);
 }
 
-TipDilation::TipDilation(const HeightMap& target, const CarvingTool& tool, double allowance) : target_(&target) {
+TipDilation::TipDilation(const HeightMap& target, const CarvingTool& tool, double allowance) {
     check_allowance(allowance);
     const RoundProfile profile = profile_of(tool, allowance);
     for (std::size_t row = 0; nearest(0, row, target.cell) <= profile.radius; ++row) {
@@ -77,6 +77,28 @@ TipDilation::TipDilation(const HeightMap& target, const CarvingTool& tool, doubl
         }
         drop_.push_back(drops);
     }
+    take(target);
+}
+
+TipDilation TipDilation::of_negative_tips(const HeightMap& negative_tip, const CarvingTool& tool) {
+    TipDilation dilation;
+    const RoundProfile profile = profile_of(tool, 0);
+    const auto distance = [&](std::size_t columns, std::size_t rows) {
+        return negative_tip.cell * std::hypot(static_cast<double>(columns), static_cast<double>(rows));
+    };
+    for (std::size_t row = 0; distance(0, row) <= profile.radius; ++row) {
+        std::vector<float> drops;
+        for (std::size_t column = 0; distance(column, row) <= profile.radius; ++column) {
+            drops.push_back(static_cast<float>(-profile.height(distance(column, row))));
+        }
+        dilation.drop_.push_back(drops);
+    }
+    dilation.take(negative_tip);
+    return dilation;
+}
+
+void TipDilation::take(const HeightMap& target) {
+    target_ = &target;
     blocks_ = (target.columns + block - 1) / block;
     block_top_.resize(blocks_ * target.rows);
     parallel_for(0, target.rows, [&](std::size_t row) {
@@ -133,15 +155,30 @@ void TipDilation::fill(std::size_t row, std::size_t first, std::size_t end, floa
     }
 }
 
-HeightMap tip_surface(const HeightMap& target, const CarvingTool& tool, double allowance) {
-    const TipDilation surface(target, tool, allowance);
-    HeightMap tip = target;
-    parallel_ranges(0, tip.rows, rows_at_once, [&](std::size_t first, std::size_t end) {
+namespace {
+
+HeightMap filled(const HeightMap& map, const TipDilation& dilation) {
+    HeightMap result = map;
+    parallel_ranges(0, map.rows, rows_at_once, [&](std::size_t first, std::size_t end) {
         for (std::size_t row = first; row < end; ++row) {
-            surface.fill(row, 0, tip.columns, &tip.height[row * tip.columns]);
+            dilation.fill(row, 0, map.columns, &result.height[row * map.columns]);
         }
     });
-    return tip;
+    return result;
+}
+
+}  // namespace
+
+HeightMap tip_surface(const HeightMap& target, const CarvingTool& tool, double allowance) {
+    return filled(target, TipDilation(target, tool, allowance));
+}
+
+HeightMap remaining_surface(const HeightMap& tip, const CarvingTool& tool) {
+    HeightMap negative = tip;
+    for (float& z : negative.height) z = -z;
+    HeightMap remaining = filled(negative, TipDilation::of_negative_tips(negative, tool));
+    for (float& z : remaining.height) z = -z;
+    return remaining;
 }
 
 bool raise_to_holder(HeightMap& tip, const HeightMap& target, const ToolBody& body, const Pose& piece_in_setup) {

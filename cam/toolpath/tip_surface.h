@@ -50,11 +50,17 @@ class TipDilation {
     // cannot be the largest are left out.
     void fill(std::size_t row, std::size_t first, std::size_t end, float* tip) const;
 
+    // What remains where the tip stands over the middle of every cell: fill() then gives its height at the middles of
+    // cells, and map and result are both the negative of heights.
+    static TipDilation of_negative_tips(const HeightMap& negative_tip, const CarvingTool& tool);
+
  private:
+    TipDilation() = default;
+    void take(const HeightMap& target);
     void fill_chunk(std::size_t row, std::size_t first, std::size_t count, float* tip, float* pair) const;
     float highest(std::size_t row, std::size_t first, std::size_t end) const;
 
-    const HeightMap* target_;
+    const HeightMap* target_ = nullptr;
     std::vector<std::vector<float>> drop_;  // by rows and columns from the axis: tip height less surface height
     std::vector<float> block_top_;          // highest cell of each block of a row
     std::size_t blocks_ = 0;                // per row
@@ -63,6 +69,11 @@ class TipDilation {
 // The least height at which the tip may stand over each cell so that the tool, up to its flute and shank with its whole
 // diameter, stays at least `allowance` away from the target. On several threads; the result does not depend on them.
 HeightMap tip_surface(const HeightMap& target, const CarvingTool& tool, double allowance = 0);
+
+// The surface that remains where the tip has stood at its least height over the middle of every cell (erosion of the
+// tip surface by the tool): nothing that the tool reaches from this direction can be lower. Cells beside the map are
+// not visited. Cost as of tip_surface.
+HeightMap remaining_surface(const HeightMap& tip, const CarvingTool& tool);
 
 // Raises a tip surface to where holder and spindle stay clear of the target and above z = 0 of the setup as well; on
 // the safe side by at most three cells of raise_to_holder_limit(), which are at most a twelfth of the holder's least
