@@ -1,0 +1,186 @@
+// Shortest path over the ends and middles of the gates. From each of them the directions that pass all gates up to the
+// next one form a wedge, which narrows from gate to gate (H. Imai and M. Iri, "Polygonal approximations of a curve",
+// 1988, for the graph; the wedge after J. Sklansky and V. Gonzalez, "Fast polygonal approximation of digitized curves",
+// 1980). A corner that is rounded is compared with the gates at points of its parabola.
+
+#include "cam/toolpath/path_reduction.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace qchopper {
+namespace {
+
+constexpr std::size_t places = 3;  // on a gate: right end, middle, left end
+
+Point2 minus(Point2 a, Point2 b) {
+    return {a.x - b.x, a.y - b.y};
+}
+double cross(Point2 a, Point2 b) {
+    return a.x * b.y - a.y * b.x;
+}
+double dot(Point2 a, Point2 b) {
+    return a.x * b.x + a.y * b.y;
+}
+double length(Point2 a) {
+    return std::hypot(a.x, a.y);
+}
+Point2 between(Point2 a, Point2 b, double t) {
+    return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
+}
+
+Point2 place(const Gate& gate, std::size_t k) {
+    return between(gate.right, gate.left, static_cast<double>(k) / (places - 1));
+}
+
+// Directions from a point that pass every gate so far.
+class GateWedge {
+ public:
+    explicit GateWedge(Point2 from) : from_(from) {}
+
+    bool holds(Point2 to) const {
+        const Point2 d = minus(to, from_);
+        if (!is_bounded_) return true;
+        return cross(right_, d) >= 0 && cross(d, left_) >= 0 && dot(right_, d) > 0;
+    }
+
+    // False once no direction is left.
+    bool narrow(const Gate& gate) {
+        const Point2 right = minus(gate.right, from_);
+        const Point2 left = minus(gate.left, from_);
+        if (cross(right, left) < 0) return false;  // the gate is seen from behind
+        if (!is_bounded_) {
+            right_ = right;
+            left_ = left;
+            is_bounded_ = true;
+            return true;
+        }
+        if (dot(right_, right) <= 0) return false;
+        if (cross(right_, right) > 0) right_ = right;
+        if (cross(left, left_) > 0) left_ = left;
+        return cross(right_, left_) >= 0;
+    }
+
+ private:
+    Point2 from_;
+    Point2 right_;
+    Point2 left_;
+    bool is_bounded_ = false;
+};
+
+struct Corner {
+    std::size_t gate = 0;
+    std::size_t place = 0;
+};
+
+// Least numbers of straight lines from the first gate to each place of each gate.
+class FewestCorners {
+ public:
+    FewestCorners(const std::vector<Gate>& gates, bool is_closed, std::size_t reach)
+        : gates_(gates), reach_(reach), lines_(gates.size()), before_(gates.size()) {
+        for (auto& row : lines_) row.fill(unreached);
+        for (std::size_t k = 0; k < places; ++k) lines_[0][k] = is_closed && k != 1 ? unreached : 0;
+        for (std::size_t i = 0; i + 1 < gates.size(); ++i) {
+            for (std::size_t k = 0; k < places; ++k) {
+                if (lines_[i][k] != unreached) extend({i, k});
+            }
+        }
+        const auto& last = lines_.back();
+        end_.gate = gates.size() - 1;
+        end_.place =
+            is_closed ? 1 : static_cast<std::size_t>(std::min_element(last.begin(), last.end()) - last.begin());
+    }
+
+    std::vector<Corner> corners() const {
+        std::vector<Corner> path{end_};
+        while (path.back().gate > 0) path.push_back(before_[path.back().gate][path.back().place]);
+        std::reverse(path.begin(), path.end());
+        return path;
+    }
+
+ private:
+    static constexpr std::size_t unreached = std::numeric_limits<std::size_t>::max();
+
+    void extend(Corner from) {
+        GateWedge wedge(place(gates_[from.gate], from.place));
+        const std::size_t lines = lines_[from.gate][from.place] + 1;
+        const std::size_t end = std::min(gates_.size(), from.gate + 1 + reach_);
+        for (std::size_t j = from.gate + 1; j < end; ++j) {
+            for (std::size_t k = 0; k < places; ++k) {
+                // The next gate can always be reached.
+                if (lines >= lines_[j][k] || (j > from.gate + 1 && !wedge.holds(place(gates_[j], k)))) continue;
+                lines_[j][k] = lines;
+                before_[j][k] = from;
+            }
+            if (!wedge.narrow(gates_[j])) return;
+        }
+    }
+
+    const std::vector<Gate>& gates_;
+    std::size_t reach_;
+    std::vector<std::array<std::size_t, places>> lines_;
+    std::vector<std::array<Corner, places>> before_;
+    Corner end_;
+};
+
+// Where a point is between the exact line and its left limit: 0 on the line, 1 on the limit; gates [first, last].
+double place_beside(const std::vector<Gate>& gates, std::size_t first, std::size_t last, Point2 p) {
+    double nearest = std::numeric_limits<double>::infinity();
+    double found = 0;
+    for (std::size_t m = first; m < last; ++m) {
+        const Point2 a = gates[m].right;
+        const Point2 side = minus(gates[m + 1].right, a);
+        const double square = dot(side, side);
+        const double t = square > 0 ? std::clamp(dot(minus(p, a), side) / square, 0.0, 1.0) : 0;
+        const Point2 away = minus(p, between(a, gates[m + 1].right, t));
+        const double distance = length(away);
+        if (distance >= nearest) continue;
+        nearest = distance;
+        const Point2 width = minus(between(gates[m].left, gates[m + 1].left, t), between(a, gates[m + 1].right, t));
+        const double sign = dot(away, width) < 0 ? -1 : 1;
+        // Square to the line, a limit that leans is nearer than its gate is wide.
+        const double allowed = square > 0 ? std::abs(cross(side, width)) / std::sqrt(square) : length(width);
+        found = sign * distance / std::max(allowed, 1e-9);
+    }
+    return found;
+}
+
+bool can_round(const std::vector<Gate>& gates, const std::array<Corner, 3>& at, const ReductionOptions& options) {
+    const std::array<Point2, 3> p{place(gates[at[0].gate], at[0].place), place(gates[at[1].gate], at[1].place),
+                                  place(gates[at[2].gate], at[2].place)};
+    const double before = length(minus(p[0], p[1]));
+    const double behind = length(minus(p[2], p[1]));
+    const double a = std::min(options.rounding, 0.5 * std::min(before, behind));
+    if (!(a > 0)) return false;
+    const Point2 begin = between(p[1], p[0], a / before);
+    const Point2 end = between(p[1], p[2], a / behind);
+    for (const double t : {0.25, 0.5, 0.75}) {
+        const Point2 on_parabola = between(between(begin, p[1], t), between(p[1], end, t), t);
+        const double beside = place_beside(gates, at[0].gate, at[2].gate, on_parabola);
+        if (beside < -0.02 || beside > 1.02) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+std::vector<ReducedPoint> reduced_path(const std::vector<Gate>& gates, bool is_closed,
+                                       const ReductionOptions& options) {
+    assert(gates.size() >= 2);
+    const std::vector<Corner> corners = FewestCorners(gates, is_closed, options.reach).corners();
+    std::vector<ReducedPoint> path;
+    path.reserve(corners.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        ReducedPoint point{place(gates[corners[i].gate], corners[i].place), false};
+        if (i > 0 && i + 1 < corners.size()) {
+            point.is_rounded = can_round(gates, {corners[i - 1], corners[i], corners[i + 1]}, options);
+        }
+        path.push_back(point);
+    }
+    return path;
+}
+
+}  // namespace qchopper
