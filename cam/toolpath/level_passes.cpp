@@ -122,7 +122,7 @@ void grow_marks(const LevelLine& line, std::vector<std::uint8_t>& marks, double 
         for (std::size_t k = 0; k < (line.is_closed ? 2 * count : count); ++k) {
             const std::size_t i = is_forward ? k % count : count - 1 - k % count;
             const std::size_t before = is_forward ? (i + count - 1) % count : (i + 1) % count;
-            since = was[i] != 0 ? 0 : since + distance(line.points[i], line.points[before]);
+            since = was[i] != 0 ? 0 : since + distance(line.points[i].at, line.points[before].at);
             if (since <= by) marks[i] = 1;
         }
     }
@@ -154,57 +154,43 @@ std::vector<LevelLine> marked_parts(const LevelLine& line, const std::vector<std
 
 class LevelGates {
  public:
-    LevelGates(const HeightMap& tip, double tolerance) : smooth_(tip), tolerance_(tolerance) {}
+    LevelGates(const HeightMap& tip, double tolerance) : smooth_(tip), tolerance_(tolerance), cell_(tip.cell) {}
 
     std::vector<Gate> of(const LevelLine& line, double z) const {
-        const std::vector<Point2> points = without_straight(line);
-        const std::size_t count = points.size();
+        const auto count = static_cast<std::ptrdiff_t>(line.points.size());
+        const auto point = [&](std::ptrdiff_t i) {
+            return line.points[static_cast<std::size_t>(line.is_closed ? (i + 2 * count) % count
+                                                                       : std::clamp<std::ptrdiff_t>(i, 0, count - 1))];
+        };
         std::vector<Gate> gates;
-        gates.reserve(count + 1);
-        for (std::size_t i = 0; i < count; ++i) {
-            const bool is_first = i == 0 && !line.is_closed;
-            const bool is_last = i + 1 == count && !line.is_closed;
-            const Point2 before = is_first ? points[i] : points[(i + count - 1) % count];
-            const Point2 after = is_last ? points[i] : points[(i + 1) % count];
-            gates.push_back(gate(before, points[i], after, z));
+        gates.reserve(line.points.size() + 1);
+        for (std::ptrdiff_t i = 0; i < count; ++i) {
+            const bool is_end = !line.is_closed && (i == 0 || i + 1 == count);
+            if (!is_end && is_straight(point(i - 1).at, point(i).at, point(i + 1).at)) continue;
+            gates.push_back(gate(point(i - around).at, point(i), point(i + around).at, z));
         }
         if (line.is_closed) gates.push_back(gates.front());
         return gates;
     }
 
  private:
-    static std::vector<Point2> without_straight(const LevelLine& line) {
-        const std::vector<Point2>& all = line.points;
-        std::vector<Point2> kept;
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            const bool is_end = i == 0 || i + 1 == all.size();
-            if (!is_end) {
-                const double turn = (all[i].x - all[i - 1].x) * (all[i + 1].y - all[i].y) -
-                                    (all[i].y - all[i - 1].y) * (all[i + 1].x - all[i].x);
-                const double along = (all[i].x - all[i - 1].x) * (all[i + 1].x - all[i].x) +
-                                     (all[i].y - all[i - 1].y) * (all[i + 1].y - all[i].y);
-                if (std::abs(turn) < 1e-9 && along > 0) continue;
-            }
-            kept.push_back(all[i]);
-        }
-        return kept;
+    // Points before and behind from which the direction of a line is taken: at an edge it goes in steps from cell to
+    // cell.
+    static constexpr std::ptrdiff_t around = 4;
+
+    static bool is_straight(Point2 a, Point2 b, Point2 c) {
+        const Point2 in{b.x - a.x, b.y - a.y};
+        const Point2 out{c.x - b.x, c.y - b.y};
+        return std::abs(in.x * out.y - in.y * out.x) < 1e-9 && in.x * out.x + in.y * out.y > 0;
     }
 
-    // To the left of the line, square to the bisector; narrow where the surface rises above the level again.
-    Gate gate(Point2 before, Point2 at, Point2 after, double z) const {
-        const auto unit = [](Point2 a, Point2 b) {
-            const double length = distance(a, b);
-            return length > 0 ? Point2{(b.x - a.x) / length, (b.y - a.y) / length} : Point2{};
-        };
-        const Point2 in = unit(before, at);
-        const Point2 out = unit(at, after);
-        Point2 left{-(in.y + out.y), in.x + out.x};
-        const double length = std::hypot(left.x, left.y);
-        if (length < 1e-6)
-            left = {-in.y, in.x};
-        else
-            left = {left.x / length, left.y / length};
-        double width = tolerance_;
+    // To the left of the line; narrow where the surface rises above the level again. At an edge wider by what the line
+    // is uncertain, so that the path does not follow its steps.
+    Gate gate(Point2 before, const LevelPoint& point, Point2 after, double z) const {
+        const Point2 at = point.at;
+        const double length = std::max(distance(before, after), 1e-9);
+        const Point2 left{-(after.y - before.y) / length, (after.x - before.x) / length};
+        double width = tolerance_ + (point.is_at_edge ? 0.75 * cell_ : 0);
         const auto end = [&] { return Point2{at.x + width * left.x, at.y + width * left.y}; };
         while (width > 0.01 * tolerance_ && smooth_.height(end()) > z + 1e-4) width *= 0.5;
         return {at, end()};
@@ -212,6 +198,7 @@ class LevelGates {
 
     SmoothTip smooth_;
     double tolerance_;
+    double cell_;
 };
 
 Pass pass_along(const LevelLine& line, double z, const LevelGates& gates, const RasterOptions& options) {
@@ -231,7 +218,7 @@ std::vector<LevelLine> needed_parts(const std::vector<LevelLine>& lines, const L
         const LevelLine& line = lines[i];
         std::vector<std::uint8_t> marks(line.points.size(), 0);
         for (std::size_t k = 0; k < marks.size(); ++k) {
-            marks[k] = need.holds(line.points[k], levels.height(line.level), gap) ? 1 : 0;
+            marks[k] = need.holds(line.points[k].at, levels.height(line.level), gap) ? 1 : 0;
         }
         if (std::find(marks.begin(), marks.end(), 1) == marks.end()) return;
         grow_marks(line, marks, overlap);
