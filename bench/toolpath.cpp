@@ -62,10 +62,9 @@ void measure_finishing(const Setup& setup, const TriangleMesh& mesh, double cell
     const HeightMap tip = tip_surface(map, tool);
     const HeightMap closing = remaining_surface(tip, tool);
     const double mapped = cpu_s();
-    CellMask region(map.height.size(), 0);
-    const float lowest = *std::min_element(map.height.begin(), map.height.end());
+    SurfaceLeft surface(mesh, std::nullopt);
+    const FinishingRegion region = surface.take(closing, 0.125 + 0.75 * cell, 2);
     double carved = 0;
-    for (std::size_t i = 0; i < region.size(); ++i) region[i] = map.height[i] > lowest + 0.01F ? 1 : 0;
     FinishingOptions options;
     options.rounding = rounding;
     const double ready = cpu_s();
@@ -80,12 +79,18 @@ void measure_finishing(const Setup& setup, const TriangleMesh& mesh, double cell
             std::count_if(pass.points.begin(), pass.points.end(), [](const PassPoint& p) { return p.is_rounded; }));
     }
     for (const bool is_level : {true, false}) {
-        std::size_t n = 0, pts = 0; double len = 0;
+        std::size_t n = 0, pts = 0;
+        double len = 0;
         for (const Pass& pass : passes) {
-            if ((pass.points.front().tip.z == pass.points[pass.points.size() / 2].tip.z && pass.points.front().tip.z == pass.points.back().tip.z) != is_level) continue;
-            ++n; pts += pass.points.size(); len += test_pieces::length_of({pass});
+            if ((pass.points.front().tip.z == pass.points[pass.points.size() / 2].tip.z &&
+                 pass.points.front().tip.z == pass.points.back().tip.z) != is_level)
+                continue;
+            ++n;
+            pts += pass.points.size();
+            len += test_pieces::length_of({pass});
         }
-        std::printf("  %s: %zu passes, %.1f m, %zu points: %.2f mm a point\n", is_level ? "levels" : "rows", n, 1e-3 * len, pts, len / static_cast<double>(pts));
+        std::printf("  %s: %zu passes, %.1f m, %zu points: %.2f mm a point\n", is_level ? "levels" : "rows", n,
+                    1e-3 * len, pts, len / static_cast<double>(pts));
     }
     const double metres = 1e-3 * test_pieces::length_of(passes);
     std::printf(
