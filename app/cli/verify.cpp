@@ -4,6 +4,7 @@
 #include "app/cli/exit_code.h"
 #include "app/cli/project_arguments.h"
 #include "app/cli/version.h"
+#include "app/project/project_folder.h"
 #include "app/project/verify_jobs.h"
 #include "app/report/verify_report.h"
 #include "base/error.h"

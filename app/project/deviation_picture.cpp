@@ -46,16 +46,10 @@ std::uint8_t index_of(float value) {
     return i;
 }
 
-std::vector<std::uint8_t> colours_of(const TriangleMesh& mesh, std::span<const float> deviation) {
+std::vector<std::uint8_t> colours_of(std::span<const float> deviation) {
     std::vector<std::uint8_t> colours;
-    colours.reserve(mesh.triangles.size());
-    for (const Triangle& triangle : mesh.triangles) {
-        float farthest = 0;
-        for (const std::uint32_t corner : triangle) {
-            if (std::abs(deviation[corner]) > std::abs(farthest)) farthest = deviation[corner];
-        }
-        colours.push_back(index_of(farthest));
-    }
+    colours.reserve(deviation.size());
+    for (const float value : deviation) colours.push_back(index_of(value));
     return colours;
 }
 
@@ -88,10 +82,10 @@ void paste(Pixels& onto, const Pixels& view, int left) {
 }  // namespace
 
 Bytes deviation_picture(const TriangleMesh& mesh, std::span<const float> deviation) {
-    assert(deviation.size() == mesh.points.size() && !mesh.triangles.empty());
+    assert(deviation.size() == mesh.triangles.size() && !mesh.triangles.empty());
     std::array<Rgb, ranges.size()> palette;
     for (std::size_t i = 0; i < ranges.size(); ++i) palette[i] = ranges[i].colour;
-    const std::vector<std::uint8_t> colours = colours_of(mesh, deviation);
+    const std::vector<std::uint8_t> colours = colours_of(deviation);
     ColouredMesh coloured{&mesh, bone_colour, {}};
     coloured.palette = palette;
     coloured.colour_of = colours;

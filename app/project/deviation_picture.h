@@ -12,9 +12,8 @@
 
 namespace qchopper {
 
-// One value (mm) per point of the mesh: positive where foam stays, negative where the piece was cut into. A triangle
-// has the colour of the value of its corners that lies farthest from 0. Preconditions: the mesh has a triangle, one
-// value per point.
+// One value (mm) per triangle: positive where foam stays, negative where the piece was cut into. Preconditions: the
+// mesh has a triangle, one value per triangle.
 Bytes deviation_picture(const TriangleMesh& mesh, std::span<const float> deviation);
 
 }  // namespace qchopper

@@ -24,7 +24,10 @@ PieceJob job_of(const JobOrder& order) {
     Bytes bytes = read_job(order.file);
     const ReadJob read = parse_job(bytes, order.file.string());
     check_ordered(read, order);
-    PieceJob job{order.piece, std::move(bytes), job_ticket(read, order.file.filename().string())};
+    PieceJob job;
+    job.piece = order.piece;
+    job.file = std::move(bytes);
+    job.ticket = job_ticket(read, order.file.filename().string());
     if (read.program) {
         job.part = read.program->part.number;
         job.parts = read.program->part.count;

@@ -31,7 +31,7 @@ struct JobProof {
     std::vector<ProofFigure> figures;
     std::vector<VerdictFinding> findings;  // at most most_listed_findings
     std::size_t findings_left_out = 0;
-    std::vector<float> deviation;  // mm, per point of the mesh: positive where foam stays, negative where it is cut
+    std::vector<float> deviation;  // mm, per triangle: positive where foam stays, negative where it is cut into
     double time_s = 0;
     double length_mm = 0;
     bool is_proven() const { return findings.empty() && !figures.empty(); }

@@ -29,7 +29,7 @@ std::vector<Pose> frames_of(const Setup& setup, const Cell& cell) {
 ProgramInput program_of(const ProgramPart& part, std::size_t number, std::size_t count, const Toolpath& toolpath) {
     ProgramInput input;
     input.program.entry = part.entry;
-    for (const PostedFile& file : part.files) {
+    for (const ProgramText& file : part.files) {
         input.program.files.push_back(file.name);
         input.texts[file.name] = file.text;
     }
