@@ -11,6 +11,7 @@
 #include "cam/toolpath/tip_surface.h"
 #include "segment/mesh/measure.h"
 #include "tests/cam/toolpath/replay.h"
+#include "tests/shapes.h"
 
 namespace qchopper::bench {
 namespace {
@@ -61,22 +62,35 @@ void measure_finishing(const Setup& setup, const TriangleMesh& mesh, double cell
     const HeightMap tip = tip_surface(map, tool);
     const HeightMap closing = remaining_surface(tip, tool);
     const double mapped = cpu_s();
-    CellMask region(map.height.size(), 0);
-    const float lowest = *std::min_element(map.height.begin(), map.height.end());
+    SurfaceLeft surface(mesh, std::nullopt);
+    const FinishingRegion region = surface.take(closing, 0.125 + 0.75 * cell, 2);
     double carved = 0;
-    for (std::size_t i = 0; i < region.size(); ++i) region[i] = map.height[i] > lowest + 0.01F ? 1 : 0;
     FinishingOptions options;
     options.rounding = rounding;
     const double ready = cpu_s();
     const std::vector<Pass> passes = finishing_passes(tip, tool, region, options);
     const double end = cpu_s();
     const auto points = test_pieces::surface_points(mesh, map, 1);
-    for (const auto& p : points) carved += test_pieces::foam_over(closing, p, 0.5) < 0.5 ? p.area : 0;
+    for (const auto& p : points) carved += p.area;
     const std::size_t count = test_pieces::points_of(passes);
     std::size_t rounded = 0;
     for (const Pass& pass : passes) {
         rounded += static_cast<std::size_t>(
             std::count_if(pass.points.begin(), pass.points.end(), [](const PassPoint& p) { return p.is_rounded; }));
+    }
+    for (const bool is_level : {true, false}) {
+        std::size_t n = 0, pts = 0;
+        double len = 0;
+        for (const Pass& pass : passes) {
+            if ((pass.points.front().tip.z == pass.points[pass.points.size() / 2].tip.z &&
+                 pass.points.front().tip.z == pass.points.back().tip.z) != is_level)
+                continue;
+            ++n;
+            pts += pass.points.size();
+            len += test_pieces::length_of({pass});
+        }
+        std::printf("  %s: %zu passes, %.1f m, %zu points: %.2f mm a point\n", is_level ? "levels" : "rows", n,
+                    1e-3 * len, pts, len / static_cast<double>(pts));
     }
     const double metres = 1e-3 * test_pieces::length_of(passes);
     std::printf(
@@ -112,13 +126,14 @@ int main(int argc, char** argv) {
     using namespace qchopper::bench;
     const std::string name = argc > 1 ? argv[1] : "igea_268k.ply";
     const double size = argc > 2 ? std::atof(argv[2]) : 500;
-    const auto mesh = scan(default_data() / name, 1);
+    const auto mesh = scan(default_data() / (name == "ball" ? "igea_268k.ply" : name), 1);
     if (!mesh) return 1;
     const Vec3 box = bounds(*mesh).size();
     TriangleMesh scaled = *mesh;
     for (Vec3& p : scaled.points) p = (size / std::max({box.x, box.y, box.z})) * p;
+    if (name == "ball") scaled = shapes::ball({0, 0, 0}, 0.5 * size, 200);
     const auto setup = standing(scaled);
-    for (const double cell : {0.5, 0.25, 0.2}) measure_tips(setup, scaled, cell);
-    for (const double cell : {0.5, 0.25}) measure_finishing(setup, scaled, cell, argc > 3 ? std::atof(argv[3]) : 5);
+    for (const double cell : {0.5}) measure_tips(setup, scaled, cell);
+    for (const double cell : {0.25}) measure_finishing(setup, scaled, cell, argc > 3 ? std::atof(argv[3]) : 5);
     return 0;
 }

@@ -55,18 +55,22 @@ struct SideSlopes {
     double mean_y() const { return 0.5 * (y[0] + y[1]); }
 };
 
-// Whether the tool touches a cell of the region.
-bool touches(const HeightMap& tip, const CellMask& region, double radius, std::size_t column, std::size_t row) {
+// Whether the tool touches what belongs to the region.
+bool touches(const HeightMap& tip, const FinishingRegion& region, double radius, std::size_t column, std::size_t row) {
     const SideSlopes slopes(tip, column, row);
     const auto cell_at = [&](double x, std::size_t count) {
         return static_cast<std::size_t>(std::clamp(std::floor(x), 0.0, static_cast<double>(count - 1)));
     };
     for (const double x : slopes.x) {
         for (const double y : slopes.y) {
-            const double away = radius / tip.cell / std::sqrt(1 + x * x + y * y);
+            const double upright = 1 / std::sqrt(1 + x * x + y * y);
+            const double away = radius / tip.cell * upright;
             const std::size_t c = cell_at(static_cast<double>(column) + 0.5 + away * x, tip.columns);
             const std::size_t r = cell_at(static_cast<double>(row) + 0.5 + away * y, tip.rows);
-            if (region[r * tip.columns + c] != 0) return true;
+            const double height = static_cast<double>(tip.at(column, row)) + radius * (1 - upright);
+            // On a slope the point may be as much lower as it is off by a cell.
+            const double rise = std::min(radius, tip.cell * std::hypot(x, y));
+            if (height + rise + tip.cell >= static_cast<double>(region[r * tip.columns + c])) return true;
         }
     }
     return false;
@@ -77,7 +81,8 @@ struct FinishingMasks {
     CellMask steep;
 };
 
-FinishingMasks masks_of(const HeightMap& tip, const CellMask& region, double radius, double least_slope) {
+// The cells at which the tool touches the region, by how steep the tip surface is there.
+FinishingMasks masks_of(const HeightMap& tip, const FinishingRegion& region, double radius, double least_slope) {
     FinishingMasks masks;
     masks.flat.assign(tip.height.size(), 0);
     masks.steep.assign(tip.height.size(), 0);
@@ -93,17 +98,25 @@ FinishingMasks masks_of(const HeightMap& tip, const CellMask& region, double rad
     return masks;
 }
 
+CellMask both(CellMask a, const CellMask& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) a[i] = a[i] != 0 && b[i] != 0 ? 1 : 0;
+    return a;
+}
+
+CellMask either(CellMask a, const CellMask& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) a[i] = a[i] != 0 || b[i] != 0 ? 1 : 0;
+    return a;
+}
+
 // Cells that hang together, and how far apart their heights are.
 class SteepPatches {
  public:
-    SteepPatches(const HeightMap& tip, FinishingMasks& masks) : tip_(tip), masks_(masks) {}
+    SteepPatches(const HeightMap& tip, FinishingMasks& masks) : tip_(tip), masks_(masks), rest_(masks.steep) {}
 
     // Patches lower than a height belong to the flat cells: rows go over them.
     void give_low_ones_to_flat(double height) {
-        CellMask is_seen(tip_.height.size(), 0);
-        for (std::size_t i = 0; i < is_seen.size(); ++i) {
-            if (masks_.steep[i] == 0 || is_seen[i] != 0) continue;
-            if (collect(i, is_seen) >= height) continue;
+        for (std::size_t i = 0; i < rest_.size(); ++i) {
+            if (rest_[i] == 0 || collect(i) >= height) continue;
             for (const std::size_t cell : patch_) {
                 masks_.steep[cell] = 0;
                 masks_.flat[cell] = 1;
@@ -112,9 +125,9 @@ class SteepPatches {
     }
 
  private:
-    double collect(std::size_t first, CellMask& is_seen) {
+    double collect(std::size_t first) {
         patch_.assign(1, first);
-        is_seen[first] = 1;
+        rest_[first] = 0;
         float low = tip_.height[first];
         float high = low;
         for (std::size_t k = 0; k < patch_.size(); ++k) {
@@ -122,21 +135,22 @@ class SteepPatches {
             low = std::min(low, tip_.height[cell]);
             high = std::max(high, tip_.height[cell]);
             const std::size_t column = cell % tip_.columns;
-            if (column > 0) visit(cell - 1, is_seen);
-            if (column + 1 < tip_.columns) visit(cell + 1, is_seen);
-            if (cell >= tip_.columns) visit(cell - tip_.columns, is_seen);
-            if (cell + tip_.columns < tip_.height.size()) visit(cell + tip_.columns, is_seen);
+            if (column > 0) visit(cell - 1);
+            if (column + 1 < tip_.columns) visit(cell + 1);
+            if (cell >= tip_.columns) visit(cell - tip_.columns);
+            if (cell + tip_.columns < tip_.height.size()) visit(cell + tip_.columns);
         }
         return static_cast<double>(high) - static_cast<double>(low);
     }
-    void visit(std::size_t cell, CellMask& is_seen) {
-        if (masks_.steep[cell] == 0 || is_seen[cell] != 0) return;
-        is_seen[cell] = 1;
+    void visit(std::size_t cell) {
+        if (rest_[cell] == 0) return;
+        rest_[cell] = 0;
         patch_.push_back(cell);
     }
 
     const HeightMap& tip_;
     FinishingMasks& masks_;
+    CellMask rest_;  // cells that are of no patch yet
     std::vector<std::size_t> patch_;
 };
 
@@ -147,19 +161,29 @@ double finishing_step(const CarvingTool& tool, const FinishingOptions& options) 
     return chord_for_scallop(0.5 * tool.diameter, options.scallop);
 }
 
-std::vector<Pass> finishing_passes(const HeightMap& tip, const CarvingTool& tool, const CellMask& region,
+std::vector<Pass> finishing_passes(const HeightMap& tip, const CarvingTool& tool, const FinishingRegion& region,
                                    const FinishingOptions& options, const Context& context) {
     const double step = finishing_step(tool, options);
     assert(region.size() == tip.height.size());
+    const double radius = 0.5 * tool.diameter;
     const double least_slope = std::tan(options.steep_deg * std::numbers::pi / 180);
-    FinishingMasks masks = masks_of(tip, region, 0.5 * tool.diameter, least_slope);
+    FinishingMasks masks = masks_of(tip, region, radius, least_slope);
     context.check_cancelled();
     SteepPatches(tip, masks).give_low_ones_to_flat(0.5 * step);
-    const RasterOptions common{0.5 * tool.diameter, options.scallop, options.path_tolerance, 0.5 * step,
-                               options.rounding};
-    std::vector<Pass> passes = level_passes(tip, masks.steep, least_slope, common, context);
+    // Passes go on beyond the cells, but not over an edge down to where there is nothing to finish.
+    const auto by = static_cast<std::size_t>(std::ceil(0.5 * step / tip.cell));
+    const FinishingRegion wide_region = grown(region, tip.columns, tip.rows, by);
+    CellMask visited;
+    {
+        const FinishingMasks wide = masks_of(tip, wide_region, radius, least_slope);
+        visited = either(wide.flat, wide.steep);
+    }
+    const RasterOptions common{radius, options.scallop, options.path_tolerance, 0.5 * step, options.rounding};
+    const CellMask steep = grown(masks.steep, tip.columns, tip.rows, by);
+    std::vector<Pass> passes = level_passes(tip, {masks.steep, steep}, wide_region, least_slope, common, context);
     context.check_cancelled();
-    std::vector<Pass> rows = raster_passes(tip, masks.flat, common, context);
+    const CellMask flat = both(grown(masks.flat, tip.columns, tip.rows, 2 * by), visited);
+    std::vector<Pass> rows = raster_passes(tip, {masks.flat, flat}, common, context);
     std::move(rows.begin(), rows.end(), std::back_inserter(passes));
     return passes;
 }

@@ -11,8 +11,8 @@
 
 #include "base/context.h"
 #include "cam/cell/carving_tool.h"
+#include "cam/toolpath/finishing_region.h"
 #include "cam/toolpath/pass.h"
-#include "cam/toolpath/tip_view.h"
 
 namespace qchopper {
 
@@ -27,12 +27,12 @@ struct FinishingOptions {
 // The largest distance between neighbouring passes. Throws InputError (use) as finishing_passes does.
 double finishing_step(const CarvingTool& tool, const FinishingOptions& options);
 
-// `tip` is the tip surface of the tool, raised where holder and spindle ask for it; `region` has the cells of the
-// surface that are to be finished. First the levels from above, then the rows. Throws InputError (use) if the scallop
-// height, the path tolerance or the slope is not above zero, a value is not finite, the scallop height is above the
-// radius of the tool, or the tool is no ball. O(cells + length of the passes / cell * gates that a straight
-// line passes).
-std::vector<Pass> finishing_passes(const HeightMap& tip, const CarvingTool& tool, const CellMask& region,
+// `tip` is the tip surface of the tool, raised where holder and spindle ask for it; `region` says which of the surface
+// is to be finished; passes go half a step beyond it. First the levels from above, then the rows. Throws InputError
+// (use) if the scallop height, the path tolerance or the slope is not above zero, a value is not finite, the scallop
+// height is above the radius of the tool, or the tool is no ball. O(cells + length of the passes / cell * gates that a
+// straight line passes).
+std::vector<Pass> finishing_passes(const HeightMap& tip, const CarvingTool& tool, const FinishingRegion& region,
                                    const FinishingOptions& options, const Context& context = {});
 
 }  // namespace qchopper

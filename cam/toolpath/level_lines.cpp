@@ -94,7 +94,7 @@ class LineJoiner {
                     is_used[at] = 1;
                     add(line, first[at].to);
                 }
-                if (is_closed && line.points.size() > 1 && line.points.front() == line.points.back()) {
+                if (is_closed && line.points.size() > 1 && line.points.front().at == line.points.back().at) {
                     line.points.pop_back();
                 }
                 if (line.points.size() >= (is_closed ? 3U : 2U)) lines.push_back(std::move(line));
@@ -104,21 +104,22 @@ class LineJoiner {
 
  private:
     void add(LevelLine& line, std::uint64_t side) const {
-        const Point2 p = crossing(side);
-        if (line.points.empty() || !(line.points.back() == p)) line.points.push_back(p);
+        const LevelPoint p = crossing(side);
+        if (line.points.empty() || !(line.points.back().at == p.at)) line.points.push_back(p);
     }
 
-    Point2 crossing(std::uint64_t side) const {
+    LevelPoint crossing(std::uint64_t side) const {
         const std::size_t cell = side / 2;
         const bool is_upright = side % 2 != 0;
         const std::size_t other = is_upright ? cell + tip_.columns : cell + 1;
         const double a = static_cast<double>(tip_.height[cell]);
         const double b = static_cast<double>(tip_.height[other]);
         double t = (z_ - a) / (b - a);
-        if (std::abs(b - a) > jump_) t = a < b ? 0 : 1;
+        const bool is_at_edge = std::abs(b - a) > jump_;
+        if (is_at_edge) t = a < b ? 0 : 1;
         const double x = (static_cast<double>(cell % tip_.columns) + 0.5 + (is_upright ? 0 : t)) * tip_.cell;
         const double y = (static_cast<double>(cell / tip_.columns) + 0.5 + (is_upright ? t : 0)) * tip_.cell;
-        return {x, y};
+        return {{x, y}, is_at_edge};
     }
 
     const HeightMap& tip_;

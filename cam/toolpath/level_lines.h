@@ -13,9 +13,16 @@
 
 namespace qchopper {
 
+struct LevelPoint {
+    Point2 at;
+    bool is_at_edge = false;  // all of the fall is here, up to a cell's width beside where the edge is
+    bool operator==(const LevelPoint&) const = default;
+};
+
 struct LevelLine {
     std::size_t level = 0;
-    std::vector<Point2> points;  // at least two, no two neighbours the same; of a closed line the first is not repeated
+    // At least two, no two neighbours the same; of a closed line the first is not repeated.
+    std::vector<LevelPoint> points;
     bool is_closed = false;
 };
 

@@ -210,15 +210,15 @@ Pass pass_along(const LevelLine& line, double z, const LevelGates& gates, const 
     return pass;
 }
 
-// Of the lines of a level between others the parts that are needed.
-std::vector<LevelLine> needed_parts(const std::vector<LevelLine>& lines, const LevelNeed& need, const Levels& levels,
-                                    double gap, double overlap) {
+// The parts of lines whose points hold a condition, and what is at most `overlap` beside them along the line.
+template <class Holds>
+std::vector<LevelLine> parts_where(const std::vector<LevelLine>& lines, double overlap, const Holds& holds) {
     std::vector<std::vector<LevelLine>> by_line(lines.size());
     parallel_for(0, lines.size(), [&](std::size_t i) {
         const LevelLine& line = lines[i];
         std::vector<std::uint8_t> marks(line.points.size(), 0);
         for (std::size_t k = 0; k < marks.size(); ++k) {
-            marks[k] = need.holds(line.points[k].at, levels.height(line.level), gap) ? 1 : 0;
+            marks[k] = holds(line.points[k].at, line.level) ? 1 : 0;
         }
         if (std::find(marks.begin(), marks.end(), 1) == marks.end()) return;
         grow_marks(line, marks, overlap);
@@ -237,26 +237,53 @@ double lowest_of(const HeightMap& tip, const CellMask& mask) {
     return lowest;
 }
 
+// Whether a ball whose tip is on a level touches the region: where it touches, steeply, is its radius uphill and as
+// much higher.
+class LevelContact {
+ public:
+    LevelContact(const HeightMap& tip, const FinishingRegion& region, double radius, double slack)
+        : smooth_(tip), region_(region), radius_(radius), slack_(slack) {}
+
+    bool holds(Point2 p, double z) const {
+        const Point2 slope = smooth_.gradient(p);
+        const double upright = 1 / std::sqrt(1 + slope.x * slope.x + slope.y * slope.y);
+        const Point2 contact{p.x + radius_ * upright * slope.x, p.y + radius_ * upright * slope.y};
+        return z + radius_ * (1 - upright) + slack_ >= static_cast<double>(region_[smooth_.cell(contact)]);
+    }
+
+ private:
+    SmoothTip smooth_;
+    const FinishingRegion& region_;
+    double radius_;
+    double slack_;
+};
+
 }  // namespace
 
-std::vector<Pass> level_passes(const HeightMap& tip, const CellMask& mask, double least_slope,
-                               const RasterOptions& options, const Context& context) {
-    assert(mask.size() == tip.height.size() && options.scallop > 0 && options.path_tolerance > 0 && least_slope > 0);
-    const auto by = static_cast<std::size_t>(std::ceil(options.overlap / tip.cell));
-    const CellMask wide = grown(mask, tip.columns, tip.rows, by);
-    const double lowest = lowest_of(tip, wide);
+std::vector<Pass> level_passes(const HeightMap& tip, const PassCells& cells, const FinishingRegion& region,
+                               double least_slope, const RasterOptions& options, const Context& context) {
+    assert(cells.wanted.size() == tip.height.size() && cells.allowed.size() == tip.height.size());
+    assert(options.scallop > 0 && options.path_tolerance > 0 && least_slope > 0);
+    const double lowest = lowest_of(tip, cells.allowed);
     if (!std::isfinite(lowest)) return {};
     const double sine = least_slope / std::hypot(1, least_slope);
     const double step = sine * chord_for_scallop(options.radius, options.scallop);
     // A little above the lowest cell, where single precision may leave the floor uneven.
     const Levels levels{lowest + 1e-3, step / halvings};
     const double jump = std::sqrt(options.radius * tip.cell);
-    const LevelNeed need(tip, mask, options);
-    std::vector<LevelLine> lines = level_lines(tip, wide, levels, halvings, 0, jump);
+    const LevelContact contact(tip, region, options.radius, step);
+    std::vector<LevelLine> lines =
+        parts_where(level_lines(tip, cells.allowed, levels, halvings, 0, jump), options.overlap,
+                    [&](Point2 p, std::size_t level) { return contact.holds(p, levels.height(level)); });
+    const LevelNeed need(tip, cells.wanted, options);
     for (std::size_t gap = halvings / 2; gap > 0; gap /= 2) {
         context.check_cancelled();
-        std::vector<LevelLine> between = level_lines(tip, wide, levels, 2 * gap, gap, jump);
-        between = needed_parts(between, need, levels, levels.step * static_cast<double>(gap), options.overlap);
+        const double distance_up = levels.step * static_cast<double>(gap);
+        std::vector<LevelLine> between = parts_where(level_lines(tip, cells.allowed, levels, 2 * gap, gap, jump),
+                                                     options.overlap, [&](Point2 p, std::size_t level) {
+                                                         const double z = levels.height(level);
+                                                         return need.holds(p, z, distance_up) && contact.holds(p, z);
+                                                     });
         std::move(between.begin(), between.end(), std::back_inserter(lines));
     }
     // From above.

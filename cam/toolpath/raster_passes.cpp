@@ -55,38 +55,39 @@ double row_density(const StretchCounts& counts, double pitch, double chord) {
     return sum;
 }
 
-// Runs of marked cells; a gap of at most `gap` is bridged.
-template <class IsMarked>
-void add_parts(RowParts& parts, std::size_t row, std::size_t first, std::size_t end, std::size_t gap,
-               const IsMarked& is_marked) {
+// Runs of marked cells; a gap of at most `gap` is bridged where that is possible.
+template <class IsMarked, class CanBridge>
+void add_parts(RowParts& parts, const RowPart& range, std::size_t gap, const IsMarked& is_marked,
+               const CanBridge& can_bridge) {
     const std::size_t before = parts.size();
-    for (std::size_t c = first; c < end; ++c) {
+    for (std::size_t c = range.first; c < range.end; ++c) {
         if (!is_marked(c)) continue;
-        if (parts.size() > before && c - parts.back().end <= gap) {
+        if (parts.size() > before && c - parts.back().end <= gap && can_bridge(parts.back().end - 1, c)) {
             parts.back().end = c + 1;
         } else {
-            parts.push_back({row, c, c + 1});
+            parts.push_back({range.row, c, c + 1});
         }
     }
 }
 
 class Raster {
  public:
-    Raster(const TipView& view, const CellMask& mask, const RasterOptions& options, std::size_t pitch)
-        : view_(view), mask_(mask), options_(options), pitch_(pitch) {
+    Raster(const TipView& view, const PassCells& cells, const RasterOptions& options, std::size_t pitch)
+        : view_(view), cells_(cells), options_(options), pitch_(pitch) {
         overlap_ = static_cast<std::size_t>(std::ceil(options.overlap / view.cell()));
+        jump_ = std::sqrt(options.radius * view.cell());
     }
 
-    // Rows over `wide`, the grown mask, and between them.
-    RowParts parts(const CellMask& wide) const {
+    RowParts parts() const {
         const std::size_t rows = (view_.rows() + pitch_ - 1) / pitch_;
         std::vector<RowParts> by_row(rows);
         parallel_for(0, rows, [&](std::size_t i) {
             const std::size_t row = std::min(i * pitch_ + pitch_ / 2, view_.rows() - 1);
-            add_parts(by_row[i], row, 0, view_.columns(), 2 * pitch_,
-                      [&](std::size_t c) { return wide[view_.index(c, row)] != 0; });
-            const std::size_t next = std::min(row + pitch_, view_.rows() - 1);
-            lay_between(by_row[i], row, next, {{row, 0, view_.columns()}});
+            const RowPart whole{row, 0, view_.columns()};
+            add_parts(
+                by_row[i], whole, 2 * pitch_, [&](std::size_t c) { return is_allowed(c, row); },
+                [&](std::size_t from, std::size_t to) { return is_smooth(row, from, to); });
+            lay_between(by_row[i], row, std::min(row + pitch_, view_.rows() - 1), {whole});
         });
         RowParts all;
         for (const RowParts& some : by_row) all.insert(all.end(), some.begin(), some.end());
@@ -94,8 +95,18 @@ class Raster {
     }
 
  private:
+    bool is_allowed(std::size_t column, std::size_t row) const { return cells_.allowed[view_.index(column, row)] != 0; }
+
+    // Whether the tip surface has no edge between two columns.
+    bool is_smooth(std::size_t row, std::size_t from, std::size_t to) const {
+        for (std::size_t c = from; c < to; ++c) {
+            if (std::abs(view_.at(c + 1, row) - view_.at(c, row)) > jump_) return false;
+        }
+        return true;
+    }
+
     bool is_needed(std::size_t column, std::size_t low, std::size_t middle, std::size_t high) const {
-        if (mask_[view_.index(column, middle)] == 0) return false;
+        if (cells_.wanted[view_.index(column, middle)] == 0) return false;
         const double z_low = view_.at(column, low);
         const double z_high = view_.at(column, high);
         const double step = view_.cell() * static_cast<double>(high - low);
@@ -107,23 +118,32 @@ class Raster {
         return scallop_height(options_.radius, step * stretch(along, across), bulge) > options_.scallop;
     }
 
+    // With the overlap at both ends, as far as it is allowed.
+    RowPart extended(RowPart part) const {
+        const std::size_t first = part.first - std::min(part.first, overlap_);
+        const std::size_t end = std::min(part.end + overlap_, view_.columns());
+        while (part.first > first && is_allowed(part.first - 1, part.row)) --part.first;
+        while (part.end < end && is_allowed(part.end, part.row)) ++part.end;
+        return part;
+    }
+
     void lay_between(RowParts& found, std::size_t low, std::size_t high, const RowParts& where) const {
         if (high < low + 2) return;
         const std::size_t middle = (low + high) / 2;
         RowParts needed;
-        for (const RowPart& part : where) {
-            add_parts(needed, middle, part.first, part.end, 2 * pitch_,
-                      [&](std::size_t c) { return is_needed(c, low, middle, high); });
+        for (RowPart part : where) {
+            part.row = middle;
+            add_parts(
+                needed, part, 2 * pitch_, [&](std::size_t c) { return is_needed(c, low, middle, high); },
+                [&](std::size_t from, std::size_t to) { return is_smooth(middle, from, to); });
         }
         if (needed.empty()) return;
-        for (RowPart part : needed) {
-            part.first -= std::min(part.first, overlap_);
-            part.end = std::min(part.end + overlap_, view_.columns());
-            const bool joins = !found.empty() && found.back().row == middle && found.back().end >= part.first;
-            if (joins) {
-                found.back().end = std::max(found.back().end, part.end);
+        for (const RowPart& part : needed) {
+            const RowPart longer = extended(part);
+            if (!found.empty() && found.back().row == middle && found.back().end >= longer.first) {
+                found.back().end = std::max(found.back().end, longer.end);
             } else {
-                found.push_back(part);
+                found.push_back(longer);
             }
         }
         lay_between(found, low, middle, needed);
@@ -131,10 +151,11 @@ class Raster {
     }
 
     const TipView& view_;
-    const CellMask& mask_;
+    const PassCells& cells_;
     const RasterOptions& options_;
     std::size_t pitch_;
     std::size_t overlap_ = 0;
+    double jump_ = 0;
 };
 
 // Where the tip surface falls so far from one middle to the next that the tool would cut into an edge between them, the
@@ -201,15 +222,14 @@ Pitch best_pitch(const HeightMap& tip, const CellMask& mask, const RasterOptions
 
 }  // namespace
 
-std::vector<Pass> raster_passes(const HeightMap& tip, const CellMask& mask, const RasterOptions& options,
+std::vector<Pass> raster_passes(const HeightMap& tip, const PassCells& cells, const RasterOptions& options,
                                 const Context& context) {
-    assert(mask.size() == tip.height.size() && options.scallop > 0 && options.path_tolerance > 0);
-    const Pitch pitch = best_pitch(tip, mask, options);
+    assert(cells.wanted.size() == tip.height.size() && cells.allowed.size() == tip.height.size());
+    assert(options.scallop > 0 && options.path_tolerance > 0);
+    const Pitch pitch = best_pitch(tip, cells.wanted, options);
     const TipView view(tip, pitch.is_turned);
     context.check_cancelled();
-    const auto by = std::max(pitch.cells, static_cast<std::size_t>(std::ceil(options.overlap / tip.cell)));
-    const CellMask wide = grown(mask, tip.columns, tip.rows, by);
-    RowParts parts = Raster(view, mask, options, pitch.cells).parts(wide);
+    RowParts parts = Raster(view, cells, options, pitch.cells).parts();
     parts.erase(std::remove_if(parts.begin(), parts.end(), [](const RowPart& p) { return p.end < p.first + 2; }),
                 parts.end());
     std::stable_sort(parts.begin(), parts.end(), [](const RowPart& a, const RowPart& b) { return a.row < b.row; });

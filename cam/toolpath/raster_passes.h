@@ -20,11 +20,11 @@ struct RasterOptions {
     double rounding = 0;  // as in ReductionOptions
 };
 
-// Rows over the cells of the mask, and beyond them by the overlap. Between two rows further ones are laid where the
-// scallop would be higher; nothing is checked beside the mask. They run along whichever axis of the map gives the less
-// length. Points lie over the middles of cells. Preconditions: the mask has the size of the map, 0 < scallop <= radius,
+// Rows over the cells that are allowed. Between two rows further ones are laid where the scallop would be higher over
+// wanted cells, and the overlap beside them. They run along whichever axis of the map gives the less length. Points lie
+// over the middles of cells. Preconditions: the masks have the size of the map, 0 < scallop <= radius,
 // path_tolerance > 0.
-std::vector<Pass> raster_passes(const HeightMap& tip, const CellMask& mask, const RasterOptions& options,
+std::vector<Pass> raster_passes(const HeightMap& tip, const PassCells& cells, const RasterOptions& options,
                                 const Context& context = {});
 
 }  // namespace qchopper

@@ -17,6 +17,12 @@ namespace qchopper {
 // One byte a cell, row by row as HeightMap::height; 0: not in it.
 using CellMask = std::vector<std::uint8_t>;
 
+// What is to be finished, and the cells beside it over which passes may go as well.
+struct PassCells {
+    CellMask wanted;
+    CellMask allowed;
+};
+
 class TipView {
  public:
     TipView(const HeightMap& map, bool is_turned) : map_(&map), is_turned_(is_turned) {}
