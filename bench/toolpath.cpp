@@ -99,6 +99,7 @@ void measure_finishing(const Setup& setup, const TriangleMesh& mesh, double cell
         cell, mapped - begin, end - ready, passes.size(), metres, count,
         100.0 * static_cast<double>(rounded) / static_cast<double>(count), 1e-6 * carved, metres / (1e-6 * carved),
         static_cast<double>(count) / (1e-6 * carved), 46e-6 * static_cast<double>(count) / (1e-6 * carved));
+    if (map.height.size() > 4000000) return;
     HeightMap stock = map;
     std::fill(stock.height.begin(), stock.height.end(), 1e6F);
     const HeightMap left = test_pieces::replayed(stock, passes, tool);

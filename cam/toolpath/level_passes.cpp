@@ -167,7 +167,9 @@ class LevelGates {
         for (std::ptrdiff_t i = 0; i < count; ++i) {
             const bool is_end = !line.is_closed && (i == 0 || i + 1 == count);
             if (!is_end && is_straight(point(i - 1).at, point(i).at, point(i + 1).at)) continue;
-            gates.push_back(gate(point(i - around).at, point(i), point(i + around).at, z));
+            LevelPoint at = point(i);
+            for (std::ptrdiff_t k = -around; k <= around; ++k) at.is_at_edge = at.is_at_edge || point(i + k).is_at_edge;
+            gates.push_back(gate(point(i - around).at, at, point(i + around).at, z));
         }
         if (line.is_closed) gates.push_back(gates.front());
         return gates;
@@ -184,16 +186,17 @@ class LevelGates {
         return std::abs(in.x * out.y - in.y * out.x) < 1e-9 && in.x * out.x + in.y * out.y > 0;
     }
 
-    // To the left of the line; narrow where the surface rises above the level again. At an edge wider by what the line
-    // is uncertain, so that the path does not follow its steps.
+    // To the left of the line; narrow where the surface rises above the level again. At an edge, and between its steps,
+    // wider by what the line is uncertain, so that the path does not follow the steps.
     Gate gate(Point2 before, const LevelPoint& point, Point2 after, double z) const {
         const Point2 at = point.at;
         const double length = std::max(distance(before, after), 1e-9);
         const Point2 left{-(after.y - before.y) / length, (after.x - before.x) / length};
         double width = tolerance_ + (point.is_at_edge ? 0.75 * cell_ : 0);
-        const auto end = [&] { return Point2{at.x + width * left.x, at.y + width * left.y}; };
-        while (width > 0.01 * tolerance_ && smooth_.height(end()) > z + 1e-4) width *= 0.5;
-        return {at, end()};
+        const auto beside = [&](double far) { return Point2{at.x + far * left.x, at.y + far * left.y}; };
+        // A cell farther, because next to an edge the interpolated surface is too high.
+        if (smooth_.height(beside(width + cell_)) > z) width = 0.01 * tolerance_;
+        return {at, beside(width)};
     }
 
     SmoothTip smooth_;

@@ -12,6 +12,8 @@
 
 #include "base/error.h"
 #include "cam/setup/holder_limit.h"
+#include "cam/toolpath/finishing.h"
+#include "cam/toolpath/finishing_region.h"
 #include "cam/toolpath/in_process_stock.h"
 #include "cam/toolpath/links.h"
 #include "cam/toolpath/roughing.h"
@@ -22,7 +24,9 @@ namespace {
 
 constexpr double cells_per_radius = 6;  // of the tool of the roughing, in the maps of foam
 constexpr double border_cells = 6;
-constexpr double skin_cells = 2.5;  // by which foam may be known as more than it is
+constexpr double surface_spacing = 1;  // mm, between points that are asked what is left over them
+constexpr double clear_of_table = 2;   // mm
+constexpr double skin_cells = 2.5;     // by which foam may be known as more than it is
 
 // Height along a direction, in setup coordinates, in which the tool comes and goes (carving_poses.h).
 double retract_height(const Setup& setup, Vec3 out, double clearance) {
@@ -42,7 +46,8 @@ class ToolpathMaker {
           settings_(settings),
           context_(context),
           tools_(choose_tools(machine_, settings)),
-          stock_(setup) {
+          stock_(setup),
+          left_(mesh, setup.base, surface_spacing) {
         check_settings(settings, machine_, tools_);
         coarse_cell_ = 0.5 * machine_.tools[tools_.roughing].diameter / cells_per_radius;
         double widest = 0;
@@ -52,9 +57,13 @@ class ToolpathMaker {
 
     Toolpath make() {
         const std::size_t directions = setup_.reach.directions.size();
-        total_ = 2 * directions;
+        total_ = (tools_.fine ? 4 : 3) * directions;
         for (std::size_t d = 0; d < directions; ++d) rough_along(d, tools_.roughing);
         for (std::size_t d = 0; d < directions; ++d) rough_along(d, tools_.finishing);
+        for (std::size_t d = 0; d < directions; ++d) finish_along(d, tools_.finishing, OperationKind::finishing);
+        for (std::size_t d = 0; d < directions && tools_.fine; ++d) {
+            finish_along(d, *tools_.fine, OperationKind::fine_finishing);
+        }
         report();
         if (toolpath_.operations.empty()) {
             throw InputError(InputFault::use, "the toolpath is empty: no tool has anything to cut",
@@ -111,7 +120,49 @@ class ToolpathMaker {
         if (!is_first) {
             options = {operation.step_down, settings_.allowance + skin_cells * coarse_cell_};
         }
-        add(std::move(operation), space, rough(space, tool, body_of(tool_index), operation, options, context_));
+        std::vector<PathRun> runs = rough(space, tool, body_of(tool_index), operation, options, context_);
+        add(std::move(operation), space, std::move(runs));
+    }
+
+    void finish_along(std::size_t direction, std::size_t tool_index, OperationKind kind) {
+        report();
+        const CarvingTool& tool = machine_.tools[tool_index];
+        FinishingOptions options;
+        options.scallop = kind == OperationKind::finishing ? settings_.scallop : settings_.fine_scallop;
+        options.path_tolerance = settings_.path_tolerance;
+        options.rounding = settings_.rounding;
+        Operation operation = new_operation(direction, tool_index, kind);
+        operation.step = finishing_step(tool, options);
+        operation.scallop = options.scallop;
+        operation.rounding = settings_.rounding;
+        // The ball goes below the base, so that it carves the sides down to it, but not into the table.
+        const double floor_z = std::max(-0.5 * tool.diameter, clear_of_table - setup_.spoil);
+        HeightMap tip;
+        const FinishingRegion region = finishing_region(operation, floor_z, tip);
+        const bool is_empty = std::all_of(region.begin(), region.end(), [](float low) { return low == not_finished; });
+        if (is_empty) return;
+        const HeightMap coarse = target(direction, coarse_cell_, 0);
+        CarvingSpace space = space_of(coarse, operation);
+        space.tip_limit = &tip;
+        space.holder_limit = holder_limit_over(space.foam, body_of(tool_index));
+        std::vector<Pass> passes = finishing_passes(tip, tool, region, options, context_);
+        RunBuilder runs(space, tool, operation, {});
+        runs.add(clipped(passes, space, tool));
+        std::vector<PathRun> joined = runs.finish();
+        add(std::move(operation), space, std::move(joined));
+    }
+
+    // What the operation finishes; leaves the tip surface in `tip`.
+    FinishingRegion finishing_region(const Operation& operation, double floor_z, HeightMap& tip) {
+        const CarvingTool& tool = machine_.tools[operation.tool];
+        const HeightMap piece = target(operation.direction, settings_.cell, floor_z);
+        tip = tip_surface(piece, tool);
+        raise_to_holder(tip, piece, body_of(operation.tool), setup_.piece_in_setup);
+        const bool is_fine = operation.kind == OperationKind::fine_finishing;
+        const double near = operation.scallop + settings_.cell;
+        FinishingRegion region = left_.take(remaining_surface(tip, tool), near, operation.step, is_fine ? near : 0);
+        if (operation.direction == 0 && !is_fine) add_floor_band(region, piece, tool.diameter);
+        return region;
     }
 
     Operation new_operation(std::size_t direction, std::size_t tool, OperationKind kind) const {
@@ -140,6 +191,7 @@ class ToolpathMaker {
     const Context& context_;
     ToolChoice tools_;
     InProcessStock stock_;
+    SurfaceLeft left_;
     double coarse_cell_ = 1;
     double border_ = 0;
     std::size_t done_ = 0;

@@ -11,8 +11,8 @@
 namespace qchopper::test_pieces {
 namespace {
 
-constexpr double touch = 0.02;            // mm that count as contact only
-constexpr std::size_t holder_every = 12;  // places
+constexpr double touch = 0.1;             // mm that count as contact only
+constexpr std::size_t holder_every = 20;  // places
 
 }  // namespace
 
@@ -105,10 +105,10 @@ void PlainReplay::carve(const Operation& operation) {
         }
         for (const PathMove& move : run.moves) {
             const double length = norm(move.tip - at);
-            const auto parts = static_cast<std::size_t>(length / 0.7) + 1;
+            const auto parts = static_cast<std::size_t>(length / 1.4) + 1;
             for (std::size_t i = 0; i <= parts; ++i) {
                 const Vec3 tip = at + (static_cast<double>(i) / static_cast<double>(parts)) * (move.tip - at);
-                stand(operation, tip, move.kind, i == parts || i % holder_every == 0);
+                stand(operation, tip, move.kind, places_++ % holder_every == 0);
             }
             at = move.tip;
         }

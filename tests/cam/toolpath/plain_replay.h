@@ -43,6 +43,7 @@ class PlainReplay {
     std::size_t count_[3] = {0, 0, 0};
     std::vector<Vec3> points_;
     std::vector<std::uint8_t> is_foam_;
+    std::size_t places_ = 0;
     ReplayFaults faults_;
 };
 
