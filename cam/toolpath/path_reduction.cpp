@@ -15,6 +15,7 @@ namespace qchopper {
 namespace {
 
 constexpr std::size_t places = 3;  // on a gate: right end, middle, left end
+constexpr double widest = 1.5;     // how far from the right end rounded corners may be, in widths
 
 Point2 minus(Point2 a, Point2 b) {
     return {a.x - b.x, a.y - b.y};
@@ -71,7 +72,7 @@ class GateWedge {
     bool is_bounded_ = false;
 };
 
-struct Corner {
+struct GatePlace {
     std::size_t gate = 0;
     std::size_t place = 0;
 };
@@ -105,15 +106,15 @@ class FewestCorners {
             is_closed ? 1 : static_cast<std::size_t>(std::min_element(last.begin(), last.end()) - last.begin());
     }
 
-    std::vector<Corner> corners() const {
-        std::vector<Corner> path{end_};
+    std::vector<GatePlace> corners() const {
+        std::vector<GatePlace> path{end_};
         while (path.back().gate > 0) path.push_back(before_[path.back().gate][path.back().place]);
         std::reverse(path.begin(), path.end());
         return path;
     }
 
  private:
-    void extend(Corner from) {
+    void extend(GatePlace from) {
         GateWedge wedge(place(gates_[from.gate], from.place));
         const PathCost so_far = cost_[from.gate][from.place];
         const std::size_t end = std::min(gates_.size(), from.gate + 1 + reach_);
@@ -132,8 +133,8 @@ class FewestCorners {
     const std::vector<Gate>& gates_;
     std::size_t reach_;
     std::vector<std::array<PathCost, places>> cost_;
-    std::vector<std::array<Corner, places>> before_;
-    Corner end_;
+    std::vector<std::array<GatePlace, places>> before_;
+    GatePlace end_;
 };
 
 // Where a point is between the exact line and its left limit: 0 on the line, 1 on the limit; gates [first, last].
@@ -158,44 +159,51 @@ double place_beside(const std::vector<Gate>& gates, std::size_t first, std::size
     return found;
 }
 
-Point2 at(const std::vector<Gate>& gates, Corner corner) {
-    return place(gates[corner.gate], corner.place);
-}
+// A corner of a path, and the gate on which it lies.
+struct PathCorner {
+    std::size_t gate = 0;
+    Point2 at;
+};
 
-bool can_round(const std::vector<Gate>& gates, const std::array<Corner, 3>& corner, double rounding) {
-    const std::array<Point2, 3> p{at(gates, corner[0]), at(gates, corner[1]), at(gates, corner[2])};
-    const double before = length(minus(p[0], p[1]));
-    const double behind = length(minus(p[2], p[1]));
-    const double a = std::min(rounding, 0.5 * std::min(before, behind));
+bool can_round(const std::vector<Gate>& gates, const PathCorner& before, const PathCorner& corner,
+               const PathCorner& behind, double rounding) {
+    const double side_before = length(minus(before.at, corner.at));
+    const double side_behind = length(minus(behind.at, corner.at));
+    const double a = std::min(rounding, 0.5 * std::min(side_before, side_behind));
     if (!(a > 0)) return false;
-    const Point2 begin = between(p[1], p[0], a / before);
-    const Point2 end = between(p[1], p[2], a / behind);
+    const Point2 begin = between(corner.at, before.at, a / side_before);
+    const Point2 end = between(corner.at, behind.at, a / side_behind);
     for (const double t : {0.25, 0.5, 0.75}) {
-        const Point2 on_parabola = between(between(begin, p[1], t), between(p[1], end, t), t);
-        const double beside = place_beside(gates, corner[0].gate, corner[2].gate, on_parabola);
-        if (beside < -0.02 || beside > 1.02) return false;
+        const Point2 on_parabola = between(between(begin, corner.at, t), between(corner.at, end, t), t);
+        const double beside = place_beside(gates, before.gate, behind.gate, on_parabola);
+        if (beside < -0.02 || beside > widest + 0.02) return false;
     }
     return true;
 }
 
 // Whether a straight line passes all gates between two corners.
-bool passes(const std::vector<Gate>& gates, Corner from, Corner to) {
-    GateWedge wedge(at(gates, from));
+bool passes(const std::vector<Gate>& gates, const PathCorner& from, const PathCorner& to) {
+    GateWedge wedge(from.at);
     for (std::size_t i = from.gate + 1; i < to.gate; ++i) {
         if (!wedge.narrow(gates[i])) return false;
     }
-    return wedge.holds(at(gates, to));
+    return wedge.holds(to.at);
 }
 
-// Moves corners that cannot be rounded to another place on their gate, if they can be rounded there.
-void move_to_round(std::vector<Corner>& corners, const std::vector<Gate>& gates, double rounding) {
+// Moves corners that cannot be rounded to another place on their gate, or beside it as far as is allowed, if they can
+// be rounded there.
+void move_to_round(std::vector<PathCorner>& corners, const std::vector<Gate>& gates, double rounding) {
+    std::vector<Gate> wide = gates;
+    for (Gate& gate : wide) gate.left = between(gate.right, gate.left, widest);
     for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-        if (can_round(gates, {corners[i - 1], corners[i], corners[i + 1]}, rounding)) continue;
-        for (std::size_t k = 0; k < places; ++k) {
-            const Corner moved{corners[i].gate, k};
-            if (k == corners[i].place || !passes(gates, corners[i - 1], moved) ||
-                !passes(gates, moved, corners[i + 1]) ||
-                !can_round(gates, {corners[i - 1], moved, corners[i + 1]}, rounding)) {
+        const PathCorner& before = corners[i - 1];
+        const PathCorner& behind = corners[i + 1];
+        if (can_round(gates, before, corners[i], behind, rounding)) continue;
+        for (const double t : {0.0, 0.5, 1.0, widest}) {
+            const Gate& gate = gates[corners[i].gate];
+            const PathCorner moved{corners[i].gate, between(gate.right, gate.left, t)};
+            if (!passes(wide, before, moved) || !passes(wide, moved, behind) ||
+                !can_round(gates, before, moved, behind, rounding)) {
                 continue;
             }
             corners[i] = moved;
@@ -209,16 +217,18 @@ void move_to_round(std::vector<Corner>& corners, const std::vector<Gate>& gates,
 std::vector<ReducedPoint> reduced_path(const std::vector<Gate>& gates, bool is_closed,
                                        const ReductionOptions& options) {
     assert(gates.size() >= 2);
-    std::vector<Corner> corners = FewestCorners(gates, is_closed, options.reach).corners();
+    std::vector<PathCorner> corners;
+    for (const GatePlace& found : FewestCorners(gates, is_closed, options.reach).corners()) {
+        corners.push_back({found.gate, place(gates[found.gate], found.place)});
+    }
     if (options.rounding > 0) move_to_round(corners, gates, options.rounding);
     std::vector<ReducedPoint> path;
     path.reserve(corners.size());
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        ReducedPoint point{at(gates, corners[i]), false};
-        if (i > 0 && i + 1 < corners.size()) {
-            point.is_rounded = can_round(gates, {corners[i - 1], corners[i], corners[i + 1]}, options.rounding);
-        }
-        path.push_back(point);
+        const bool is_end = i == 0 || i + 1 == corners.size();
+        path.push_back(
+            {corners[i].at, !is_end && options.rounding > 0 &&
+                                can_round(gates, corners[i - 1], corners[i], corners[i + 1], options.rounding)});
     }
     return path;
 }
