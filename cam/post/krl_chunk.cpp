@@ -135,7 +135,7 @@ void KrlChunks::add_description(const RunRange& range, std::size_t order, std::s
 KrlText KrlChunks::run(const ProgramSection& section, const ProgramRun& run, bool is_first, double& speed) const {
     KrlText text;
     std::string before = krl::position(run.start, point_decimals);
-    set_speed(section.link_feed, speed, text);
+    set_speed(run.link_speed, speed, text);
     text.line(is_first ? full_pose(section, run.start) : "LIN {" + before + "}");
     for (const ProgramMove& move : run.moves) {
         std::string here = krl::position(move.tip, point_decimals);
@@ -156,7 +156,6 @@ KrlText KrlChunks::chunk(const RunRange& range, const std::string& name, std::si
     start_extraction(machine_, text);
     start_spindle(machine_, section.rpm, text);
     double speed = 0;
-    set_speed(section.link_feed, speed, text);
     const ProgramRun& first = section.runs[range.first];
     if (range.first > 0) add_joint_move(first.start_joints, section.table_angle, text);
     for (const Joints& target : section.entry.targets) {
@@ -166,12 +165,13 @@ KrlText KrlChunks::chunk(const RunRange& range, const std::string& name, std::si
         text.append(run(section, section.runs[r], r == range.first, speed));
     }
     const std::size_t end = range.first + range.count;
-    set_speed(section.link_feed, speed, text);
     if (end < section.runs.size()) {
+        set_speed(section.runs[end].link_speed, speed, text);
         text.line("LIN {" + krl::position(section.runs[end].start, point_decimals) + "}");
     } else {
         const Vec3 last = section.runs.back().moves.back().tip;
         if (section.exit.raise > 0) {
+            set_speed(section.exit.raise_speed, speed, text);
             text.line("LIN {" + krl::position(last + section.exit.raise * section.out, point_decimals) + "}");
         }
         for (const Joints& target : section.exit.targets) add_joint_move(target, section.table_angle, text);

@@ -84,7 +84,8 @@ bool JointWays::is_clear(const StandingBlock& block, const Joints& from, const J
     return true;
 }
 
-std::optional<Joints> JointWays::raised(const SectionEnd& end, double raise) {
+std::optional<Joints> JointWays::raised(const SectionEnd& end, double raise, double& speed) {
+    speed = end.section->link_feed;
     if (raise == 0) return end.joints;
     const ProgramSection& section = *end.section;
     const std::vector<PathRun> runs{{end.tip, {{end.tip + raise * section.out, MoveKind::retract, false}}}};
@@ -95,6 +96,10 @@ std::optional<Joints> JointWays::raised(const SectionEnd& end, double raise) {
     judge_.judge(block, section.out, path.region, path.region.poses.size(), hold, -rounding, tally);
     if (tally.score() < -rounding) return std::nullopt;
     const ToolArm arm = tool_arm(*cell_.machine->robot, cell_.machine->spindle, slow_tool_);
+    for (std::size_t i = 1; i < path.poses(); ++i) {
+        const double length = norm(path.region.poses[i].tip - path.region.poses[i - 1].tip);
+        speed = std::min(speed, followed_speed(arm.ranges, *judge_.joints()[i - 1], *judge_.joints()[i], length));
+    }
     Joints joints = *judge_.joints().back();
     for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
         joints[axis] += full_turn * std::nearbyint((end.joints[axis] - (*judge_.joints().front())[axis]) / full_turn);
@@ -106,7 +111,8 @@ std::optional<Joints> JointWays::raised(const SectionEnd& end, double raise) {
 std::optional<JointWay> JointWays::from_home(const SectionEnd& end) {
     const StandingBlock block = standing_at(end.section->table_angle);
     for (const double raise : raises) {
-        const std::optional<Joints> goal = raised(end, raise);
+        double speed = 0;
+        const std::optional<Joints> goal = raised(end, raise, speed);
         if (!goal) continue;
         for (std::vector<Joints>& targets : middles(home_, *goal)) {
             targets.push_back(*goal);
@@ -116,7 +122,7 @@ std::optional<JointWay> JointWays::from_home(const SectionEnd& end) {
                 from = to;
                 return is_free_leg;
             });
-            if (is_free) return JointWay{raise, targets};
+            if (is_free) return JointWay{raise, speed, targets};
         }
     }
     return std::nullopt;

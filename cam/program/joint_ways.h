@@ -45,8 +45,8 @@ class JointWays {
     StandingBlock standing_at(double table_angle) const;
     bool is_clear(const StandingBlock& block, const Joints& from, const Joints& to);
     bool is_clear(const StandingBlock& block, const Joints& joints);
-    // The joints at the raised pose, come to on a straight line.
-    std::optional<Joints> raised(const SectionEnd& end, double raise);
+    // The joints at the raised pose, come to on a straight line, and the speed of that.
+    std::optional<Joints> raised(const SectionEnd& end, double raise, double& speed);
 
     const Setup& setup_;
     const Cell& cell_;

@@ -4,9 +4,11 @@
 #include "cam/program/make_program.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <numbers>
@@ -59,6 +61,22 @@ std::size_t most_lines(const Cell& cell) {
     return std::max(fewest_lines, most > lines_around ? most - lines_around : 0);
 }
 
+// Where lowered speeds change so often that the lines to state them exceed what a chunk holds: the lowest of each kind
+// for all moves of the run.
+void limit_speed_changes(ProgramRun& run, std::size_t lines) {
+    std::size_t needed = run.moves.size() + 1;
+    std::array<double, 4> lowest;  // by MoveKind
+    lowest.fill(std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < run.moves.size(); ++i) {
+        const ProgramMove& move = run.moves[i];
+        double& own = lowest[static_cast<std::size_t>(move.kind)];
+        own = std::min(own, move.speed);
+        if (i > 0 && move.speed != run.moves[i - 1].speed) ++needed;
+    }
+    if (needed <= lines) return;
+    for (ProgramMove& move : run.moves) move.speed = lowest[static_cast<std::size_t>(move.kind)];
+}
+
 // One operation.
 class OperationHolder {
  public:
@@ -68,7 +86,8 @@ class OperationHolder {
           operation_(operation),
           context_(context),
           most_lines_(section_lines(cell)),
-          runs_(split_long_runs(operation.runs, most_lines(cell), search_.out(), operation.retract)) {}
+          most_lines_of_run_(most_lines(cell)),
+          runs_(split_long_runs(operation.runs, most_lines_of_run_, search_.out(), operation.retract)) {}
 
     std::vector<HeldSection> sections(const std::string& where) {
         std::vector<HeldSection> held;
@@ -82,6 +101,7 @@ class OperationHolder {
                 continue;
             }
             held.push_back({search_.section(rest, path, longest), extents_of(longest.joints)});
+            for (ProgramRun& run : held.back().section.runs) limit_speed_changes(run, most_lines_of_run_);
             first += longest.runs;
         }
         return held;
@@ -132,6 +152,7 @@ class OperationHolder {
     const Operation& operation_;
     const Context& context_;
     std::size_t most_lines_ = 0;  // of a section
+    std::size_t most_lines_of_run_ = 0;
     std::vector<PathRun> runs_;
 };
 
@@ -199,6 +220,7 @@ class SectionJoiner {
             turn_table(own, angle);
             angle = own.table_angle;
             own.entry = way(own, {own.runs.front().start, own.runs.front().start_joints, &own});
+            own.runs.front().link_speed = own.entry.raise_speed;
             own.exit = way(own, {own.runs.back().moves.back().tip, own.runs.back().end_joints, &own});
             own.exit.targets.pop_back();
             std::reverse(own.exit.targets.begin(), own.exit.targets.end());
