@@ -123,6 +123,10 @@ class OperationHolder {
         const std::string refusal = search_.refusal();
         const PathRun run = runs_[at];
         for (std::size_t count = moves_within(run, path, longest.poses); count > 0; count = count * 3 / 4) {
+            const auto end = run.moves.begin() + static_cast<std::ptrdiff_t>(count);
+            const bool has_cut =
+                std::any_of(run.moves.begin(), end, [](const PathMove& move) { return move.kind == MoveKind::cut; });
+            if (!has_cut) break;
             if (count >= run.moves.size()) continue;
             auto [head, tail] = split_run(run, count, search_.out(), operation_.retract);
             const std::vector<PathRun> alone{head};
@@ -136,16 +140,16 @@ class OperationHolder {
                              "place the block otherwise, or carve from other directions");
     }
 
-    // Moves of the first run whose ends are among the first poses; an approach alone removes nothing.
+    // Moves of the first run whose ends are among the first poses.
     static std::size_t moves_within(const PathRun& run, const SampledPath& path, std::size_t poses) {
         std::size_t end = path.first.front();
         Vec3 tip = run.start;
         for (std::size_t i = 0; i < run.moves.size(); ++i) {
             end += sample_steps(tip, run.moves[i].tip);
             tip = run.moves[i].tip;
-            if (end >= poses) return i > 1 ? i : 0;
+            if (end >= poses) return i;
         }
-        return run.moves.size() - 1;
+        return run.moves.size();
     }
 
     HoldSearch search_;

@@ -33,13 +33,15 @@ TEST(SplitRun, RetractsAndComesBack) {
     for (std::size_t count = 1; count < run.moves.size(); ++count) {
         const auto [head, tail] = split_run(run, count, tilted, 400);
         EXPECT_EQ(head.start, run.start);
-        EXPECT_EQ(head.moves.size() + tail.moves.size(), run.moves.size() + 2);
+        EXPECT_EQ(head.moves.size() + tail.moves.size(), run.moves.size() + 3);
         EXPECT_FALSE(head.moves[count - 1].is_rounded);
         EXPECT_EQ(head.moves.back().kind, MoveKind::retract);
         EXPECT_NEAR(dot(tilted, head.moves.back().tip), 400, 1e-9);
         EXPECT_NEAR(norm(cross(tilted, head.moves.back().tip - run.moves[count - 1].tip)), 0, 1e-9);
         EXPECT_EQ(tail.start, head.moves.back().tip);
-        EXPECT_EQ(tail.moves.front(), (PathMove{run.moves[count - 1].tip, MoveKind::approach, false}));
+        const Vec3 tip = run.moves[count - 1].tip;
+        EXPECT_EQ(tail.moves[0], (PathMove{tip + 5.0 * tilted, MoveKind::link, false}));
+        EXPECT_EQ(tail.moves[1], (PathMove{tip, MoveKind::approach, false}));
     }
 }
 
@@ -47,19 +49,19 @@ TEST(SplitRun, KeepsRunsUnderTheirLines) {
     std::mt19937 random(2);
     for (int i = 0; i < 50; ++i) {
         const PathRun run = random_run(random, 400);
-        const std::size_t lines = std::uniform_int_distribution<std::size_t>(8, 600)(random);
+        const std::size_t lines = std::uniform_int_distribution<std::size_t>(12, 600)(random);
         const std::vector<PathRun> parts = split_long_runs({run, run}, lines, tilted, 400);
         std::vector<Vec3> tips;
         for (const PathRun& part : parts) {
             EXPECT_LE(lines_of(part), lines);
             for (const PathMove& move : part.moves) {
-                if (move.kind == MoveKind::cut || move.kind == MoveKind::link) tips.push_back(move.tip);
+                if (move.kind == MoveKind::cut) tips.push_back(move.tip);
             }
         }
         std::vector<Vec3> expected;
         for (int twice = 0; twice < 2; ++twice) {
             for (const PathMove& move : run.moves) {
-                if (move.kind == MoveKind::cut || move.kind == MoveKind::link) expected.push_back(move.tip);
+                if (move.kind == MoveKind::cut) expected.push_back(move.tip);
             }
         }
         EXPECT_EQ(tips, expected);
