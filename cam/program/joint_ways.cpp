@@ -16,7 +16,8 @@ namespace qchopper {
 namespace {
 
 constexpr double full_turn = 2 * std::numbers::pi;
-constexpr double longest_step = 2 * std::numbers::pi / 180;
+constexpr double longest_step = 0.5 * std::numbers::pi / 180;  // some 20 mm of the tip
+constexpr double coarse_step = 2 * std::numbers::pi / 180;
 constexpr double longest_table_step = 5 * std::numbers::pi / 180;
 constexpr double rounding = 1e-9;  // of relative margins
 constexpr std::array<double, 5> raises{0, 50, 100, 200, 400};
@@ -74,10 +75,10 @@ bool JointWays::is_clear(const StandingBlock& block, const Joints& joints) {
     return false;
 }
 
-bool JointWays::is_clear(const StandingBlock& block, const Joints& from, const Joints& to) {
+bool JointWays::is_clear(const StandingBlock& block, const Joints& from, const Joints& to, double step) {
     double change = 0;
     for (std::size_t i = 0; i < axes_of_arm; ++i) change = std::max(change, std::abs(to[i] - from[i]));
-    const int steps = steps_of(change, longest_step);
+    const int steps = steps_of(change, step);
     for (int i = 0; i <= steps; ++i) {
         if (!is_clear(block, between(from, to, static_cast<double>(i) / steps))) return false;
     }
@@ -118,7 +119,7 @@ std::optional<JointWay> JointWays::from_home(const SectionEnd& end) {
             targets.push_back(*goal);
             Joints from = home_;
             const bool is_free = std::all_of(targets.begin(), targets.end(), [&](const Joints& to) {
-                const bool is_free_leg = is_clear(block, from, to);
+                const bool is_free_leg = is_clear(block, from, to, longest_step);
                 from = to;
                 return is_free_leg;
             });
@@ -126,6 +127,10 @@ std::optional<JointWay> JointWays::from_home(const SectionEnd& end) {
         }
     }
     return std::nullopt;
+}
+
+bool JointWays::starts_clear(const SectionEnd& end) {
+    return is_clear(standing_at(end.section->table_angle), home_, end.joints, coarse_step);
 }
 
 bool JointWays::turns_clear(double from_angle, double to_angle) {

@@ -208,7 +208,7 @@ Pose tool_orientation(const Spindle& spindle, const CarvingTool& tool, Vec3 out,
 // Turns whole sections so that they begin near home, and finds the ways there and back.
 class SectionJoiner {
  public:
-    SectionJoiner(const Setup& setup, const Cell& cell) : cell_(cell) {
+    SectionJoiner(const Setup& setup, const Cell& cell) : setup_(setup), cell_(cell) {
         for (std::size_t i = 0; i < cell.machine->tools.size(); ++i) {
             ways_.push_back(std::make_unique<JointWays>(setup, cell, i));
         }
@@ -229,6 +229,7 @@ class SectionJoiner {
             own.exit.targets.pop_back();
             std::reverse(own.exit.targets.begin(), own.exit.targets.end());
             own.exit.targets.push_back(cell_.machine->start.joints);
+            find_restarts(own);
             context.progress("ways to sections found", i + 1, all.size());
         }
         if (!all.empty()) turn_table(all.back().section, 0);
@@ -256,6 +257,18 @@ class SectionJoiner {
         }
     }
 
+    // The runs at which a person may start again from home.
+    void find_restarts(ProgramSection& section) const {
+        constexpr std::size_t runs_at_once = 16;
+        parallel_ranges(0, section.runs.size(), runs_at_once, [&](std::size_t first, std::size_t last) {
+            JointWays ways(setup_, cell_, section.tool);
+            for (std::size_t r = first; r < last; ++r) {
+                ProgramRun& run = section.runs[r];
+                run.starts_from_home = ways.starts_clear({run.start, run.start_joints, &section});
+            }
+        });
+    }
+
     void turn_table(const ProgramSection& section, double from) {
         JointWays& ways = *ways_[section.tool];
         if (ways.turns_clear(from, section.table_angle)) return;
@@ -274,6 +287,7 @@ class SectionJoiner {
                              "choose another start pose, or place the block otherwise");
     }
 
+    const Setup& setup_;
     const Cell& cell_;
     std::vector<std::unique_ptr<JointWays>> ways_;  // by tool
 };

@@ -57,7 +57,8 @@ struct ProgramRun {
     Vec3 start;
     Joints start_joints{};
     Joints end_joints{};
-    double link_speed = 0;  // from the end of the run before, or from the raised start
+    double link_speed = 0;          // from the end of the run before, or from the raised start
+    bool starts_from_home = false;  // whether a joint move from home to its start is clear
     std::vector<ProgramMove> moves;
     bool operator==(const ProgramRun&) const = default;
 };

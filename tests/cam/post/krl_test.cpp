@@ -361,6 +361,31 @@ TEST(PostKrl, GivesTheSameBytesForAnyNumberOfThreadsAndAnyLocale) {
     EXPECT_EQ(again, parts);
 }
 
+// A stop is not lost where a place is stated twice, and no corner is rounded where a run ends.
+TEST(PostKrl, RoundsNoCornerThatIsAStop) {
+    Program program = program_of(jobs()[0]);
+    program.sections.resize(1);
+    program.sections[0].runs.resize(1);
+    std::vector<ProgramMove>& moves = program.sections[0].runs[0].moves;
+    moves = {{{1, 2, 3}, MoveKind::approach, false, 60},
+             {{10, 2, 3}, MoveKind::cut, true, 100},
+             {{10.001, 2, 3}, MoveKind::cut, false, 100},
+             {{20, 2, 3}, MoveKind::cut, true, 100},
+             {{30, 2, 3}, MoveKind::cut, true, 100}};
+    const auto lines = [&] {
+        std::vector<std::string> found;
+        for (const ScannedLine& line : scan(post_krl(program, jobs()[0].cell, {7})[0].files[2].text)) {
+            if (line.word == "LIN" && line.names.size() == 3) found.push_back(line.text.substr(4));
+        }
+        found.resize(4);
+        return found;
+    };
+    EXPECT_EQ(lines(), (std::vector<std::string>{"{X 1.00,Y 2.00,Z 3.00}", "{X 10.00,Y 2.00,Z 3.00}",
+                                                 "{X 20.00,Y 2.00,Z 3.00} C_DIS", "{X 30.00,Y 2.00,Z 3.00}"}));
+    program.sections[0].rounding = 0;
+    EXPECT_EQ(lines()[2], "{X 20.00,Y 2.00,Z 3.00}");
+}
+
 TEST(PostKrl, RefusesOtherDialectsAndMissingSignals) {
     const Job& job = jobs()[0];
     const Program program = program_of(job);

@@ -129,6 +129,15 @@ void expect_held(const Job& job, const Program& program) {
         EXPECT_LT(largest_step(*start, way.back()), 1e-6);
         ASSERT_FALSE(section.exit.targets.empty());
         EXPECT_EQ(section.exit.targets.back(), program.home);
+        for (const ProgramRun& run : section.runs) {
+            if (run.starts_from_home) expect_way_clear(job, section, {program.home, run.start_joints});
+        }
+        way = section.exit.targets;
+        const Vec3 end = section.runs.back().moves.back().tip + section.exit.raise * section.out;
+        const std::optional<Joints> raised_end = joints_at(job, section, end, section.runs.back().end_joints);
+        ASSERT_TRUE(raised_end);
+        way.insert(way.begin(), *raised_end);
+        expect_way_clear(job, section, way);
     }
 }
 

@@ -15,7 +15,7 @@ ProgramSection straight(double length, double speed) {
     ProgramSection section;
     section.out = {0, 0, 1};
     section.link_feed = 300;
-    section.runs = {{{0, 0, 0}, {}, {}, 300, {{{length, 0, 0}, MoveKind::cut, false, speed}}}};
+    section.runs = {{{0, 0, 0}, {}, {}, 300, true, {{{length, 0, 0}, MoveKind::cut, false, speed}}}};
     return section;
 }
 
