@@ -140,6 +140,24 @@ TEST(KrlChunks, PartsAreProgramsOfTheirOwn) {
     }
 }
 
+// Sections that a toolpath makes are small enough for parts of whole sections.
+TEST(KrlChunks, PartsBeginAndEndAtHome) {
+    test_programs::Job job = test_programs::job_in(kr60(), {250, 200, 150}, 35, 200, 2);
+    job.cell.machine->program.memory_bytes = 90'000;
+    const Program program = test_programs::program_of(job);
+    const std::vector<ProgramPart> parts = post_krl(program, job.cell, {7});
+    ASSERT_GT(parts.size(), 2U);
+    for (const ProgramPart& part : parts) {
+        std::size_t bytes = 0;
+        for (const ProgramText& file : part.files) bytes += file.text.size();
+        EXPECT_LE(bytes, 90'000U);
+        EXPECT_TRUE(bytes > 40'000 || part.entry == parts.back().entry) << bytes;
+        EXPECT_EQ(part.chunks.front().first_run, 0U);
+        const PostedChunk& last = part.chunks.back();
+        EXPECT_EQ(last.first_run + last.runs, program.sections[last.section].runs.size());
+    }
+}
+
 TEST(KrlChunks, RefusesAChunkThatDoesNotFit) {
     RandomProgram random(4);
     Cell cell = kr60();
