@@ -19,6 +19,7 @@ constexpr std::size_t longest_name = 24;
 constexpr double most_speed = 5;  // m/s
 constexpr int point_decimals = 2;
 constexpr int speed_decimals = 4;
+constexpr double rounding_unit = 0.001;                // mm, of $APO.CDIS
 constexpr double speed_unit = 0.1;                     // mm/s, of the last decimal in m/s
 constexpr const char* orientation_speed = "100.0000";  // degrees/s
 
@@ -95,7 +96,6 @@ std::string KrlChunks::full_pose(const ProgramSection& section, Vec3 tip) const 
 }
 
 void KrlChunks::add_settings(const ProgramSection& section, KrlText& text) const {
-    constexpr double rounding_unit = 0.001;
     const double rounding = rounding_unit * std::floor(section.rounding / rounding_unit + 1e-6);
     text.line("$ADVANCE = 5");
     add_axis_speeds(text);
@@ -105,6 +105,11 @@ void KrlChunks::add_settings(const ProgramSection& section, KrlText& text) const
     text.line(std::string("$VEL.ORI1 = ") + orientation_speed);
     text.line(std::string("$VEL.ORI2 = ") + orientation_speed);
     text.line("$APO.CDIS = " + krl::number("$APO.CDIS", rounding, 3, 1000.001));
+}
+
+bool KrlChunks::starts_from_home(const RunRange& range) const {
+    const ProgramSection& section = program_.sections[range.section];
+    return range.first == 0 || section.runs[range.first].starts_from_home;
 }
 
 void KrlChunks::add_description(const RunRange& range, std::size_t order, std::size_t total, KrlText& text) const {
@@ -130,19 +135,33 @@ void KrlChunks::add_description(const RunRange& range, std::size_t order, std::s
     text.comment("tool " + std::to_string(tool.number) + ", " + tool.name);
     text.comment("moves of runs: " + std::to_string(moves));
     text.comment("box of the tip in mm: " + box_words(box));
+    text.comment(std::string("start from home: ") +
+                 (starts_from_home(range) ? "free" : "not free, see the chunks before"));
 }
 
+// A place that is stated already is left out; the corner there is rounded only if every move that ends there allows it,
+// and never where a run ends.
 KrlText KrlChunks::run(const ProgramSection& section, const ProgramRun& run, bool is_first, double& speed) const {
+    const bool has_rounding = section.rounding >= rounding_unit;
     KrlText text;
-    std::string before = krl::position(run.start, point_decimals);
-    set_speed(section.link_feed, speed, text);
-    text.line(is_first ? full_pose(section, run.start) : "LIN {" + before + "}");
-    for (const ProgramMove& move : run.moves) {
-        std::string here = krl::position(move.tip, point_decimals);
-        if (here == before) continue;
+    std::string here = krl::position(run.start, point_decimals);
+    set_speed(run.link_speed, speed, text);
+    text.line(is_first ? full_pose(section, run.start) : "LIN {" + here + "}");
+    const auto position_of = [&](std::size_t i) {
+        return i < run.moves.size() ? krl::position(run.moves[i].tip, point_decimals) : std::string();
+    };
+    std::string next = position_of(0);
+    for (std::size_t i = 0; i < run.moves.size();) {
+        const ProgramMove& move = run.moves[i];
+        const std::string own = std::move(next);
+        bool is_rounded = has_rounding && move.is_rounded;
+        for (next = position_of(++i); next == own; next = position_of(++i)) {
+            is_rounded = is_rounded && run.moves[i].is_rounded;
+        }
+        if (own == here) continue;
         set_speed(move.speed, speed, text);
-        text.line("LIN {" + here + (move.is_rounded ? "} C_DIS" : "}"));
-        before = std::move(here);
+        text.line("LIN {" + own + (is_rounded && i < run.moves.size() ? "} C_DIS" : "}"));
+        here = own;
     }
     return text;
 }
@@ -156,7 +175,6 @@ KrlText KrlChunks::chunk(const RunRange& range, const std::string& name, std::si
     start_extraction(machine_, text);
     start_spindle(machine_, section.rpm, text);
     double speed = 0;
-    set_speed(section.link_feed, speed, text);
     const ProgramRun& first = section.runs[range.first];
     if (range.first > 0) add_joint_move(first.start_joints, section.table_angle, text);
     for (const Joints& target : section.entry.targets) {
@@ -166,12 +184,13 @@ KrlText KrlChunks::chunk(const RunRange& range, const std::string& name, std::si
         text.append(run(section, section.runs[r], r == range.first, speed));
     }
     const std::size_t end = range.first + range.count;
-    set_speed(section.link_feed, speed, text);
     if (end < section.runs.size()) {
+        set_speed(section.runs[end].link_speed, speed, text);
         text.line("LIN {" + krl::position(section.runs[end].start, point_decimals) + "}");
     } else {
         const Vec3 last = section.runs.back().moves.back().tip;
         if (section.exit.raise > 0) {
+            set_speed(section.exit.raise_speed, speed, text);
             text.line("LIN {" + krl::position(last + section.exit.raise * section.out, point_decimals) + "}");
         }
         for (const Joints& target : section.exit.targets) add_joint_move(target, section.table_angle, text);

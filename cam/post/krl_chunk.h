@@ -38,6 +38,7 @@ class KrlChunks {
  private:
     void add_base(KrlText& text) const;
     void add_settings(const ProgramSection& section, KrlText& text) const;
+    bool starts_from_home(const RunRange& range) const;
     void add_description(const RunRange& range, std::size_t order, std::size_t total, KrlText& text) const;
     std::string full_pose(const ProgramSection& section, Vec3 tip) const;
 

@@ -20,7 +20,15 @@ constexpr double most_degrees = 3600;
 // An angle of A, B, C in degrees; -180 and 180 are the same, and 180 is written.
 std::string angle(const char* name, double value, int decimals) {
     const std::string text = krl::number(name, degrees * value, decimals, most_degrees);
-    return text == "-180." + std::string(static_cast<std::size_t>(decimals), '0') ? text.substr(1) : text;
+    return text == "-" + fixed(180, decimals) ? text.substr(1) : text;
+}
+
+// Where the decimals make 90 or -90 degrees of B, only A - C or A + C is left: C is 0, as everywhere in a program.
+KukaAngles rounded_gimbal(KukaAngles abc, int decimals) {
+    const double size = std::abs(degrees * abc.b);
+    if (size < 89 || fixed(size, decimals) != fixed(90, decimals)) return abc;
+    const double turn = abc.b > 0 ? abc.a - abc.c : abc.a + abc.c;
+    return {std::remainder(turn, 2 * std::numbers::pi), abc.b, 0};
 }
 
 }  // namespace
@@ -60,7 +68,7 @@ std::string position(Vec3 point, int decimals) {
 }
 
 std::string angles(const Pose& pose, int decimals) {
-    const KukaAngles abc = kuka_angles(pose);
+    const KukaAngles abc = rounded_gimbal(kuka_angles(pose), decimals);
     return ",A " + angle("A", abc.a, decimals) + ",B " + angle("B", abc.b, decimals) + ",C " +
            angle("C", abc.c, decimals);
 }

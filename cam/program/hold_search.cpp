@@ -76,6 +76,15 @@ Vec3 out_in_setup(const Setup& setup, std::size_t direction) {
     return normalized(rotate(setup.piece_in_setup, setup.reach.directions[direction].out));
 }
 
+double followed_speed(const JointRanges& ranges, const Joints& from, const Joints& to, double length) {
+    double speed = std::numeric_limits<double>::infinity();
+    for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
+        const double turned = std::abs(to[axis] - from[axis]);
+        if (turned > 0) speed = std::min(speed, length * ranges[axis].speed / turned);
+    }
+    return speed;
+}
+
 HoldSearch::HoldSearch(const Setup& setup, const WorkEnvelope& envelope, const Cell& cell, const Operation& operation)
     : cell_(cell),
       operation_(operation),
@@ -90,15 +99,6 @@ HoldSearch::HoldSearch(const Setup& setup, const WorkEnvelope& envelope, const C
 double HoldSearch::speed_of(MoveKind kind) const {
     if (kind == MoveKind::approach) return operation_.approach_feed;
     return kind == MoveKind::cut ? operation_.feed : operation_.link_feed;
-}
-
-double HoldSearch::allowed_speed(const Joints& from, const Joints& to, double length) const {
-    double allowed = std::numeric_limits<double>::infinity();
-    for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
-        const double turned = std::abs(to[axis] - from[axis]);
-        if (turned > 0) allowed = std::min(allowed, length * cell_.machine->robot->ranges[axis].speed / turned);
-    }
-    return allowed;
 }
 
 // Where axis 4 or 6 leaves what its range holds, whichever whole turn is taken.
@@ -133,6 +133,7 @@ std::size_t HoldSearch::held_poses(const PoseRegion& region, RegionHold& hold) {
 
 std::size_t HoldSearch::fast_poses(std::span<const PathRun> runs, const SampledPath& path, std::size_t poses) const {
     if (judge_.is_gantry()) return poses;
+    const JointRanges& ranges = cell_.machine->robot->ranges;
     const double least = cell_.machine->tools[operation_.tool].feed_min_mm_per_s;
     for (std::size_t r = 0; r < runs.size() && path.last[r] < poses; ++r) {
         std::size_t at = path.first[r];
@@ -143,7 +144,8 @@ std::size_t HoldSearch::fast_poses(std::span<const PathRun> runs, const SampledP
             tip = move.tip;
             for (std::size_t i = 0; i < steps; ++i, ++at) {
                 if (move.kind != MoveKind::cut || length == 0) continue;
-                if (allowed_speed(*judge_.joints()[at], *judge_.joints()[at + 1], length) < least) return at + 1;
+                const Joints& from = *judge_.joints()[at];
+                if (followed_speed(ranges, from, *judge_.joints()[at + 1], length) < least) return at + 1;
             }
         }
     }
@@ -210,6 +212,45 @@ void HoldSearch::describe_refusal(const MarginTally& tally, const PoseRegion& re
     refusal_ = describe_margin(margin);
 }
 
+// Lowered speeds are whole twentieths of the one that is wanted, so that few lines are needed to state them.
+double HoldSearch::speed_between(const SampledPath& path, const HeldPath& held, std::size_t first, std::size_t last,
+                                 double wanted, double least) const {
+    double speed = wanted;
+    for (std::size_t i = first; i < last && !judge_.is_gantry(); ++i) {
+        const double length = norm(path.region.poses[i + 1].tip - path.region.poses[i].tip);
+        if (length == 0) continue;
+        const JointRanges& ranges = cell_.machine->robot->ranges;
+        speed = std::min(speed, followed_speed(ranges, held.joints[i], held.joints[i + 1], length));
+    }
+    if (speed >= wanted) return wanted;
+    return std::max(std::floor(speed_steps * speed / wanted) / speed_steps * wanted, std::min(least, speed));
+}
+
+ProgramRun HoldSearch::run_of(const PathRun& run, const SampledPath& path, const HeldPath& held, std::size_t index,
+                              std::size_t& lowered) const {
+    const double least = cell_.machine->tools[operation_.tool].feed_min_mm_per_s;
+    ProgramRun made;
+    made.start = run.start;
+    std::size_t at = path.first[index];
+    if (!judge_.is_gantry()) made.start_joints = held.joints[at], made.end_joints = held.joints[path.last[index]];
+    const std::size_t before = index > 0 ? path.last[index - 1] : at;
+    made.link_speed = speed_between(path, held, before, at, operation_.link_feed, 0.5 * least);
+    if (made.link_speed < operation_.link_feed) ++lowered;
+    Vec3 tip = run.start;
+    made.moves.reserve(run.moves.size());
+    for (const PathMove& move : run.moves) {
+        const std::size_t end = at + sample_steps(tip, move.tip);
+        const double wanted = speed_of(move.kind);
+        const double slowest = move.kind == MoveKind::cut ? least : 0.5 * least;
+        const double speed = speed_between(path, held, at, end, wanted, slowest);
+        if (speed < wanted) ++lowered;
+        made.moves.push_back({move.tip, move.kind, move.is_rounded, speed});
+        tip = move.tip;
+        at = end;
+    }
+    return made;
+}
+
 ProgramSection HoldSearch::section(std::span<const PathRun> runs, const SampledPath& path, const HeldPath& held) const {
     ProgramSection section;
     section.tool = operation_.tool;
@@ -220,31 +261,9 @@ ProgramSection HoldSearch::section(std::span<const PathRun> runs, const SampledP
     section.rpm = operation_.rpm;
     section.rounding = operation_.rounding;
     section.link_feed = operation_.link_feed;
-    const double least = cell_.machine->tools[operation_.tool].feed_min_mm_per_s;
+    section.runs.reserve(held.runs);
     for (std::size_t r = 0; r < held.runs; ++r) {
-        ProgramRun run{runs[r].start, {}, {}, {}};
-        std::size_t at = path.first[r];
-        if (!judge_.is_gantry()) run.start_joints = held.joints[at], run.end_joints = held.joints[path.last[r]];
-        Vec3 tip = run.start;
-        for (const PathMove& move : runs[r].moves) {
-            const std::size_t steps = sample_steps(tip, move.tip);
-            const double length = norm(move.tip - tip) / static_cast<double>(steps);
-            const double wanted = speed_of(move.kind);
-            double speed = wanted;
-            for (std::size_t i = 0; i < steps && length > 0 && !judge_.is_gantry(); ++i, ++at) {
-                speed = std::min(speed, allowed_speed(held.joints[at], held.joints[at + 1], length));
-            }
-            if (length == 0 && !judge_.is_gantry()) at += steps;
-            if (speed < wanted) {
-                ++section.lowered_moves;
-                const double stepped = std::floor(speed_steps * speed / wanted) / speed_steps * wanted;
-                speed = move.kind == MoveKind::cut ? std::max(stepped, std::min(least, speed))
-                                                   : std::max(stepped, std::min(0.5 * least, speed));
-            }
-            run.moves.push_back({move.tip, move.kind, move.is_rounded, speed});
-            tip = move.tip;
-        }
-        section.runs.push_back(std::move(run));
+        section.runs.push_back(run_of(runs[r], path, held, r, section.lowered_moves));
     }
     return section;
 }

@@ -58,7 +58,11 @@ class HoldSearch {
     HeldPath final_path(std::span<const PathRun> runs, const SampledPath& path, HeldPath held);
     void describe_refusal(const MarginTally& tally, const PoseRegion& region);
     double speed_of(MoveKind kind) const;
-    double allowed_speed(const Joints& from, const Joints& to, double length) const;
+    // The speed wanted, or a lower one that every joint can follow from pose `first` to `last` of the path.
+    double speed_between(const SampledPath& path, const HeldPath& held, std::size_t first, std::size_t last,
+                         double wanted, double least) const;
+    ProgramRun run_of(const PathRun& run, const SampledPath& path, const HeldPath& held, std::size_t index,
+                      std::size_t& lowered) const;
 
     const Cell& cell_;
     const Operation& operation_;
@@ -69,6 +73,9 @@ class HoldSearch {
     std::vector<RegionHold> candidates_;
     std::string refusal_;
 };
+
+// The largest speed of a tip that goes a length while the joints go from one pose to another: infinite if none turns.
+double followed_speed(const JointRanges& ranges, const Joints& from, const Joints& to, double length);
 
 // The way the tool comes out, a unit vector in setup coordinates.
 Vec3 out_in_setup(const Setup& setup, std::size_t direction);

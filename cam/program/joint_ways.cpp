@@ -16,7 +16,8 @@ namespace qchopper {
 namespace {
 
 constexpr double full_turn = 2 * std::numbers::pi;
-constexpr double longest_step = 2 * std::numbers::pi / 180;
+constexpr double longest_step = 0.5 * std::numbers::pi / 180;  // some 20 mm of the tip
+constexpr double coarse_step = 2 * std::numbers::pi / 180;
 constexpr double longest_table_step = 5 * std::numbers::pi / 180;
 constexpr double rounding = 1e-9;  // of relative margins
 constexpr std::array<double, 5> raises{0, 50, 100, 200, 400};
@@ -74,17 +75,18 @@ bool JointWays::is_clear(const StandingBlock& block, const Joints& joints) {
     return false;
 }
 
-bool JointWays::is_clear(const StandingBlock& block, const Joints& from, const Joints& to) {
+bool JointWays::is_clear(const StandingBlock& block, const Joints& from, const Joints& to, double step) {
     double change = 0;
     for (std::size_t i = 0; i < axes_of_arm; ++i) change = std::max(change, std::abs(to[i] - from[i]));
-    const int steps = steps_of(change, longest_step);
+    const int steps = steps_of(change, step);
     for (int i = 0; i <= steps; ++i) {
         if (!is_clear(block, between(from, to, static_cast<double>(i) / steps))) return false;
     }
     return true;
 }
 
-std::optional<Joints> JointWays::raised(const SectionEnd& end, double raise) {
+std::optional<Joints> JointWays::raised(const SectionEnd& end, double raise, double& speed) {
+    speed = end.section->link_feed;
     if (raise == 0) return end.joints;
     const ProgramSection& section = *end.section;
     const std::vector<PathRun> runs{{end.tip, {{end.tip + raise * section.out, MoveKind::retract, false}}}};
@@ -95,6 +97,10 @@ std::optional<Joints> JointWays::raised(const SectionEnd& end, double raise) {
     judge_.judge(block, section.out, path.region, path.region.poses.size(), hold, -rounding, tally);
     if (tally.score() < -rounding) return std::nullopt;
     const ToolArm arm = tool_arm(*cell_.machine->robot, cell_.machine->spindle, slow_tool_);
+    for (std::size_t i = 1; i < path.poses(); ++i) {
+        const double length = norm(path.region.poses[i].tip - path.region.poses[i - 1].tip);
+        speed = std::min(speed, followed_speed(arm.ranges, *judge_.joints()[i - 1], *judge_.joints()[i], length));
+    }
     Joints joints = *judge_.joints().back();
     for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
         joints[axis] += full_turn * std::nearbyint((end.joints[axis] - (*judge_.joints().front())[axis]) / full_turn);
@@ -106,20 +112,25 @@ std::optional<Joints> JointWays::raised(const SectionEnd& end, double raise) {
 std::optional<JointWay> JointWays::from_home(const SectionEnd& end) {
     const StandingBlock block = standing_at(end.section->table_angle);
     for (const double raise : raises) {
-        const std::optional<Joints> goal = raised(end, raise);
+        double speed = 0;
+        const std::optional<Joints> goal = raised(end, raise, speed);
         if (!goal) continue;
         for (std::vector<Joints>& targets : middles(home_, *goal)) {
             targets.push_back(*goal);
             Joints from = home_;
             const bool is_free = std::all_of(targets.begin(), targets.end(), [&](const Joints& to) {
-                const bool is_free_leg = is_clear(block, from, to);
+                const bool is_free_leg = is_clear(block, from, to, longest_step);
                 from = to;
                 return is_free_leg;
             });
-            if (is_free) return JointWay{raise, targets};
+            if (is_free) return JointWay{raise, speed, targets};
         }
     }
     return std::nullopt;
+}
+
+bool JointWays::starts_clear(const SectionEnd& end) {
+    return is_clear(standing_at(end.section->table_angle), home_, end.joints, coarse_step);
 }
 
 bool JointWays::turns_clear(double from_angle, double to_angle) {

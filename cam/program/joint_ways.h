@@ -1,7 +1,7 @@
 // Joint moves through the air: from home to where a section begins, and from its end home.
 //
-// mm, radians. All axes move linearly together; every pose at most 2 degrees of an axis farther than the one before is
-// judged with the margins of work_envelope.h: limits, arm, tool, holder and spindle against the whole block, table,
+// mm, radians. All axes move linearly together; every pose at most half a degree of an axis farther than the one before
+// is judged with the margins of work_envelope.h: limits, arm, tool, holder and spindle against the whole block, table,
 // floor, obstacles and the arm itself. Not for several threads at once.
 
 #pragma once
@@ -35,6 +35,9 @@ class JointWays {
     // Nothing if none is clear.
     std::optional<JointWay> from_home(const SectionEnd& end);
 
+    // Whether the joint move from home to an end is clear, with poses every 2 degrees.
+    bool starts_clear(const SectionEnd& end);
+
     // Whether home is clear while the table turns from one angle to another.
     bool turns_clear(double from_angle, double to_angle);
 
@@ -43,10 +46,10 @@ class JointWays {
 
  private:
     StandingBlock standing_at(double table_angle) const;
-    bool is_clear(const StandingBlock& block, const Joints& from, const Joints& to);
+    bool is_clear(const StandingBlock& block, const Joints& from, const Joints& to, double step);
     bool is_clear(const StandingBlock& block, const Joints& joints);
-    // The joints at the raised pose, come to on a straight line.
-    std::optional<Joints> raised(const SectionEnd& end, double raise);
+    // The joints at the raised pose, come to on a straight line, and the speed of that.
+    std::optional<Joints> raised(const SectionEnd& end, double raise, double& speed);
 
     const Setup& setup_;
     const Cell& cell_;

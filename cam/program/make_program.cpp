@@ -4,9 +4,11 @@
 #include "cam/program/make_program.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <numbers>
@@ -59,6 +61,22 @@ std::size_t most_lines(const Cell& cell) {
     return std::max(fewest_lines, most > lines_around ? most - lines_around : 0);
 }
 
+// Where lowered speeds change so often that the lines to state them exceed what a chunk holds: the lowest of each kind
+// for all moves of the run.
+void limit_speed_changes(ProgramRun& run, std::size_t lines) {
+    std::size_t needed = run.moves.size() + 1;
+    std::array<double, 4> lowest;  // by MoveKind
+    lowest.fill(std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < run.moves.size(); ++i) {
+        const ProgramMove& move = run.moves[i];
+        double& own = lowest[static_cast<std::size_t>(move.kind)];
+        own = std::min(own, move.speed);
+        if (i > 0 && move.speed != run.moves[i - 1].speed) ++needed;
+    }
+    if (needed <= lines) return;
+    for (ProgramMove& move : run.moves) move.speed = lowest[static_cast<std::size_t>(move.kind)];
+}
+
 // One operation.
 class OperationHolder {
  public:
@@ -68,7 +86,8 @@ class OperationHolder {
           operation_(operation),
           context_(context),
           most_lines_(section_lines(cell)),
-          runs_(split_long_runs(operation.runs, most_lines(cell), search_.out(), operation.retract)) {}
+          most_lines_of_run_(most_lines(cell)),
+          runs_(split_long_runs(operation.runs, most_lines_of_run_, search_.out(), operation.retract)) {}
 
     std::vector<HeldSection> sections(const std::string& where) {
         std::vector<HeldSection> held;
@@ -82,6 +101,7 @@ class OperationHolder {
                 continue;
             }
             held.push_back({search_.section(rest, path, longest), extents_of(longest.joints)});
+            for (ProgramRun& run : held.back().section.runs) limit_speed_changes(run, most_lines_of_run_);
             first += longest.runs;
         }
         return held;
@@ -103,6 +123,10 @@ class OperationHolder {
         const std::string refusal = search_.refusal();
         const PathRun run = runs_[at];
         for (std::size_t count = moves_within(run, path, longest.poses); count > 0; count = count * 3 / 4) {
+            const auto end = run.moves.begin() + static_cast<std::ptrdiff_t>(count);
+            const bool has_cut =
+                std::any_of(run.moves.begin(), end, [](const PathMove& move) { return move.kind == MoveKind::cut; });
+            if (!has_cut) break;
             if (count >= run.moves.size()) continue;
             auto [head, tail] = split_run(run, count, search_.out(), operation_.retract);
             const std::vector<PathRun> alone{head};
@@ -116,22 +140,23 @@ class OperationHolder {
                              "place the block otherwise, or carve from other directions");
     }
 
-    // Moves of the first run whose ends are among the first poses; an approach alone removes nothing.
+    // Moves of the first run whose ends are among the first poses.
     static std::size_t moves_within(const PathRun& run, const SampledPath& path, std::size_t poses) {
         std::size_t end = path.first.front();
         Vec3 tip = run.start;
         for (std::size_t i = 0; i < run.moves.size(); ++i) {
             end += sample_steps(tip, run.moves[i].tip);
             tip = run.moves[i].tip;
-            if (end >= poses) return i > 1 ? i : 0;
+            if (end >= poses) return i;
         }
-        return run.moves.size() - 1;
+        return run.moves.size();
     }
 
     HoldSearch search_;
     const Operation& operation_;
     const Context& context_;
     std::size_t most_lines_ = 0;  // of a section
+    std::size_t most_lines_of_run_ = 0;
     std::vector<PathRun> runs_;
 };
 
@@ -183,7 +208,7 @@ Pose tool_orientation(const Spindle& spindle, const CarvingTool& tool, Vec3 out,
 // Turns whole sections so that they begin near home, and finds the ways there and back.
 class SectionJoiner {
  public:
-    SectionJoiner(const Setup& setup, const Cell& cell) : cell_(cell) {
+    SectionJoiner(const Setup& setup, const Cell& cell) : setup_(setup), cell_(cell) {
         for (std::size_t i = 0; i < cell.machine->tools.size(); ++i) {
             ways_.push_back(std::make_unique<JointWays>(setup, cell, i));
         }
@@ -199,10 +224,12 @@ class SectionJoiner {
             turn_table(own, angle);
             angle = own.table_angle;
             own.entry = way(own, {own.runs.front().start, own.runs.front().start_joints, &own});
+            own.runs.front().link_speed = own.entry.raise_speed;
             own.exit = way(own, {own.runs.back().moves.back().tip, own.runs.back().end_joints, &own});
             own.exit.targets.pop_back();
             std::reverse(own.exit.targets.begin(), own.exit.targets.end());
             own.exit.targets.push_back(cell_.machine->start.joints);
+            find_restarts(own);
             context.progress("ways to sections found", i + 1, all.size());
         }
         if (!all.empty()) turn_table(all.back().section, 0);
@@ -230,6 +257,18 @@ class SectionJoiner {
         }
     }
 
+    // The runs at which a person may start again from home.
+    void find_restarts(ProgramSection& section) const {
+        constexpr std::size_t runs_at_once = 16;
+        parallel_ranges(0, section.runs.size(), runs_at_once, [&](std::size_t first, std::size_t last) {
+            JointWays ways(setup_, cell_, section.tool);
+            for (std::size_t r = first; r < last; ++r) {
+                ProgramRun& run = section.runs[r];
+                run.starts_from_home = ways.starts_clear({run.start, run.start_joints, &section});
+            }
+        });
+    }
+
     void turn_table(const ProgramSection& section, double from) {
         JointWays& ways = *ways_[section.tool];
         if (ways.turns_clear(from, section.table_angle)) return;
@@ -248,6 +287,7 @@ class SectionJoiner {
                              "choose another start pose, or place the block otherwise");
     }
 
+    const Setup& setup_;
     const Cell& cell_;
     std::vector<std::unique_ptr<JointWays>> ways_;  // by tool
 };

@@ -57,6 +57,8 @@ struct ProgramRun {
     Vec3 start;
     Joints start_joints{};
     Joints end_joints{};
+    double link_speed = 0;          // from the end of the run before, or from the raised start
+    bool starts_from_home = false;  // whether a joint move from home to its start is clear
     std::vector<ProgramMove> moves;
     bool operator==(const ProgramRun&) const = default;
 };
@@ -65,6 +67,7 @@ struct ProgramRun {
 struct JointWay {
     // Distance along the section's out between its first start or last end and the pose where joint moves end or begin.
     double raise = 0;
+    double raise_speed = 0;  // that every joint can follow
     std::vector<Joints> targets;
     bool operator==(const JointWay&) const = default;
 };

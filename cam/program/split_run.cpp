@@ -8,7 +8,8 @@
 namespace qchopper {
 namespace {
 
-constexpr double near_the_end = 0.9;  // of the lines of a part
+constexpr double approach_height = 5;  // mm
+constexpr double near_the_end = 0.9;   // of the lines of a part
 
 // Whether two kinds of moves have the same speed.
 bool is_same_speed(MoveKind a, MoveKind b) {
@@ -40,7 +41,11 @@ std::pair<PathRun, PathRun> split_run(const PathRun& run, std::size_t count, Vec
     const Vec3 tip = head.moves.back().tip;
     const Vec3 above = tip + (retract - dot(out, tip)) * out;
     head.moves.push_back({above, MoveKind::retract, false});
-    PathRun tail{above, {{tip, MoveKind::approach, false}}};
+    PathRun tail{above, {}};
+    if (retract - dot(out, tip) > approach_height) {
+        tail.moves.push_back({tip + approach_height * out, MoveKind::link, false});
+    }
+    tail.moves.push_back({tip, MoveKind::approach, false});
     tail.moves.insert(tail.moves.end(), middle, run.moves.end());
     return {std::move(head), std::move(tail)};
 }
@@ -54,7 +59,7 @@ std::size_t lines_of(const PathRun& run) {
 }
 
 std::vector<PathRun> split_long_runs(const std::vector<PathRun>& runs, std::size_t lines, Vec3 out, double retract) {
-    assert(lines >= 8);
+    assert(lines >= 12);
     std::vector<PathRun> parts;
     for (const PathRun& run : runs) {
         PathRun rest = run;

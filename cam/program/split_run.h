@@ -14,7 +14,8 @@
 
 namespace qchopper {
 
-// The first `count` moves with a retract behind them, and an approach to the same point before the others. All moves of
+// The first `count` moves with a retract behind them; before the others a link to 5 mm above the same point and an
+// approach to it. All moves of
 // the run are in one of the two, in their order. Precondition: 0 < count < run.moves.size().
 std::pair<PathRun, PathRun> split_run(const PathRun& run, std::size_t count, Vec3 out, double retract);
 
@@ -22,7 +23,7 @@ std::pair<PathRun, PathRun> split_run(const PathRun& run, std::size_t count, Vec
 std::size_t lines_of(const PathRun& run);
 
 // Runs that need more than `lines` divided, at links where there are some near the end of a part. Precondition: lines
-// is at least 8.
+// is at least 12.
 std::vector<PathRun> split_long_runs(const std::vector<PathRun>& runs, std::size_t lines, Vec3 out, double retract);
 
 }  // namespace qchopper
