@@ -18,13 +18,9 @@
 #include "base/box.h"
 #include "base/pose.h"
 #include "sim/replay/cutter.h"
+#include "sim/replay/foam_interval.h"
 
 namespace qchopper {
-
-struct Interval {
-    double low = 0;
-    double high = 0;
-};
 
 // What a move of the tool did to the foam.
 struct CutResult {
@@ -51,7 +47,7 @@ class Foam {
     // Whether foam is at a point.
     bool is_foam(Vec3 point) const;
     // The intervals of foam on the line from + t * along, for t of [low, high], ascending; `along` of length 1.
-    std::vector<Interval> on_line(Vec3 from, Vec3 along, double low, double high) const;
+    std::vector<FoamInterval> on_line(Vec3 from, Vec3 along, double low, double high) const;
     // Distance from a point to the nearest point that was removed or lies outside of the block, at most `most`; points
     // of cells count at their middles, so that it is too large by at most 0.71 cells. Not for the block's underside.
     double distance_to_removed(Vec3 point, double most) const;
@@ -65,8 +61,5 @@ class Foam {
     double cell_;
     std::vector<std::unique_ptr<FoamMap>> maps_;
 };
-
-// The frame of a direction: z along `out`, the same for the same direction; of (0, 0, 1) the identity.
-Pose direction_frame(Vec3 out);
 
 }  // namespace qchopper
