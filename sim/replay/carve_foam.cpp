@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/text.h"
 #include "cam/cell/machine_bodies.h"
@@ -18,7 +19,9 @@ constexpr double floor_gap = 2;     // mm of the spoil layer that no tool point 
 constexpr double written = 0.011;   // mm: what rounding of coordinates may do to a bound
 constexpr int chords = 6;           // of a parabola
 constexpr double straight = 0.001;  // mm of deviation that needs no parabola
-constexpr double rim_step = 8;      // mm between points of a body that is sampled
+// Of the tool's section: what rounding of a corner leaves standing may be higher than the flute is long.
+constexpr double deep_share = 0.1;
+constexpr double rim_step = 8;  // mm between points of a body that is sampled
 
 class FoamCarver {
  public:
@@ -53,10 +56,12 @@ void FoamCarver::take_line(const TipLine& line, const std::vector<Vec3>& way) {
     if (!line.is_aligned) return;
     CutResult all;
     for (std::size_t i = 0; i + 1 < way.size(); ++i) {
-        const CutResult cut = foam_.cut(line.direction, cutters_[line.tool], way[i], way[i + 1]);
+        const CutResult cut =
+            foam_.cut(line.direction, cutters_[line.tool], tool.flute_length + written, way[i], way[i + 1]);
         all.touches |= cut.touches;
         all.volume += cut.volume;
         all.depth = std::max(all.depth, cut.depth);
+        all.deep_mm2 += cut.deep_mm2;
     }
     const double length = norm(line.to - line.from);
     const bool is_rapid = line.feed > 1.001 * tool.feed_max_mm_per_s;
@@ -93,7 +98,8 @@ void FoamCarver::check_bounds(const TipLine& line, const CarvingTool& tool) {
 void FoamCarver::check_cut(const TipLine& line, const CarvingTool& tool, const CutResult& cut) {
     check_spindle(line, tool);
     check_feed(line, tool);
-    if (cut.depth > tool.flute_length + written) {
+    const double section = 0.25 * std::numbers::pi * tool.diameter * tool.diameter;
+    if (cut.deep_mm2 > deep_share * section) {
         log_.add(FindingKind::deep_cut, line.place, cut.depth, cut.depth, [&] {
             return fixed(cut.depth, 1) + " mm of foam are cut at once, the flute is " + fixed(tool.flute_length, 1) +
                    " mm";

@@ -126,7 +126,7 @@ void for_tiles(const std::vector<std::unique_ptr<FoamMap>>& maps, std::size_t di
 
 }  // namespace
 
-CutResult Foam::cut(std::size_t direction, const Cutter& cutter, Vec3 from, Vec3 to) {
+CutResult Foam::cut(std::size_t direction, const Cutter& cutter, double flute, Vec3 from, Vec3 to) {
     FoamMap& map = *maps_[direction];
     const Vec3 a = apply_inverse(map.frame_in_block, from);
     const Vec3 move = apply_inverse(map.frame_in_block, to) - a;
@@ -161,7 +161,9 @@ CutResult Foam::cut(std::size_t direction, const Cutter& cutter, Vec3 from, Vec3
                 const SweptCutter::Height inside = inner.height(x, y);
                 if (!(a.z + contact_mm + inside.z < removal.top - contact_mm)) continue;
                 result.touches = true;
-                result.depth = std::max(result.depth, removal.top - (a.z + at.tip_z));
+                const double depth = removal.top - (a.z + at.tip_z);
+                result.depth = std::max(result.depth, depth);
+                if (depth > flute) result.deep_mm2 += cell_ * cell_;
             }
         }
     });

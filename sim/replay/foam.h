@@ -27,6 +27,7 @@ struct CutResult {
     bool touches = false;  // removed more than 0.01 mm: with a tool whose surface lies 0.01 mm deeper inside
     double volume = 0;     // mm3
     double depth = 0;      // of the highest foam that was removed above the tip
+    double deep_mm2 = 0;   // of the cells where that is more than `flute`
 };
 
 class FoamMap;
@@ -40,7 +41,7 @@ class Foam {
     Foam& operator=(const Foam&) = delete;
 
     // Removes what the tool sweeps from tip to tip along a direction.
-    CutResult cut(std::size_t direction, const Cutter& cutter, Vec3 from, Vec3 to);
+    CutResult cut(std::size_t direction, const Cutter& cutter, double flute, Vec3 from, Vec3 to);
     // Largest height by which foam stands above the underside of a disc that moves along a direction, its middle at
     // height `above` over the tip; 0 or less: it is clear.
     double disc_contact(std::size_t direction, double radius, double above, Vec3 from, Vec3 to);

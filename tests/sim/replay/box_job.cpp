@@ -11,8 +11,10 @@ constexpr double spoil = 10;
 constexpr double above = 50;  // retract height
 constexpr double link = 300;
 constexpr double approach = 20;
-const Vec3 half{40, 25, 0};  // of the piece
+const Vec3 low{-40, -25, 0};  // of the piece, which stands aside in its block
+const Vec3 high{30, 18, 22};
 constexpr double tall = 22;
+constexpr double flute = 14;  // less than from the top of the block to the first level beside the piece
 
 // Down to a point from above, cuts through the others, and up again.
 void add_run(WrittenChunk& chunk, const std::vector<Vec3>& points) {
@@ -27,8 +29,8 @@ void add_run(WrittenChunk& chunk, const std::vector<Vec3>& points) {
 WrittenChunk top_chunk() {
     WrittenChunk chunk{2, 0, 15000, {}};
     std::vector<Vec3> points;
-    for (int row = 0; row <= 6; ++row) {
-        const double y = -36 + 12 * row;
+    for (int row = 0; row <= 4; ++row) {
+        const double y = -33 + 16 * row;
         const double x = row % 2 == 0 ? -60 : 60;
         points.push_back({x, y, tall});
         points.push_back({-x, y, tall});
@@ -39,10 +41,14 @@ WrittenChunk top_chunk() {
 
 WrittenChunk side_chunk() {
     WrittenChunk chunk{2, 0, 15000, {}};
-    const double x = half.x + 10;
-    const double y = half.y + 10;
+    const Vec3 from = low - Vec3{10, 10, 0};
+    const Vec3 to = high + Vec3{10, 10, 0};
     for (const double z : {10.0, 0.0, -2.0}) {
-        add_run(chunk, {{-x, -y, z}, {x, -y, z}, {x, y, z}, {-x, y, z}, {-x, -y, z}, {-x + 5, -y, z}});
+        // Every other level begins at the opposite corner.
+        const bool is_other = z == 0;
+        const Vec3 a = is_other ? to : from;
+        const Vec3 b = is_other ? from : to;
+        add_run(chunk, {{a.x, a.y, z}, {b.x, a.y, z}, {b.x, b.y, z}, {a.x, b.y, z}, {a.x, a.y, z}, {0, a.y, z}});
     }
     return chunk;
 }
@@ -63,12 +69,13 @@ ReplayScene BoxJob::scene() const {
 
 BoxJob box_job(const std::string& cell_name) {
     BoxJob made{read_cell(std::string(QCHOPPER_SOURCE_DIR) + "/cells/" + cell_name + ".toml"),
-                shapes::box({-half.x, -half.y, 0}, {half.x, half.y, tall}, 8),
+                shapes::box(low, high, 8),
                 {},
                 {}};
     for (std::size_t t = 0; t < made.target.triangles.size(); ++t) {
         made.is_base.push_back(area_vector(made.target, t).z < 0);
     }
+    made.cell.machine->tools[1].flute_length = flute;
     const double angle = made.cell.machine->rotary_table ? 0.5 : 0;
     made.job.directions.push_back({{0, 0, 1}, angle, on_table(made.cell, spoil, angle)});
     made.job.chunks = {top_chunk(), side_chunk()};
