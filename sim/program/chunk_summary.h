@@ -1,6 +1,6 @@
 // What a manifest says of a chunk, as parsed back from its text.
 //
-// mm, in the coordinates of $BASE, which are setup coordinates. O(steps) (tests/sim/program/chunk_summary_test.cpp).
+// mm, in the coordinates of $BASE, which are setup coordinates. O(steps) (tests/sim/program/krl_reader_test.cpp).
 
 #pragma once
 

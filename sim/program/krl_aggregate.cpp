@@ -9,8 +9,7 @@ namespace qchopper {
 namespace {
 
 constexpr double radian = std::numbers::pi / 180;
-constexpr std::array<std::string_view, 13> names{"x",  "y",  "z",  "a",  "b",  "c", "a1",
-                                                 "a2", "a3", "a4", "a5", "a6", "e1"};
+constexpr std::array<std::string_view, 13> names{"x", "y", "z", "a", "b", "c", "a1", "a2", "a3", "a4", "a5", "a6", "e"};
 
 double largest_of(std::size_t component) {
     if (component < 3) return 5000;  // mm
@@ -28,7 +27,13 @@ KrlAggregate read_aggregate(KrlLine& line) {
     KrlAggregate read;
     line.need('{');
     do {
-        const std::string name = line.word();
+        std::string name = line.word();
+        if (name.size() == 2 && name[0] == 'e' && name[1] >= '1' && name[1] <= '6') {
+            read.external_axis = static_cast<std::uint32_t>(name[1] - '0');
+            name = "e";
+        } else if (name == "e") {
+            name.clear();
+        }
         std::size_t component = 0;
         while (component < names.size() && names[component] != name) ++component;
         if (component == names.size()) line.refuse("\"" + name + "\" is no component");

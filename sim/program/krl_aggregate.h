@@ -12,12 +12,14 @@
 
 namespace qchopper {
 
-// Components in the order of this table; a bit of `given` for each that was stated.
-enum class KrlComponent : std::uint8_t { x, y, z, a, b, c, a1, a2, a3, a4, a5, a6, e1 };
+// Components in the order of this table; a bit of `given` for each that was stated. external: E1 to E6, of which an
+// aggregate has one at most.
+enum class KrlComponent : std::uint8_t { x, y, z, a, b, c, a1, a2, a3, a4, a5, a6, external };
 
 struct KrlAggregate {
     std::array<double, 13> value{};  // mm and degrees, as written
     std::uint32_t given = 0;
+    std::uint32_t external_axis = 0;  // n of En; 0: none is given
     bool has(KrlComponent component) const { return (given >> static_cast<unsigned>(component) & 1U) != 0; }
     double operator[](KrlComponent component) const { return value[static_cast<std::size_t>(component)]; }
 };
@@ -25,7 +27,7 @@ struct KrlAggregate {
 constexpr std::uint32_t krl_position = 0b111;       // X, Y, Z
 constexpr std::uint32_t krl_frame = 0b111111;       // and A, B, C
 constexpr std::uint32_t krl_axes = 0b111111 << 6U;  // A1..A6
-constexpr std::uint32_t krl_external = 1U << 12U;   // E1
+constexpr std::uint32_t krl_external = 1U << 12U;   // E1 to E6
 
 // From "{" to "}". A component that is unknown, doubled or out of range is refused: 5 m, 180 degrees of A, B, C, 720
 // degrees of an axis.

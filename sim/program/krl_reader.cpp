@@ -34,6 +34,7 @@ class KrlExecution {
     void check_data(const KrlFile& file) const;
     void execute(Source& source, bool is_main);
     void execute_line(const Source& source, std::size_t at, bool is_main);
+    void take_external(const KrlLine& line, const KrlAggregate& target);
     void read_ptp(KrlLine& line);
     void read_lin(KrlLine& line);
     bool read_signal(const std::string& name, KrlLine& line);
@@ -60,6 +61,8 @@ class KrlExecution {
     bool is_initialised_ = false;
     bool has_moved_ = false;  // in the chunk that is executed
     std::optional<SourcePlace> chained_, without_e1_, with_e1_;
+    std::uint32_t machine_ = 0;        // of MACHINE_DEF to which bases are chained
+    std::uint32_t external_axis_ = 0;  // n of En
     std::map<std::string, std::uint32_t> text_numbers_;
 };
 
@@ -136,7 +139,10 @@ void KrlExecution::execute_line(const Source& source, std::size_t at, bool is_ma
     if (name == "wait") return read_wait(line);
     if (name == "halt") return read_halt(source, at, line);
     if (read_assignment(name, line, state_, stated_)) {
-        if (name == "$base" && state_.base_machine != 0) chained_ = place_;
+        if (name != "$base" || state_.base_machine == 0) return;
+        if (chained_ && machine_ != state_.base_machine) line.refuse("bases are chained to two machines");
+        chained_ = place_;
+        machine_ = state_.base_machine;
         return;
     }
     if (read_signal(name, line)) return;
@@ -159,6 +165,14 @@ std::uint32_t KrlExecution::text(const std::string& words) {
     return found->second;
 }
 
+// The number is held against MACHINE_DEF at the end, when both are known.
+void KrlExecution::take_external(const KrlLine& line, const KrlAggregate& target) {
+    if (!target.has(KrlComponent::external)) return;
+    if (external_axis_ != 0 && external_axis_ != target.external_axis) line.refuse("two external axes are named");
+    external_axis_ = target.external_axis;
+    e1_ = radian * target[KrlComponent::external];
+}
+
 void KrlExecution::read_ptp(KrlLine& line) {
     const KrlAggregate target = read_aggregate(line);
     line.need_end();
@@ -169,10 +183,10 @@ void KrlExecution::read_ptp(KrlLine& line) {
             line.refuse("speed or acceleration of axis " + std::to_string(axis + 1) + " was not stated");
         }
     }
-    (target.has(KrlComponent::e1) ? with_e1_ : without_e1_) = place_;
+    (target.has(KrlComponent::external) ? with_e1_ : without_e1_) = place_;
     ProgramStep& step = add(StepKind::joint_move);
     for (std::size_t axis = 0; axis < 6; ++axis) step.values[axis] = radian * target.value[axis + 6];
-    if (target.has(KrlComponent::e1)) e1_ = radian * target[KrlComponent::e1];
+    take_external(line, target);
     step.e1 = e1_;
     stated_.pose = false;
     has_moved_ = true;
@@ -184,10 +198,10 @@ void KrlExecution::check_before_lin(const KrlLine& line, const KrlAggregate& tar
     if (!stated_.feed || !stated_.acceleration) line.refuse("$VEL.CP or $ACC.CP was not stated in this file");
     const std::uint32_t given = target.given & ~krl_external;
     if (given != krl_frame && given != krl_position) line.refuse("LIN needs X, Y, Z, or these and A, B, C");
-    if (given == krl_position && target.has(KrlComponent::e1)) line.refuse("E1 stands with A, B, C only");
+    if (given == krl_position && target.has(KrlComponent::external)) line.refuse("E1 stands with A, B, C only");
     if (stated_.pose) return;
     if (given != krl_frame) line.refuse("A, B, C must be stated here");
-    if (target.has(KrlComponent::e1) != (state_.base_machine != 0)) {
+    if (target.has(KrlComponent::external) != (state_.base_machine != 0)) {
         line.refuse("E1 must be stated here on a rotary table, and nowhere else");
     }
 }
@@ -200,7 +214,7 @@ void KrlExecution::read_lin(KrlLine& line) {
     const bool is_full = (target.given & krl_frame) == krl_frame;
     for (std::size_t i = 0; i < 3; ++i) pose_[i] = target.value[i];
     for (std::size_t i = 3; i < 6 && is_full; ++i) pose_[i] = radian * target.value[i];
-    if (target.has(KrlComponent::e1)) e1_ = radian * target[KrlComponent::e1];
+    take_external(line, target);
     ProgramStep& step = add(StepKind::linear_move);
     step.values = pose_;
     step.e1 = state_.base_machine != 0 ? e1_ : std::nullopt;
@@ -298,6 +312,9 @@ void KrlExecution::check_end() const {
     if (state_.rounding != 0) refuse("$APO.CDIS is not restored to 0");
     if (chained_ && without_e1_) {
         refuse_line(program_.files[without_e1_->file], without_e1_->line, "E1 is missing: the table turns");
+    }
+    if (chained_ && external_axis_ + 1 != machine_) {
+        refuse_line(program_.files[chained_->file], chained_->line, "the machine is not that of the external axis");
     }
     if (with_e1_ && !chained_) {
         refuse_line(program_.files[with_e1_->file], with_e1_->line, "E1 is stated, and no base is chained to a table");

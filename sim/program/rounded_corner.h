@@ -3,7 +3,7 @@
 // mm. The corner at P is replaced by the parabola with the tangents P - a * d1 and P + a * d2, where a is the smallest
 // of $APO.CDIS and half of each move; its largest deviation from P is a * cos(b / 2) / 2 with b the angle between the
 // moves: the middle of a quadratic Bezier curve. The true curve of the controller is not
-// published. O(1) (tests/sim/program/rounded_corner_test.cpp).
+// published. O(1) (tests/sim/program/krl_reader_test.cpp).
 
 #pragma once
 

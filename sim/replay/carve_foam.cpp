@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/text.h"
 #include "cam/cell/machine_bodies.h"
 #include "sim/program/rounded_corner.h"
+#include "sim/replay/direction_frame.h"
 
 namespace qchopper {
 namespace {
@@ -17,11 +19,13 @@ constexpr double floor_gap = 2;     // mm of the spoil layer that no tool point 
 constexpr double written = 0.011;   // mm: what rounding of coordinates may do to a bound
 constexpr int chords = 6;           // of a parabola
 constexpr double straight = 0.001;  // mm of deviation that needs no parabola
-constexpr double rim_step = 8;      // mm between points of a body that is sampled
+// Of the tool's section: what rounding of a corner leaves standing may be higher than the flute is long.
+constexpr double deep_share = 0.1;
+constexpr double rim_step = 8;  // mm between points of a body that is sampled
 
-class Carving {
+class FoamCarver {
  public:
-    Carving(Foam& foam, const ReplayScene& scene, FindingLog& log)
+    FoamCarver(Foam& foam, const ReplayScene& scene, FindingLog& log)
         : foam_(foam), scene_(scene), machine_(*scene.cell->machine), log_(log) {
         for (const CarvingTool& tool : machine_.tools) cutters_.push_back(cutter_of(tool));
     }
@@ -46,16 +50,18 @@ class Carving {
     CarveFigures figures_;
 };
 
-void Carving::take_line(const TipLine& line, const std::vector<Vec3>& way) {
+void FoamCarver::take_line(const TipLine& line, const std::vector<Vec3>& way) {
     const CarvingTool& tool = machine_.tools[line.tool];
     check_bounds(line, tool);
     if (!line.is_aligned) return;
     CutResult all;
     for (std::size_t i = 0; i + 1 < way.size(); ++i) {
-        const CutResult cut = foam_.cut(line.direction, cutters_[line.tool], way[i], way[i + 1]);
+        const CutResult cut =
+            foam_.cut(line.direction, cutters_[line.tool], tool.flute_length + written, way[i], way[i + 1]);
         all.touches |= cut.touches;
         all.volume += cut.volume;
         all.depth = std::max(all.depth, cut.depth);
+        all.deep_mm2 += cut.deep_mm2;
     }
     const double length = norm(line.to - line.from);
     const bool is_rapid = line.feed > 1.001 * tool.feed_max_mm_per_s;
@@ -73,7 +79,7 @@ void Carving::take_line(const TipLine& line, const std::vector<Vec3>& way) {
     check_holder(line, tool);
 }
 
-void Carving::check_bounds(const TipLine& line, const CarvingTool& tool) {
+void FoamCarver::check_bounds(const TipLine& line, const CarvingTool& tool) {
     const double low =
         std::min(lowest_of_tool(tool, line.from, out_of(line)), lowest_of_tool(tool, line.to, out_of(line)));
     const double least = -scene_.spoil + floor_gap;
@@ -89,10 +95,11 @@ void Carving::check_bounds(const TipLine& line, const CarvingTool& tool) {
     }
 }
 
-void Carving::check_cut(const TipLine& line, const CarvingTool& tool, const CutResult& cut) {
+void FoamCarver::check_cut(const TipLine& line, const CarvingTool& tool, const CutResult& cut) {
     check_spindle(line, tool);
     check_feed(line, tool);
-    if (cut.depth > tool.flute_length + written) {
+    const double section = 0.25 * std::numbers::pi * tool.diameter * tool.diameter;
+    if (cut.deep_mm2 > deep_share * section) {
         log_.add(FindingKind::deep_cut, line.place, cut.depth, cut.depth, [&] {
             return fixed(cut.depth, 1) + " mm of foam are cut at once, the flute is " + fixed(tool.flute_length, 1) +
                    " mm";
@@ -109,7 +116,7 @@ void Carving::check_cut(const TipLine& line, const CarvingTool& tool, const CutR
              [&] { return "foam is cut " + fixed(beyond, 1) + " mm outside of the reach box of the cell"; });
 }
 
-void Carving::check_spindle(const TipLine& line, const CarvingTool& tool) {
+void FoamCarver::check_spindle(const TipLine& line, const CarvingTool& tool) {
     const Spindle& spindle = machine_.spindle;
     if (spindle.on && (!line.spindle.is_on || !line.spindle.has_speed)) {
         log_.add(FindingKind::spindle_off, line.place, 0, 0, [&] {
@@ -125,7 +132,7 @@ void Carving::check_spindle(const TipLine& line, const CarvingTool& tool) {
     });
 }
 
-void Carving::check_feed(const TipLine& line, const CarvingTool& tool) {
+void FoamCarver::check_feed(const TipLine& line, const CarvingTool& tool) {
     const bool goes_down = dot(line.to - line.from, out_of(line)) < -1e-6;
     const double least = (goes_down ? 0.5 : 1.0) * tool.feed_min_mm_per_s;
     if (line.feed >= 0.999 * least) return;
@@ -133,7 +140,7 @@ void Carving::check_feed(const TipLine& line, const CarvingTool& tool) {
              [&] { return "foam is cut at " + fixed(line.feed, 1) + " mm/s, the least is " + fixed(least, 1); });
 }
 
-void Carving::check_holder(const TipLine& line, const CarvingTool& tool) {
+void FoamCarver::check_holder(const TipLine& line, const CarvingTool& tool) {
     const auto check = [&](double radius, double above, const char* what) {
         const double into = foam_.disc_contact(line.direction, radius, above, line.from, line.to);
         if (into <= written) return;
@@ -149,7 +156,7 @@ void Carving::check_holder(const TipLine& line, const CarvingTool& tool) {
     if (spindle.body_radius > 0) check(spindle.body_radius, above + spindle.body_offset, "the spindle");
 }
 
-bool Carving::is_body_in_foam(const TipPose& pose, double from, double to, double radius) const {
+bool FoamCarver::is_body_in_foam(const TipPose& pose, double from, double to, double radius) const {
     const Pose frame = direction_frame(pose.out);
     const Box& block = foam_.block();
     const Vec3 low = pose.tip + from * pose.out;
@@ -172,7 +179,7 @@ bool Carving::is_body_in_foam(const TipPose& pose, double from, double to, doubl
     return false;
 }
 
-void Carving::take_sweep(const JointSweep& sweep) {
+void FoamCarver::take_sweep(const JointSweep& sweep) {
     ++figures_.rapids;
     const CarvingTool& tool = machine_.tools[sweep.tool];
     const Cutter& cutter = cutters_[sweep.tool];
@@ -235,7 +242,7 @@ std::vector<Vec3> rounded_way(const TipLine* before, const TipLine& line, const 
 
 CarveFigures carve_foam(Foam& foam, const ToolPath& path, const ReplayScene& scene, bool is_worst, FindingLog& log,
                         const Context& context) {
-    Carving carving(foam, scene, log);
+    FoamCarver carving(foam, scene, log);
     std::size_t done = 0;
     for (const PathPart& part : path.order) {
         if (done++ % 256 == 0) {

@@ -160,6 +160,18 @@ double SweptCutter::distance(Vec3 point) const {
     return dot(move_, move_) < 1e-18 ? at(0) : at(place_of_least(0, 1, at));
 }
 
+double SweptCutter::least_from_cylinder(const std::array<Vec3, 3>& triangle) const {
+    const Vec3 middle = (1.0 / 3) * (triangle[0] + triangle[1] + triangle[2]);
+    const double s = length_ > 0 ? std::clamp((middle.x * unit_x_ + middle.y * unit_y_) / length_, 0.0, 1.0) : 0;
+    const Vec3 off{middle.x - s * move_.x, middle.y - s * move_.y, 0};
+    const double aside = norm(off);
+    const Vec3 gradient = aside > 0 ? (1 / aside) * off : Vec3{};
+    double slope = 0;
+    for (const Vec3 corner : triangle) slope = std::min(slope, dot(gradient, corner - middle));
+    const double highest = std::max({triangle[0].z, triangle[1].z, triangle[2].z});
+    return std::max(aside + slope - cutter_.radius, std::min(0.0, move_.z) - highest);
+}
+
 // A ball and its shank are all points within the radius of a strip: the way of the centre, and all above it.
 double SweptCutter::ball_distance(Vec3 point, Vec3& gradient) const {
     const Vec3 p{point.x, point.y, point.z - cutter_.radius};

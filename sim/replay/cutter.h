@@ -6,6 +6,8 @@
 
 #pragma once
 
+#include <array>
+
 #include "base/vec3.h"
 #include "cam/cell/carving_tool.h"
 
@@ -45,6 +47,9 @@ class SweptCutter {
     double distance(Vec3 point) const;
     // Of a ball: the same with its gradient; the distance is a convex function of the point.
     double ball_distance(Vec3 point, Vec3& gradient) const;
+    // A lower bound of the distance for all points of a triangle: that of the cylinder about the tool, as two convex
+    // functions, distance from the axis and height above the tip.
+    double least_from_cylinder(const std::array<Vec3, 3>& triangle) const;
     // The x of the points of a row that the tool can reach lie between these two.
     void reach_of_row(double y, double& x_min, double& x_max) const;
     const Cutter& cutter() const { return cutter_; }

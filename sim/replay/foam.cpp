@@ -30,11 +30,11 @@ void make_columns(const std::vector<std::unique_ptr<FoamMap>>& maps, std::size_t
     tile.high.assign(FoamTile::cells, 0);
     tile.below.clear();
     tile.top.fill(-std::numeric_limits<float>::infinity());
-    std::vector<Interval> foam;
+    std::vector<FoamInterval> foam;
     for (std::size_t cell = 0; cell < FoamTile::cells; ++cell) {
         const Vec3 from{own.middle_x(tx * side + static_cast<std::int32_t>(cell % side)),
                         own.middle_y(ty * side + static_cast<std::int32_t>(cell / side)), 0};
-        const Interval whole = own.block_on(from, {0, 0, 1});
+        const FoamInterval whole = own.block_on(from, {0, 0, 1});
         foam.clear();
         const double high = std::min<double>(whole.high, tile.cut[cell]);
         if (whole.low < high) foam.push_back({whole.low, high});
@@ -73,13 +73,13 @@ void raise_next(FoamTile& tile, std::size_t cell) {
     next.low = next.high = 0;
 }
 
-struct Removal {
+struct ColumnRemoval {
     double length = 0;
     double top = 0;  // of the highest foam
 };
 
-Removal lower_column(FoamTile& tile, std::size_t cell, double z) {
-    Removal removal{0, tile.high[cell]};
+ColumnRemoval lower_column(FoamTile& tile, std::size_t cell, double z) {
+    ColumnRemoval removal{0, tile.high[cell]};
     while (tile.low[cell] < tile.high[cell] && tile.high[cell] > z) {
         const double low = std::max<double>(tile.low[cell], z);
         removal.length += tile.high[cell] - low;
@@ -91,14 +91,6 @@ Removal lower_column(FoamTile& tile, std::size_t cell, double z) {
 }
 
 }  // namespace
-
-Pose direction_frame(Vec3 out) {
-    if (std::hypot(out.x, out.y) < 1e-9 && out.z > 0) return {};
-    const Vec3 beside = std::abs(out.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    const Vec3 y = normalized(cross(out, beside));
-    const Vec3 x = cross(y, out);
-    return {{Vec3{x.x, y.x, out.x}, Vec3{x.y, y.y, out.y}, Vec3{x.z, y.z, out.z}}, {}};
-}
 
 Foam::Foam(const Box& block, const std::vector<Vec3>& outs, double cell) : block_(block), cell_(cell) {
     assert(cell > 0);
@@ -134,7 +126,7 @@ void for_tiles(const std::vector<std::unique_ptr<FoamMap>>& maps, std::size_t di
 
 }  // namespace
 
-CutResult Foam::cut(std::size_t direction, const Cutter& cutter, Vec3 from, Vec3 to) {
+CutResult Foam::cut(std::size_t direction, const Cutter& cutter, double flute, Vec3 from, Vec3 to) {
     FoamMap& map = *maps_[direction];
     const Vec3 a = apply_inverse(map.frame_in_block, from);
     const Vec3 move = apply_inverse(map.frame_in_block, to) - a;
@@ -163,13 +155,15 @@ CutResult Foam::cut(std::size_t direction, const Cutter& cutter, Vec3 from, Vec3
                 tile.cut[cell] = static_cast<float>(z);
                 tile.least_cut = std::min(tile.least_cut, static_cast<float>(z));
                 if (!(tile.high[cell] > z && tile.low[cell] < tile.high[cell])) continue;
-                const Removal removal = lower_column(tile, cell, z);
+                const ColumnRemoval removal = lower_column(tile, cell, z);
                 length += removal.length;
                 if (removal.length <= contact_mm) continue;
                 const SweptCutter::Height inside = inner.height(x, y);
                 if (!(a.z + contact_mm + inside.z < removal.top - contact_mm)) continue;
                 result.touches = true;
-                result.depth = std::max(result.depth, removal.top - (a.z + at.tip_z));
+                const double depth = removal.top - (a.z + at.tip_z);
+                result.depth = std::max(result.depth, depth);
+                if (depth > flute) result.deep_mm2 += cell_ * cell_;
             }
         }
     });
@@ -229,11 +223,11 @@ bool Foam::is_foam(Vec3 p) const {
     return true;
 }
 
-std::vector<Interval> Foam::on_line(Vec3 from, Vec3 along, double low, double high) const {
+std::vector<FoamInterval> Foam::on_line(Vec3 from, Vec3 along, double low, double high) const {
     const FoamMap& first = *maps_.front();
-    const Interval inside =
+    const FoamInterval inside =
         first.block_on(apply_inverse(first.frame_in_block, from), rotate_inverse(first.frame_in_block, along));
-    std::vector<Interval> foam;
+    std::vector<FoamInterval> foam;
     if (std::max(low, inside.low) < std::min(high, inside.high)) {
         foam.push_back({std::max(low, inside.low), std::min(high, inside.high)});
     }

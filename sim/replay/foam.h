@@ -18,19 +18,16 @@
 #include "base/box.h"
 #include "base/pose.h"
 #include "sim/replay/cutter.h"
+#include "sim/replay/foam_interval.h"
 
 namespace qchopper {
-
-struct Interval {
-    double low = 0;
-    double high = 0;
-};
 
 // What a move of the tool did to the foam.
 struct CutResult {
     bool touches = false;  // removed more than 0.01 mm: with a tool whose surface lies 0.01 mm deeper inside
     double volume = 0;     // mm3
     double depth = 0;      // of the highest foam that was removed above the tip
+    double deep_mm2 = 0;   // of the cells where that is more than `flute`
 };
 
 class FoamMap;
@@ -44,14 +41,14 @@ class Foam {
     Foam& operator=(const Foam&) = delete;
 
     // Removes what the tool sweeps from tip to tip along a direction.
-    CutResult cut(std::size_t direction, const Cutter& cutter, Vec3 from, Vec3 to);
+    CutResult cut(std::size_t direction, const Cutter& cutter, double flute, Vec3 from, Vec3 to);
     // Largest height by which foam stands above the underside of a disc that moves along a direction, its middle at
     // height `above` over the tip; 0 or less: it is clear.
     double disc_contact(std::size_t direction, double radius, double above, Vec3 from, Vec3 to);
     // Whether foam is at a point.
     bool is_foam(Vec3 point) const;
     // The intervals of foam on the line from + t * along, for t of [low, high], ascending; `along` of length 1.
-    std::vector<Interval> on_line(Vec3 from, Vec3 along, double low, double high) const;
+    std::vector<FoamInterval> on_line(Vec3 from, Vec3 along, double low, double high) const;
     // Distance from a point to the nearest point that was removed or lies outside of the block, at most `most`; points
     // of cells count at their middles, so that it is too large by at most 0.71 cells. Not for the block's underside.
     double distance_to_removed(Vec3 point, double most) const;
@@ -65,8 +62,5 @@ class Foam {
     double cell_;
     std::vector<std::unique_ptr<FoamMap>> maps_;
 };
-
-// The frame of a direction: z along `out`, the same for the same direction; of (0, 0, 1) the identity.
-Pose direction_frame(Vec3 out);
 
 }  // namespace qchopper

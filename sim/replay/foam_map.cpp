@@ -6,17 +6,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/replay/direction_frame.h"
+
 namespace qchopper {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double border = 1;  // cells around the projection of the block
 
-void subtract(std::vector<Interval>& intervals, double low, double high) {
+void subtract(std::vector<FoamInterval>& intervals, double low, double high) {
     if (!(low < high)) return;
-    std::vector<Interval> left;
+    std::vector<FoamInterval> left;
     left.reserve(intervals.size() + 1);
-    for (const Interval& i : intervals) {
+    for (const FoamInterval& i : intervals) {
         if (i.low < low) left.push_back({i.low, std::min(i.high, low)});
         if (i.high > high) left.push_back({std::max(i.low, high), i.high});
         if (i.low < low && i.high > low) continue;
@@ -85,10 +87,10 @@ float FoamMap::cut_at(double x, double y) const {
     return tile->cut[static_cast<std::size_t>(cj % side) * side + static_cast<std::size_t>(ci % side)];
 }
 
-Interval FoamMap::block_on(Vec3 from, Vec3 along) const {
+FoamInterval FoamMap::block_on(Vec3 from, Vec3 along) const {
     const Vec3 p = apply(frame_in_block, from);
     const Vec3 d = rotate(frame_in_block, along);
-    Interval inside{-infinite, infinite};
+    FoamInterval inside{-infinite, infinite};
     for (int axis = 0; axis < 3; ++axis) {
         if (std::abs(d[axis]) < 1e-12) {
             if (p[axis] < block.min[axis] || p[axis] > block.max[axis]) return {0, 0};
@@ -99,10 +101,10 @@ Interval FoamMap::block_on(Vec3 from, Vec3 along) const {
         inside.low = std::max(inside.low, std::min(a, b));
         inside.high = std::min(inside.high, std::max(a, b));
     }
-    return inside.low < inside.high ? inside : Interval{0, 0};
+    return inside.low < inside.high ? inside : FoamInterval{0, 0};
 }
 
-void FoamMap::remove_from(std::vector<Interval>& intervals, Vec3 from, Vec3 along) const {
+void FoamMap::remove_from(std::vector<FoamInterval>& intervals, Vec3 from, Vec3 along) const {
     if (intervals.empty()) return;
     constexpr auto side = FoamTile::side;
     const double end = intervals.back().high;

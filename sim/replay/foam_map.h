@@ -13,7 +13,7 @@
 
 #include "base/box.h"
 #include "base/pose.h"
-#include "sim/replay/foam.h"
+#include "sim/replay/foam_interval.h"
 
 namespace qchopper {
 
@@ -57,11 +57,11 @@ class FoamMap {
     // Height to which the cell of a point is cleared; infinite outside.
     float cut_at(double x, double y) const;
     // Takes from the intervals what was removed along this direction. The line is from + t * along, in this frame.
-    void remove_from(std::vector<Interval>& intervals, Vec3 from, Vec3 along) const;
+    void remove_from(std::vector<FoamInterval>& intervals, Vec3 from, Vec3 along) const;
     // Distance from a point of this frame to the nearest removed point of it, at most `most`.
     double distance_to_removed(Vec3 point, double most) const;
     // Where the line meets the block; empty if it does not.
-    Interval block_on(Vec3 from, Vec3 along) const;
+    FoamInterval block_on(Vec3 from, Vec3 along) const;
 
     Pose frame_in_block;
     Box block;

@@ -12,12 +12,13 @@
 #include "base/parallel.h"
 #include "segment/mesh/triangle_tree.h"
 #include "sim/replay/carve_foam.h"
-#include "sim/replay/foam.h"
+#include "sim/replay/direction_frame.h"
 
 namespace qchopper {
 namespace {
 
-constexpr std::size_t lot = 512;  // lines
+constexpr std::size_t lot = 512;            // lines
+constexpr std::size_t most_parts = 20'000;  // of a triangle; then the bound is taken
 
 struct Part {
     std::array<Vec3, 3> corner;
@@ -41,6 +42,7 @@ double evaluate(const SweptCutter& swept, Part& part) {
         slope = std::min(slope, dot(gradient, corner - middle));
     }
     part.bound = distance - (is_ball ? std::min(radius, -slope) : radius);
+    if (!is_ball) part.bound = std::max(part.bound, swept.least_from_cylinder(part.corner));
     return distance;
 }
 
@@ -112,9 +114,9 @@ double deepest_in(const SweptCutter& swept, const std::array<Vec3, 3>& triangle,
     double deepest = floor;
     std::vector<Part> parts{{triangle, 0}};
     deepest = std::max(deepest, -evaluate(swept, parts[0]));
-    // A triangle that runs parallel to the tool for a long way would be bisected without end.
-    std::size_t left = 200'000;
-    while (!parts.empty() && left-- > 0) {
+    std::size_t left = most_parts;
+    while (!parts.empty() && left > 0) {
+        --left;
         const Part part = parts.back();
         parts.pop_back();
         if (-part.bound <= deepest + gouge_resolution) continue;
@@ -129,6 +131,7 @@ double deepest_in(const SweptCutter& swept, const std::array<Vec3, 3>& triangle,
             if (-next.bound > deepest + gouge_resolution) parts.push_back(next);
         }
     }
+    for (const Part& part : parts) deepest = std::max(deepest, -part.bound);
     return deepest;
 }
 

@@ -140,7 +140,7 @@ class Walk {
     std::uint32_t direction_ = 0;
     std::uint32_t tool_ = 0;
     std::optional<std::uint16_t> asked_tool_;  // by a call with its number
-    bool was_asked_ = false;                   // a HALT since the last cut
+    std::string asked_;                        // by the last HALT, in lower case
     bool has_tool_ = false;
     bool is_in_chunk_ = false;
     bool follows_line_ = false;
@@ -198,7 +198,8 @@ void Walk::take_tool(std::uint16_t number, SourcePlace place) {
     while (index + 1 < machine_.tools.size() && machine_.tools[index].number != number) ++index;
     if (!has_tool_ || index != tool_) {
         const bool was_called = asked_tool_ && *asked_tool_ == number;
-        const bool was_asked = !machine_.program.tool_change_call && was_asked_;
+        const bool was_asked = !machine_.program.tool_change_call &&
+                               asked_.find("tool " + std::to_string(number) + " ") != std::string::npos;
         if (!was_called && !was_asked) {
             log_.add(FindingKind::tool_change, place, number, 0,
                      [&] { return "tool " + std::to_string(number) + " is needed, and nobody was asked for it"; });
@@ -206,7 +207,7 @@ void Walk::take_tool(std::uint16_t number, SourcePlace place) {
     }
     has_tool_ = true;
     tool_ = index;
-    was_asked_ = false;
+    asked_.clear();
 }
 
 void Walk::take(const ProgramStep& step) {
@@ -220,7 +221,7 @@ void Walk::take(const ProgramStep& step) {
         case StepKind::wait_input:
             return take_signal(step);
         case StepKind::halt:
-            was_asked_ = true;
+            asked_ = lower_case(program_.texts[step.text]) + " ";
             if (spindle_.is_on) {
                 log_.add(FindingKind::tool_change, step.place, 0, 0, [] { return "the spindle runs at a HALT"; });
             }
@@ -446,7 +447,7 @@ void Walk::check_speed(const Joints& before, double way, double feed, SourcePlac
         // Coordinates are written to 0.01 mm: what shorter ways ask of the joints is rounding.
         if (way < 0.2) continue;
         const double speed = turn * feed / way;
-        if (speed <= 1.001 * robot_.ranges[axis].speed) continue;
+        if (speed <= 1.02 * robot_.ranges[axis].speed) continue;
         log_.add(FindingKind::joint_speed, place, speed / degree, speed / robot_.ranges[axis].speed, [&] {
             return "axis " + std::to_string(axis + 1) + " would have to turn at " + fixed(speed / degree, 1) +
                    " degrees/s";

@@ -9,7 +9,7 @@
 
 #include "base/parallel.h"
 #include "sim/replay/cutter.h"
-#include "sim/replay/foam.h"
+#include "sim/replay/direction_frame.h"
 
 namespace qchopper {
 namespace {

@@ -24,10 +24,10 @@ struct Grid {
     double y(std::int32_t j) const { return y_min + (j + 0.5) * cell; }
 };
 
-struct Crossing {
+struct ColumnCrossing {
     std::int32_t column = 0;
     double z = 0;
-    bool operator<(const Crossing& o) const { return column != o.column ? column < o.column : z < o.z; }
+    bool operator<(const ColumnCrossing& o) const { return column != o.column ? column < o.column : z < o.z; }
 };
 
 Grid grid_over(const ReplayScene& scene, const VolumeOptions& options) {
@@ -48,7 +48,7 @@ Grid grid_over(const ReplayScene& scene, const VolumeOptions& options) {
 }
 
 // Where a triangle crosses the lines of a row.
-void cross(const std::array<Vec3, 3>& t, const Grid& grid, std::int32_t row, std::vector<Crossing>& crossings) {
+void cross(const std::array<Vec3, 3>& t, const Grid& grid, std::int32_t row, std::vector<ColumnCrossing>& crossings) {
     const double y = grid.y(row);
     std::array<std::pair<double, double>, 2> ends;  // x and z where the plane of the row cuts the sides
     std::size_t found = 0;
@@ -133,10 +133,10 @@ class Zone {
 };
 
 // Parts of `from` that lie in none of `without`; both ascending and apart.
-std::vector<Interval> difference(const std::vector<Interval>& from, const std::vector<Interval>& without) {
-    std::vector<Interval> left;
-    for (Interval i : from) {
-        for (const Interval& w : without) {
+std::vector<FoamInterval> difference(const std::vector<FoamInterval>& from, const std::vector<FoamInterval>& without) {
+    std::vector<FoamInterval> left;
+    for (FoamInterval i : from) {
+        for (const FoamInterval& w : without) {
             if (w.high <= i.low || w.low >= i.high) continue;
             if (w.low > i.low) left.push_back({i.low, w.low});
             i.low = w.high;
@@ -176,7 +176,7 @@ class Measuring {
 
  private:
     static constexpr double closing_cell = 1;
-    void add_line(double x, double y, const std::vector<Interval>& target, VolumeFigures& sum) const;
+    void add_line(double x, double y, const std::vector<FoamInterval>& target, VolumeFigures& sum) const;
     bool stands(Vec3 p) const;
 
     const Foam& foam_;
@@ -190,13 +190,13 @@ class Measuring {
 };
 
 VolumeFigures Measuring::of_row(std::int32_t row) const {
-    std::vector<Crossing> crossings;
+    std::vector<ColumnCrossing> crossings;
     for (const std::uint32_t t : by_row_[static_cast<std::size_t>(row)]) {
         cross(corners_of(*scene_.target, t), grid_, row, crossings);
     }
     std::sort(crossings.begin(), crossings.end());
     VolumeFigures sum;
-    std::vector<Interval> target;
+    std::vector<FoamInterval> target;
     std::size_t next = 0;
     for (std::int32_t i = 0; i < grid_.columns; ++i) {
         target.clear();
@@ -220,17 +220,17 @@ bool Measuring::stands(Vec3 p) const {
     return false;
 }
 
-void Measuring::add_line(double x, double y, const std::vector<Interval>& target, VolumeFigures& sum) const {
+void Measuring::add_line(double x, double y, const std::vector<FoamInterval>& target, VolumeFigures& sum) const {
     const double area = grid_.cell * grid_.cell;
     const double step = std::max(options_.gouge_tolerance, 0.25);
-    const std::vector<Interval> foam = foam_.on_line({x, y, 0}, {0, 0, 1}, scene_.block.min.z, scene_.block.max.z);
-    const auto parts = [&](const Interval& i, const auto& visit) {
+    const std::vector<FoamInterval> foam = foam_.on_line({x, y, 0}, {0, 0, 1}, scene_.block.min.z, scene_.block.max.z);
+    const auto parts = [&](const FoamInterval& i, const auto& visit) {
         const auto count = static_cast<int>(std::ceil((i.high - i.low) / step));
         for (int k = 0; k < count; ++k) {
             visit(Vec3{x, y, i.low + (k + 0.5) * (i.high - i.low) / count}, area * (i.high - i.low) / count);
         }
     };
-    for (Interval i : difference(foam, target)) {
+    for (FoamInterval i : difference(foam, target)) {
         i.low = std::max(i.low, 0.0);
         if (i.low >= i.high) continue;
         sum.leftover_mm3 += area * (i.high - i.low);
@@ -240,7 +240,7 @@ void Measuring::add_line(double x, double y, const std::vector<Interval>& target
             sum.standing_at = p;
         });
     }
-    for (const Interval& i : difference(target, foam)) {
+    for (const FoamInterval& i : difference(target, foam)) {
         sum.gouge_mm3 += area * (i.high - i.low);
         parts(i, [&](Vec3 p, double volume) {
             if (!tree_.is_any_nearer(*scene_.target, p, options_.gouge_tolerance)) sum.beyond_mm3 += volume;

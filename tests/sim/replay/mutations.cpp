@@ -1,0 +1,488 @@
+// Lines are taken apart by their first word; components of {...} by their names.
+
+#include "tests/sim/replay/mutations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "base/text.h"
+
+namespace qchopper {
+namespace {
+
+using Lines = std::vector<std::string>;
+using Change = std::function<bool(Lines&)>;  // whether anything was changed
+
+Lines lines_of(const std::string& text) {
+    Lines lines;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find("\r\n", at), text.size());
+        lines.push_back(text.substr(at, end - at));
+        at = end + 2;
+    }
+    return lines;
+}
+
+std::string text_of(const Lines& lines) {
+    std::string text;
+    for (const std::string& line : lines) text += line + "\r\n";
+    return text;
+}
+
+std::string lower(std::string text) {
+    for (char& c : text) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return text;
+}
+
+bool begins(const std::string& line, const std::string& word) {
+    return lower(line).compare(0, word.size(), word) == 0;
+}
+
+bool is_lin(const std::string& line) {
+    return begins(line, "lin ");
+}
+
+std::string stem_of(const ProgramFile& file) {
+    return lower(file.name.substr(0, file.name.find('.')));
+}
+
+bool is_source(const ProgramFile& file) {
+    return lower(file.name).ends_with(".src");
+}
+
+// The main program is the one that initialises.
+bool is_main(const ProgramFile& file) {
+    return lower(file.text).find("#initmov") != std::string::npos;
+}
+
+std::size_t next_chunk(const ProgramFiles& files, std::size_t from = 0) {
+    while (from < files.size() && (!is_source(files[from]) || is_main(files[from]))) ++from;
+    return from;
+}
+
+// Where the number of a component begins and ends; npos if it is not there.
+std::pair<std::size_t, std::size_t> number_at(const std::string& line, const std::string& component) {
+    for (const char before : {'{', ','}) {
+        const std::size_t at = line.find(before + component + " ");
+        if (at == std::string::npos) continue;
+        const std::size_t begin = at + component.size() + 2;
+        return {begin, line.find_first_of(",}", begin)};
+    }
+    return {std::string::npos, std::string::npos};
+}
+
+bool change_number(std::string& line, const std::string& component, const std::function<double(double)>& f) {
+    const auto [begin, end] = number_at(line, component);
+    if (begin == std::string::npos || end == std::string::npos) return false;
+    const std::string before = line.substr(begin, end - begin);
+    const std::size_t point = before.find('.');
+    const int decimals = point == std::string::npos ? 0 : static_cast<int>(before.size() - point - 1);
+    const std::string after = fixed(f(std::strtod(before.c_str(), nullptr)), decimals);
+    line.replace(begin, end - begin, after);
+    return after != before;
+}
+
+// Changes all sources, one after the other.
+Mutation everywhere(const std::string& name, const Change& change) {
+    return {name, [change](const ProgramFiles& files) -> std::optional<ProgramFiles> {
+                ProgramFiles changed = files;
+                bool is_changed = false;
+                for (ProgramFile& file : changed) {
+                    if (!is_source(file)) continue;
+                    Lines lines = lines_of(file.text);
+                    if (change(lines)) is_changed = true;
+                    file.text = text_of(lines);
+                }
+                if (!is_changed) return std::nullopt;
+                return changed;
+            }};
+}
+
+// Changes the first chunk in which there is a place.
+Mutation in_one_chunk(const std::string& name, const Change& change) {
+    return {name, [change](const ProgramFiles& files) -> std::optional<ProgramFiles> {
+                for (std::size_t i = next_chunk(files); i < files.size(); i = next_chunk(files, i + 1)) {
+                    ProgramFiles changed = files;
+                    Lines lines = lines_of(files[i].text);
+                    if (!change(lines)) continue;
+                    changed[i].text = text_of(lines);
+                    return changed;
+                }
+                return std::nullopt;
+            }};
+}
+
+Change each(const std::string& word, const std::function<bool(std::string&)>& change) {
+    return [word, change](Lines& lines) {
+        bool is_changed = false;
+        for (std::string& line : lines) {
+            if (begins(line, word) && change(line)) is_changed = true;
+        }
+        return is_changed;
+    };
+}
+
+Change each_component(const std::string& word, const std::vector<std::string>& components,
+                      const std::function<double(double)>& f) {
+    return each(word, [components, f](std::string& line) {
+        bool is_changed = false;
+        for (const std::string& component : components) is_changed |= change_number(line, component, f);
+        return is_changed;
+    });
+}
+
+// The value behind the equals sign.
+Change each_value(const std::string& word, const std::function<double(double)>& f) {
+    return each(word, [f](std::string& line) {
+        const std::size_t at = line.find('=');
+        if (at == std::string::npos) return false;
+        const double value = std::strtod(line.c_str() + at + 1, nullptr);
+        line = line.substr(0, at) + "= " + fixed(f(value), 6);
+        return true;
+    });
+}
+
+Change without(const std::string& word, const std::string& ending = {}) {
+    return [word, ending](Lines& lines) {
+        const std::size_t before = lines.size();
+        std::erase_if(lines, [&](const std::string& line) {
+            return begins(line, word) && (ending.empty() || lower(line).ends_with(ending));
+        });
+        return lines.size() != before;
+    };
+}
+
+std::vector<std::size_t> lin_places(const Lines& lines) {
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        if (is_lin(lines[i])) places.push_back(i);
+    }
+    return places;
+}
+
+double component_of(const std::string& line, const std::string& component) {
+    const auto [begin, end] = number_at(line, component);
+    return begin == std::string::npos ? 0 : std::strtod(line.c_str() + begin, nullptr);
+}
+
+Change shifted_point(const std::string& component, double by) {
+    return [component, by](Lines& lines) {
+        std::vector<std::size_t> places = lin_places(lines);
+        std::erase_if(places, [&](std::size_t i) { return lines[i].find(",A ") != std::string::npos; });
+        if (places.empty()) return false;
+        return change_number(lines[places[places.size() / 2]], component, [by](double v) { return v + by; });
+    };
+}
+
+// The first move that leads up and the one after it that leads aside, above.
+bool lose_retract(Lines& lines) {
+    const std::vector<std::size_t> places = lin_places(lines);
+    for (std::size_t k = 1; k + 1 < places.size(); ++k) {
+        const double up = component_of(lines[places[k]], "Z") - component_of(lines[places[k - 1]], "Z");
+        const double aside = std::hypot(component_of(lines[places[k + 1]], "X") - component_of(lines[places[k]], "X"),
+                                        component_of(lines[places[k + 1]], "Y") - component_of(lines[places[k]], "Y"));
+        if (up < 10 || aside < 1) continue;
+        // It goes on at the depth that it had.
+        for (const std::size_t j : {places[k], places[k + 1]}) {
+            const double z = component_of(lines[places[k - 1]], "Z");
+            change_number(lines[j], "Z", [z](double) { return z; });
+        }
+        return true;
+    }
+    return false;
+}
+
+// A chunk that ends above begins below: its last move up is left out.
+bool lose_last_retract(Lines& lines) {
+    const std::vector<std::size_t> places = lin_places(lines);
+    if (places.size() < 3) return false;
+    lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(places.back()));
+    return true;
+}
+
+bool reverse_moves(Lines& lines) {
+    const std::vector<std::size_t> places = lin_places(lines);
+    if (places.size() < 6) return false;
+    for (std::size_t a = 1, b = places.size() - 1; a < b; ++a, --b) std::swap(lines[places[a]], lines[places[b]]);
+    return true;
+}
+
+bool lose_every_second(Lines& lines) {
+    const std::vector<std::size_t> places = lin_places(lines);
+    if (places.size() < 8) return false;
+    for (std::size_t k = places.size() - 2; k >= 2; k -= 2) {
+        lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(places[k]));
+    }
+    return true;
+}
+
+bool swap_components(std::string& line, const std::string& a, const std::string& b) {
+    const auto [a0, a1] = number_at(line, a);
+    const auto [b0, b1] = number_at(line, b);
+    if (a0 == std::string::npos || b0 == std::string::npos) return false;
+    const std::string first = line.substr(a0, a1 - a0);
+    const std::string second = line.substr(b0, b1 - b0);
+    if (first == second) return false;
+    line.replace(b0, b1 - b0, first);
+    line.replace(a0, a1 - a0, second);
+    return true;
+}
+
+std::size_t find_main(const ProgramFiles& files) {
+    std::size_t at = 0;
+    while (at < files.size() && !(is_source(files[at]) && is_main(files[at]))) ++at;
+    return at;
+}
+
+// A change of the main program with the places of its calls of chunks.
+Mutation in_main(const std::string& name,
+                 const std::function<bool(ProgramFiles&, Lines&, std::vector<std::size_t>)>& change) {
+    return {name, [change](const ProgramFiles& files) -> std::optional<ProgramFiles> {
+                ProgramFiles changed = files;
+                const std::size_t main = find_main(files);
+                if (main == files.size()) return std::nullopt;
+                Lines lines = lines_of(files[main].text);
+                std::vector<std::size_t> calls;
+                for (std::size_t i = 0; i < lines.size(); ++i) {
+                    for (const ProgramFile& file : files) {
+                        if (is_source(file) && begins(lines[i], stem_of(file) + "(")) calls.push_back(i);
+                    }
+                }
+                if (!change(changed, lines, calls)) return std::nullopt;
+                const auto at = std::find_if(changed.begin(), changed.end(),
+                                             [&](const ProgramFile& f) { return f.name == files[main].name; });
+                at->text = text_of(lines);
+                return changed;
+            }};
+}
+
+bool lose_chunk(ProgramFiles& files, Lines& lines, const std::vector<std::size_t>& calls) {
+    if (calls.size() < 2) return false;
+    const std::string stem = lower(lines[calls.back()].substr(0, lines[calls.back()].find('(')));
+    std::erase_if(files, [&](const ProgramFile& file) { return stem_of(file) == stem; });
+    lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(calls.back()));
+    return true;
+}
+
+std::optional<ProgramFiles> swap_chunks(const ProgramFiles& files) {
+    const std::size_t first = next_chunk(files);
+    std::size_t last = files.size();
+    for (std::size_t i = first; i < files.size(); i = next_chunk(files, i + 1)) last = i;
+    if (first >= files.size() || last == first) return std::nullopt;
+    ProgramFiles changed = files;
+    const auto renamed = [](const ProgramFile& from, const ProgramFile& to) {
+        Lines lines = lines_of(from.text);
+        const std::string stem = to.name.substr(0, to.name.find('.'));
+        for (std::string& line : lines) {
+            if (begins(line, "def ")) line = "DEF " + stem + "( )";
+        }
+        return text_of(lines);
+    };
+    changed[first].text = renamed(files[last], files[first]);
+    changed[last].text = renamed(files[first], files[last]);
+    return changed;
+}
+
+// Two chunks take each other's orientation.
+std::optional<ProgramFiles> exchange_directions(const ProgramFiles& files) {
+    const auto pose_of = [](const ProgramFile& file) {
+        for (const std::string& line : lines_of(file.text)) {
+            if (is_lin(line) && line.find(",A ") != std::string::npos) return line.substr(line.find(",A "));
+        }
+        return std::string();
+    };
+    for (std::size_t i = next_chunk(files); i < files.size(); i = next_chunk(files, i + 1)) {
+        for (std::size_t j = next_chunk(files, i + 1); j < files.size(); j = next_chunk(files, j + 1)) {
+            const std::string a = pose_of(files[i]);
+            const std::string b = pose_of(files[j]);
+            if (a.empty() || b.empty() || a == b) continue;
+            ProgramFiles changed = files;
+            for (const auto& [at, from, to] : {std::tuple{i, a, b}, std::tuple{j, b, a}}) {
+                std::string& text = changed[at].text;
+                for (std::size_t p = text.find(from); p != std::string::npos; p = text.find(from, p + to.size())) {
+                    text.replace(p, from.size(), to);
+                }
+            }
+            return changed;
+        }
+    }
+    return std::nullopt;
+}
+
+Mutation of_files(const std::string& name, const std::function<std::optional<ProgramFiles>(const ProgramFiles&)>& f) {
+    return {name, f};
+}
+
+// Of one chunk its text as a whole.
+Mutation of_text(const std::string& name, const std::function<bool(std::string&)>& change) {
+    return {name, [change](const ProgramFiles& files) -> std::optional<ProgramFiles> {
+                ProgramFiles changed = files;
+                const std::size_t at = next_chunk(files);
+                if (at == files.size() || !change(changed[at].text)) return std::nullopt;
+                return changed;
+            }};
+}
+
+bool replace_first(std::string& text, std::size_t from, const std::string& what, const std::string& by) {
+    const std::size_t at = text.find(what, from);
+    if (at == std::string::npos) return false;
+    text.replace(at, what.size(), by);
+    return true;
+}
+
+void add_geometry(std::vector<Mutation>& all) {
+    const std::vector<std::string> xyz{"X", "Y", "Z"};
+    const auto times = [](double f) { return [f](double v) { return f * v; }; };
+    const auto plus = [](double d) { return [d](double v) { return v + d; }; };
+    all.push_back(everywhere("inches_for_mm", each_component("lin ", xyz, times(1 / 25.4))));
+    all.push_back(everywhere("metres_for_mm", each_component("lin ", xyz, times(0.001))));
+    all.push_back(everywhere("scaled_by_1_percent", each_component("lin ", {"X", "Y"}, times(1.01))));
+    all.push_back(everywhere("mirrored_x", each_component("lin ", {"X"}, times(-1))));
+    all.push_back(everywhere("mirrored_y", each_component("lin ", {"Y"}, times(-1))));
+    all.push_back(everywhere("mirrored_z", each_component("lin ", {"Z"}, times(-1))));
+    all.push_back(everywhere("sign_lost", each_component("lin ", xyz, [](double v) { return std::abs(v); })));
+    all.push_back(
+        everywhere("x_and_y_exchanged", each("lin ", [](std::string& l) { return swap_components(l, "X", "Y"); })));
+    all.push_back(everywhere("all_2_mm_deeper", each_component("lin ", {"Z"}, plus(-2))));
+    all.push_back(everywhere("all_2_mm_higher", each_component("lin ", {"Z"}, plus(2))));
+    all.push_back(everywhere("all_2_mm_aside", each_component("lin ", {"X"}, plus(2))));
+    all.push_back(in_one_chunk("point_lowered", shifted_point("Z", -5)));
+    all.push_back(in_one_chunk("point_moved_x", shifted_point("X", 15)));
+    all.push_back(in_one_chunk("point_moved_y", shifted_point("Y", 15)));
+    all.push_back(in_one_chunk("retract_lost", lose_retract));
+    all.push_back(in_one_chunk("last_retract_lost", lose_last_retract));
+    all.push_back(in_one_chunk("moves_reversed", reverse_moves));
+    all.push_back(in_one_chunk("every_second_move_lost", lose_every_second));
+    all.push_back(everywhere("angle_sign_lost", each_component("lin ", {"A", "B", "C"}, times(-1))));
+    all.push_back(
+        everywhere("angles_in_wrong_order", each("lin ", [](std::string& l) { return swap_components(l, "A", "C"); })));
+    all.push_back(everywhere("tilted_by_2_degrees", each_component("lin ", {"B"}, plus(2))));
+    all.push_back(of_files("directions_exchanged", exchange_directions));
+}
+
+void add_frames(std::vector<Mutation>& all) {
+    const auto times = [](double f) { return [f](double v) { return f * v; }; };
+    const auto plus = [](double d) { return [d](double v) { return v + d; }; };
+    all.push_back(everywhere("tool_10_mm_longer", each_component("$tool", {"Z"}, plus(10))));
+    all.push_back(everywhere("tool_half_mm_shorter", each_component("$tool", {"Z"}, plus(-0.5))));
+    all.push_back(everywhere("stale_tool_table", each_component("$tool", {"X"}, plus(0.2))));
+    all.push_back(everywhere("base_20_mm_aside", each_component("$base", {"X"}, plus(20))));
+    all.push_back(everywhere("base_1_mm_lower", each_component("$base", {"Z"}, plus(-1))));
+    all.push_back(everywhere("base_turned", each_component("$base", {"A"}, plus(3))));
+    all.push_back(everywhere("load_lost", without("$load")));
+    const std::vector<std::string> external{"E1", "E2", "E3", "E4", "E5", "E6"};
+    all.push_back(everywhere("table_turned_the_other_way", [times, external](Lines& lines) {
+        const bool lin = each_component("lin ", external, times(-1))(lines);
+        return each_component("ptp ", external, times(-1))(lines) || lin;
+    }));
+    all.push_back(in_one_chunk("start_joint_sign_lost", each_component("ptp ", {"A2"}, times(-1))));
+    all.push_back(in_one_chunk("start_joint_moved", each_component("ptp ", {"A3"}, plus(12))));
+}
+
+void add_speeds(std::vector<Mutation>& all) {
+    const auto times = [](double f) { return [f](double v) { return f * v; }; };
+    all.push_back(everywhere("feed_times_60", each_value("$vel.cp", times(60))));
+    all.push_back(everywhere("feed_times_2", each_value("$vel.cp", times(2))));
+    all.push_back(everywhere("feed_by_60", each_value("$vel.cp", times(1.0 / 60))));
+    all.push_back(everywhere("rounding_times_20", [](Lines& lines) {
+        const bool larger = each_value("$apo.cdis", [](double v) { return std::min(20 * v, 1000.0); })(lines);
+        each("lin ", [](std::string& l) {
+            if (!l.ends_with("C_DIS")) l += " C_DIS";
+            return true;
+        })(lines);
+        return larger;
+    }));
+    all.push_back(everywhere("spindle_never_started", without("$out[", "true")));
+    all.push_back(everywhere("spindle_not_waited_for", without("wait ")));
+    all.push_back(everywhere("spindle_too_slow", each_value("$anout", times(0.1))));
+    all.push_back(everywhere("tool_change_not_asked", without("halt")));
+}
+
+void add_chunks(std::vector<Mutation>& all) {
+    all.push_back(in_main("chunk_lost", lose_chunk));
+    all.push_back(of_files("chunks_exchanged", swap_chunks));
+    all.push_back(in_main("calls_exchanged", [](ProgramFiles&, Lines& lines, const std::vector<std::size_t>& calls) {
+        if (calls.size() < 2) return false;
+        std::swap(lines[calls.front()], lines[calls.back()]);
+        return true;
+    }));
+    all.push_back(in_main("call_lost", [](ProgramFiles&, Lines& lines, const std::vector<std::size_t>& calls) {
+        if (calls.empty()) return false;
+        lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(calls.back()));
+        return true;
+    }));
+    all.push_back(in_main("chunk_called_twice", [](ProgramFiles&, Lines& lines, const std::vector<std::size_t>& calls) {
+        if (calls.empty()) return false;
+        lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(calls.back()), lines[calls.back()]);
+        return true;
+    }));
+    all.push_back(in_main("file_lost", [](ProgramFiles& files, Lines& lines, const std::vector<std::size_t>& calls) {
+        if (calls.empty()) return false;
+        const std::string stem = lower(lines[calls.back()].substr(0, lines[calls.back()].find('(')));
+        std::erase_if(files, [&](const ProgramFile& file) { return stem_of(file) == stem; });
+        return true;
+    }));
+}
+
+void add_text(std::vector<Mutation>& all) {
+    all.push_back(of_text("truncated", [](std::string& text) {
+        text.resize(text.size() * 2 / 3);
+        return true;
+    }));
+    all.push_back(of_text("end_lost", [](std::string& text) {
+        const std::size_t at = text.rfind("END");
+        if (at == std::string::npos) return false;
+        text.resize(at);
+        return true;
+    }));
+    all.push_back(of_text("decimal_comma", [](std::string& text) {
+        const std::size_t at = text.find("LIN ");
+        return at != std::string::npos && replace_first(text, at, ".", ",");
+    }));
+    all.push_back(of_text("exponent", [](std::string& text) {
+        const std::size_t at = text.find("LIN ");
+        return at != std::string::npos && replace_first(text, at, ",Y", "E+00,Y");
+    }));
+    all.push_back(of_text("not_a_number", [](std::string& text) {
+        const std::size_t at = text.find("LIN ");
+        return at != std::string::npos && replace_first(text, at, "X ", "X nan");
+    }));
+    all.push_back(of_text("misspelt_word", [](std::string& text) { return replace_first(text, 0, "LIN {", "LNI {"); }));
+    all.push_back(of_text("pose_lost", [](std::string& text) {
+        const std::size_t at = text.find(",A ", text.find("LIN "));
+        const std::size_t end = text.find('}', at);
+        if (at == std::string::npos || end == std::string::npos) return false;
+        text.erase(at, end - at);
+        return true;
+    }));
+}
+
+}  // namespace
+
+std::vector<Mutation> all_mutations() {
+    std::vector<Mutation> all;
+    add_geometry(all);
+    add_frames(all);
+    add_speeds(all);
+    add_chunks(all);
+    add_text(all);
+    return all;
+}
+
+std::vector<std::string> called_chunks(const ProgramFiles& files, const std::string& main) {
+    std::vector<std::string> called;
+    for (const ProgramFile& file : files) {
+        if (stem_of(file) != lower(main) || !is_source(file)) continue;
+        for (const std::string& line : lines_of(file.text)) {
+            for (const ProgramFile& chunk : files) {
+                if (is_source(chunk) && begins(line, stem_of(chunk) + "(")) called.push_back(stem_of(chunk));
+            }
+        }
+    }
+    return called;
+}
+
+}  // namespace qchopper

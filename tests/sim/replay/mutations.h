@@ -1,0 +1,30 @@
+// Faults put into the text of robot programs: text in, text out, for any KRL program of docs/programs.md.
+//
+// Each gives the files of a program with one fault, or nothing where the program has no place for it. Names, sizes and
+// hashes are for the caller to make again.
+
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/program/parsed_program.h"
+
+namespace qchopper {
+
+using ProgramFiles = std::vector<ProgramFile>;
+
+struct Mutation {
+    std::string name;
+    std::function<std::optional<ProgramFiles>(const ProgramFiles&)> apply;
+};
+
+// In a fixed order.
+std::vector<Mutation> all_mutations();
+
+// The names of the chunks in the order in which the main program calls them, in lower case; `main` without ending.
+std::vector<std::string> called_chunks(const ProgramFiles& files, const std::string& main);
+
+}  // namespace qchopper
