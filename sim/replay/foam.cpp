@@ -152,8 +152,7 @@ CutResult Foam::cut(std::size_t direction, const Cutter& cutter, double flute, V
                 const double z = a.z + at.z;
                 const auto cell = static_cast<std::size_t>(j * side + i);
                 if (!(z < tile.cut[cell])) continue;
-                tile.cut[cell] = static_cast<float>(z);
-                tile.least_cut = std::min(tile.least_cut, static_cast<float>(z));
+                tile.lower_cut(cell, static_cast<float>(z));
                 if (!(tile.high[cell] > z && tile.low[cell] < tile.high[cell])) continue;
                 const ColumnRemoval removal = lower_column(tile, cell, z);
                 length += removal.length;

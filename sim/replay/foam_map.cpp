@@ -16,14 +16,23 @@ constexpr double border = 1;  // cells around the projection of the block
 
 void subtract(std::vector<FoamInterval>& intervals, double low, double high) {
     if (!(low < high)) return;
-    std::vector<FoamInterval> left;
-    left.reserve(intervals.size() + 1);
-    for (const FoamInterval& i : intervals) {
-        if (i.low < low) left.push_back({i.low, std::min(i.high, low)});
-        if (i.high > high) left.push_back({std::max(i.low, high), i.high});
-        if (i.low < low && i.high > low) continue;
+    for (std::size_t k = 0; k < intervals.size(); ++k) {
+        FoamInterval& own = intervals[k];
+        if (own.high <= low || own.low >= high) continue;
+        const FoamInterval above{high, own.high};
+        own.high = low;
+        const bool has_below = own.low < own.high;
+        if (above.low < above.high && has_below) {
+            intervals.insert(intervals.begin() + static_cast<std::ptrdiff_t>(k) + 1, above);
+            return;
+        }
+        if (above.low < above.high) {
+            own = above;
+        } else if (!has_below) {
+            intervals.erase(intervals.begin() + static_cast<std::ptrdiff_t>(k));
+            --k;
+        }
     }
-    intervals.swap(left);
 }
 
 // The t at which from + t * along leaves the slab min..max in which it is; infinite if it does not move.
@@ -104,37 +113,49 @@ FoamInterval FoamMap::block_on(Vec3 from, Vec3 along) const {
     return inside.low < inside.high ? inside : FoamInterval{0, 0};
 }
 
+// From t on, where in a square of `step` cells the line leaves it, but not beyond `end`.
+double FoamMap::leaves_square(const MapLine& line, std::int32_t ci, std::int32_t cj, std::int32_t step, double t,
+                              double end) const {
+    const double x0 = x_min_ + (ci / step) * step * cell_;
+    const double y0 = y_min_ + (cj / step) * step * cell_;
+    const double next = std::min(leaves(line.from.x, line.along.x, x0, x0 + step * cell_),
+                                 leaves(line.from.y, line.along.y, y0, y0 + step * cell_));
+    return std::min(std::max(next, t), end);
+}
+
+// Squares that the line passes below everything that was cut there are passed at once: tiles, then their squares, then
+// cells; so are the gaps between intervals.
 void FoamMap::remove_from(std::vector<FoamInterval>& intervals, Vec3 from, Vec3 along) const {
-    if (intervals.empty()) return;
     constexpr auto side = FoamTile::side;
-    const double end = intervals.back().high;
+    const MapLine line{from, along};
     const double nudge = 1e-9 * cell_;
-    double t = intervals.front().low;
-    while (t < end) {
+    const auto z_up_to = [&](double t, double next) { return from.z + along.z * (along.z > 0 ? next : t); };
+    double t = intervals.empty() ? infinite : intervals.front().low;
+    while (true) {
+        const auto foam =
+            std::find_if(intervals.begin(), intervals.end(), [&](const FoamInterval& i) { return i.high > t; });
+        if (foam == intervals.end()) return;
+        t = std::max(t, foam->low);
+        const double end = foam->high;
         const double middle = t + nudge;
-        const double x = from.x + middle * along.x;
-        const double y = from.y + middle * along.y;
-        const double i = std::floor((x - x_min_) / cell_);
-        const double j = std::floor((y - y_min_) / cell_);
+        const double i = std::floor((from.x + middle * along.x - x_min_) / cell_);
+        const double j = std::floor((from.y + middle * along.y - y_min_) / cell_);
         if (!(i >= 0 && j >= 0 && i < double(tiles_x_) * side && j < double(tiles_y_) * side)) return;
         const auto ci = static_cast<std::int32_t>(i);
         const auto cj = static_cast<std::int32_t>(j);
         const FoamTile* here = tile(ci / side, cj / side);
-        const double z = from.z + t * along.z;
-        const bool is_far = here == nullptr || (here->least_cut > z && here->least_cut > from.z + end * along.z);
-        const std::int32_t step = is_far ? side : 1;
-        const double x0 = x_min_ + (ci / step) * step * cell_;
-        const double y0 = y_min_ + (cj / step) * step * cell_;
-        double next =
-            std::min(leaves(from.x, along.x, x0, x0 + step * cell_), leaves(from.y, along.y, y0, y0 + step * cell_));
-        next = std::min(std::max(next, middle), end);
-        if (!is_far) {
-            const double cut =
-                here->cut[static_cast<std::size_t>(cj % side) * side + static_cast<std::size_t>(ci % side)];
-            const double crossing = along.z != 0 ? (cut - from.z) / along.z : infinite;
-            if (along.z > 0) subtract(intervals, std::max(t, crossing), next);
-            if (along.z < 0) subtract(intervals, t, std::min(next, crossing));
-            if (along.z == 0 && z > cut) subtract(intervals, t, next);
+        double next = leaves_square(line, ci, cj, side, middle, end);
+        if (here != nullptr && here->least_cut < z_up_to(t, next)) {
+            next = leaves_square(line, ci, cj, FoamTile::square, middle, end);
+            if (here->least_of_square[FoamTile::square_of_cut(ci % side, cj % side)] < z_up_to(t, next)) {
+                next = leaves_square(line, ci, cj, 1, middle, end);
+                const double cut =
+                    here->cut[static_cast<std::size_t>(cj % side) * side + static_cast<std::size_t>(ci % side)];
+                const double crossing = along.z != 0 ? (cut - from.z) / along.z : infinite;
+                if (along.z > 0) subtract(intervals, std::max(t, crossing), next);
+                if (along.z < 0) subtract(intervals, t, std::min(next, crossing));
+                if (along.z == 0 && from.z > cut) subtract(intervals, t, next);
+            }
         }
         t = next;
     }

@@ -2,6 +2,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -30,9 +31,31 @@ struct FoamTile {
     std::vector<float> low, high;
     std::vector<Below> below;  // further ones, by cell, of each cell the highest last
     float least_cut = std::numeric_limits<float>::infinity();
+    // The least of `cut` of each square of 8 x 8 cells: lines far below it pass the square at once.
+    static constexpr std::int32_t square = 8;
+    std::array<float, cells / (square * square)> least_of_square = filled_with_infinity();
     std::uint64_t version = 0;  // of the other maps when the columns were made; 0: not made
     // Highest foam of each square of 16 x 16 cells; too high is allowed.
     std::array<float, 16> top{};
+
+    // Lowers `cut` of a cell, and the least ones with it.
+    void lower_cut(std::size_t cell, float height) {
+        cut[cell] = height;
+        least_cut = std::min(least_cut, height);
+        float& least = least_of_square[square_of_cut(static_cast<std::int32_t>(cell) % side,
+                                                     static_cast<std::int32_t>(cell) / side)];
+        least = std::min(least, height);
+    }
+    static constexpr std::size_t square_of_cut(std::int32_t x, std::int32_t y) {
+        return static_cast<std::size_t>(y / square) * (side / square) + static_cast<std::size_t>(x / square);
+    }
+
+ private:
+    static std::array<float, cells / (square * square)> filled_with_infinity() {
+        std::array<float, cells / (square * square)> all;
+        all.fill(std::numeric_limits<float>::infinity());
+        return all;
+    }
 };
 
 // Cells of a half-open range.
@@ -69,6 +92,12 @@ class FoamMap {
     std::uint64_t version = 1;  // grows with every change
 
  private:
+    struct MapLine {
+        Vec3 from;
+        Vec3 along;
+    };
+    double leaves_square(const MapLine& line, std::int32_t ci, std::int32_t cj, std::int32_t step, double t,
+                         double end) const;
     std::size_t index(std::int32_t tx, std::int32_t ty) const { return static_cast<std::size_t>(ty) * tiles_x_ + tx; }
 
     double cell_;
