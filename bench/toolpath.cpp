@@ -103,20 +103,23 @@ void measure_finishing(const Setup& setup, const TriangleMesh& mesh, double cell
     HeightMap stock = map;
     std::fill(stock.height.begin(), stock.height.end(), 1e6F);
     const HeightMap left = test_pieces::replayed(stock, passes, tool);
-    double reachable = 0, within = 0, within_h = 0, all = 0, most = 0;
-    for (const auto& p : points) {
-        all += p.area;
-        if (test_pieces::foam_over(closing, p, 1) > options.scallop + 0.75 * cell) continue;
-        reachable += p.area;
-        const double foam = test_pieces::foam_over(left, p, 20);
-        most = std::max(most, foam);
-        within += foam <= options.scallop + 0.5 ? p.area : 0;
-        within_h += foam <= options.scallop + options.path_tolerance + cell ? p.area : 0;
+    for (const double reach : {options.scallop + 0.75 * cell, options.scallop + 2 * cell}) {
+        double reachable = 0, within = 0, within_h = 0, all = 0, most = 0;
+        for (const auto& p : points) {
+            all += p.area;
+            if (test_pieces::foam_over(closing, p, 2) > reach) continue;
+            reachable += p.area;
+            const double foam = test_pieces::foam_over(left, p, 20);
+            most = std::max(most, foam);
+            within += foam <= options.scallop + 0.5 ? p.area : 0;
+            within_h += foam <= options.scallop + options.path_tolerance + cell ? p.area : 0;
+        }
+        std::printf(
+            "  reachable %.2f %%; leftover <= h + 0.5: %.3f %%, <= h + tolerance + cell: %.3f %%, most %.2f; gouge "
+            "%.4f\n",
+            100 * reachable / all, 100 * within / reachable, 100 * within_h / reachable, most,
+            test_pieces::deepest_gouge(passes, tool, points, map));
     }
-    std::printf(
-        "  reachable %.2f %%; leftover <= h + 0.5: %.3f %%, <= h + tolerance + cell: %.3f %%, most %.2f; gouge %.4f\n",
-        100 * reachable / all, 100 * within / reachable, 100 * within_h / reachable, most,
-        test_pieces::deepest_gouge(passes, tool, points, map));
 }
 
 }  // namespace
