@@ -117,8 +117,10 @@ class LineJoiner {
         double t = (z_ - a) / (b - a);
         const bool is_at_edge = std::abs(b - a) > jump_;
         if (is_at_edge) t = a < b ? 0 : 1;
-        const double x = (static_cast<double>(cell % tip_.columns) + 0.5 + (is_upright ? 0 : t)) * tip_.cell;
-        const double y = (static_cast<double>(cell / tip_.columns) + 0.5 + (is_upright ? t : 0)) * tip_.cell;
+        const std::size_t column = cell % tip_.columns;
+        const std::size_t row = cell / tip_.columns;
+        const double x = (static_cast<double>(column) + 0.5 + (is_upright ? 0 : t)) * tip_.cell;
+        const double y = (static_cast<double>(row) + 0.5 + (is_upright ? t : 0)) * tip_.cell;
         return {{x, y}, is_at_edge};
     }
 

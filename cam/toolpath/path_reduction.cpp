@@ -15,7 +15,7 @@ namespace qchopper {
 namespace {
 
 constexpr std::size_t places = 3;  // on a gate: right end, middle, left end
-constexpr double widest = 1.5;     // how far from the right end rounded corners may be, in widths
+constexpr double widest = 1.3;     // how far from the right end rounded corners may be, in widths
 
 Point2 minus(Point2 a, Point2 b) {
     return {a.x - b.x, a.y - b.y};
