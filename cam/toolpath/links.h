@@ -17,6 +17,7 @@
 #include "cam/cell/carving_tool.h"
 #include "cam/setup/height_map.h"
 #include "cam/setup/holder_limit.h"
+#include "cam/toolpath/in_process_stock.h"
 #include "cam/toolpath/pass.h"
 #include "cam/toolpath/toolpath.h"
 
@@ -44,6 +45,7 @@ struct LinkOptions {
     double stay_down = 300;  // longest straight way to the next pass that is looked at
     double gap = 2;          // above foam, where an approach begins
     double clearance = 3;    // above what a link goes over
+    double slack = 0.36;     // how far a controller that rounds corners may pass beside the way
 };
 
 class RunBuilder {
@@ -78,6 +80,7 @@ class RunBuilder {
     const CarvingTool* tool_;
     const Operation* operation_;
     LinkOptions options_;
+    ToolSweep sweep_;
     double outer_ = 0;  // radius within which a cell may hold foam that the tool touches
     double inner_ = 0;  // radius within which all of a cell lies under the tool
     Vec3 at_;

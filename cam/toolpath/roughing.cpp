@@ -92,6 +92,7 @@ std::vector<PathRun> rough(CarvingSpace& space, const CarvingTool& tool, const T
     const double down = (heights.top - heights.bottom) / static_cast<double>(count);
     LinkOptions links;
     links.has_ramps = true;
+    links.slack = 0.36 * operation.rounding;  // at a right angle the parabola passes 0.354 of it beside the corner
     RunBuilder runs(space, tool, operation, links);
     for (std::size_t k = 1; k <= count; ++k) {
         context.check_cancelled();
