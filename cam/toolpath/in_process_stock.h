@@ -2,7 +2,7 @@
 //
 // mm. It is the block less, for each direction, all above a height of its own map: along a direction carving removes
 // only what lies open above. Conservative: a point that may still be foam counts as foam
-// (tests/cam/toolpath/in_process_stock_test.cpp), so that there is never more foam in the way than is known; it may be
+// (tests/cam/toolpath/stock_and_links_test.cpp), so that there is never more foam in the way than is known; it may be
 // up to three cells more than there is.
 
 #pragma once
@@ -24,8 +24,8 @@ class ToolSweep {
     // For maps of a cell size. `slack`: how far the tool may pass beside its way, because a controller rounds corners.
     ToolSweep(const CarvingTool& tool, double cell, double slack = 0);
 
-    // Along a straight way of the tip, in map coordinates, in two maps with the same cells. O(length / cell * (radius /
-    // cell)^2).
+    // Along a straight line of the tip, in map coordinates, in two maps with the same cells. O(length / cell * (radius
+    // / cell)^2).
     void move(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) const;
 
  private:

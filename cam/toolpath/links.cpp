@@ -102,7 +102,7 @@ HeightMap holder_limit_over(const HeightMap& foam, const ToolBody& body) {
     return limit;
 }
 
-// What is on a straight way from the tip to another place.
+// What is on a straight line from the tip to another place.
 struct RunBuilder::Way {
     double length = 0;
     double foam = -std::numeric_limits<double>::infinity();  // highest that the tool may touch

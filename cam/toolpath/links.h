@@ -2,7 +2,7 @@
 //
 // mm, in the frame of the height maps of one direction. A link at its own feed touches no foam: the whole tool must be
 // clear of all that may be foam. Where that is not known, the way is driven at the feed of cuts
-// (tests/cam/toolpath/links_test.cpp).
+// (tests/cam/toolpath/stock_and_links_test.cpp).
 //
 // The tool comes to a pass straight, where the way is clear or may be cut; else over what stands between; else through
 // the retract plane. It comes down at the feed of links to just above the foam. A pass of roughing is entered on a ramp
@@ -42,7 +42,7 @@ HeightMap holder_limit_over(const HeightMap& foam, const ToolBody& body);
 
 struct LinkOptions {
     bool has_ramps = false;  // of roughing
-    double stay_down = 300;  // longest straight way to the next pass that is looked at
+    double stay_down = 300;  // longest straight line to the next pass that is looked at
     double gap = 2;          // above foam, where an approach begins
     double clearance = 3;    // above what a link goes over
     double slack = 0.36;     // how far a controller that rounds corners may pass beside the way

@@ -132,6 +132,7 @@ class RoughingPasses {
         for (std::vector<CellPlace>& rim : rims.all()) {
             const auto outside = std::find_if(rim.begin(), rim.end(), [&](CellPlace cell) { return !wanted(cell); });
             if (outside == rim.end()) {
+                if (rim.size() == 2) add(rim, false);
                 if (rim.size() < 3) continue;
                 rim.push_back(rim.front());
                 add(rim, true);

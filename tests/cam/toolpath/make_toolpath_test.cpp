@@ -81,15 +81,14 @@ TEST(MakeToolpath, EveryOperationIsCleanInAPlainReplay) {
                                      std::to_string(operation.direction));
         }
     };
-    carve(bumpy(90, 30, 60, 3), 0, "bumps");
-    carve(bumpy(90, 30, 60, 4), 45, "tilted bumps");
-    carve(shapes::ball({0, 0, 0}, 45, 24), 60, "ball");
+    carve(bumpy(50, 16, 40, 4), 45, "tilted bumps");
+    carve(shapes::ball({0, 0, 0}, 25, 24), 60, "ball");
 }
 
 TEST(MakeToolpath, HolderAndSpindleStayClearBesideATallPiece) {
-    // A tower of 230 mm with a stick-out of 150: the holder is deep beside it.
+    // A tower of 200 mm with a stick-out of 150: the holder is deep beside it.
     const TriangleMesh mesh =
-        shapes::joined({shapes::box({-60, -60, 0}, {60, 60, 20}), shapes::box({-20, -20, 20}, {20, 20, 230})});
+        shapes::joined({shapes::box({-40, -40, 0}, {40, 40, 20}), shapes::box({-10, -10, 20}, {10, 10, 200})});
     const auto setup = setup_of(mesh, 5, 30);
     const Cell cell = ready_cell();
     PlainReplay replay(setup, cell, 4);
