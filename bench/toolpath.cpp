@@ -1,11 +1,13 @@
-// Height maps, tip surfaces and finishing passes: CPU time, points and length.
+// Height maps, tip surfaces and finishing passes of one direction: CPU time, points, length, and what a replay of the
+// passes leaves. bench_toolpath [SCAN|ball [SIZE_MM [ROUNDING_MM]]]
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
+#include <optional>
 #include <string>
 
+#include "bench/clock.h"
 #include "bench/specimens.h"
 #include "cam/toolpath/finishing.h"
 #include "cam/toolpath/tip_surface.h"
@@ -16,13 +18,9 @@
 namespace qchopper::bench {
 namespace {
 
-double cpu_s() {
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
+constexpr std::size_t most_replayed_cells = 4'000'000;
 
-// The piece at a size of its longest side, as it lies, in a block with 10 mm around it.
+// As it lies, in a block with 10 mm around it.
 Setup standing(const TriangleMesh& mesh) {
     Setup setup;
     const Box box = bounds(mesh);
@@ -44,79 +42,75 @@ CarvingTool ball_tool(double diameter) {
 }
 
 void measure_tips(const Setup& setup, const TriangleMesh& mesh, double cell) {
-    const double begin = cpu_s();
+    const double begin = process_cpu_s();
     const HeightMap map = target_map(setup, mesh, 0, {cell, -6, 6});
-    const double mapped = cpu_s();
+    const double mapped = process_cpu_s();
     const HeightMap tip = tip_surface(map, ball_tool(12));
-    const double end = cpu_s();
-    const auto cells = static_cast<double>(map.height.size());
-    std::printf("cell %.2f mm: %.2f M cells, map %.2f s, tips %.2f s: %.2f M positions per core-second\n", cell,
-                1e-6 * cells, mapped - begin, end - mapped, 1e-6 * cells / (end - mapped));
+    const double end = process_cpu_s();
+    const double millions = 1e-6 * static_cast<double>(map.height.size());
+    std::printf("cell %.2f mm: %.2f M cells, map %.2f s, tips %.2f s: %.1f M positions per core-second\n", cell,
+                millions, mapped - begin, end - mapped, millions / (end - mapped));
 }
 
-// Finishing of all that is seen from above, replayed.
-void measure_finishing(const Setup& setup, const TriangleMesh& mesh, double cell, double rounding) {
-    const CarvingTool tool = ball_tool(12);
-    const double begin = cpu_s();
-    const HeightMap map = target_map(setup, mesh, 0, {cell, -6, 6});
-    const HeightMap tip = tip_surface(map, tool);
-    const HeightMap closing = remaining_surface(tip, tool);
-    const double mapped = cpu_s();
-    SurfaceLeft surface(mesh, std::nullopt);
-    const FinishingRegion region = surface.take(closing, 0.125 + 0.75 * cell, 2);
-    double carved = 0;
-    FinishingOptions options;
-    options.rounding = rounding;
-    const double ready = cpu_s();
-    const std::vector<Pass> passes = finishing_passes(tip, tool, region, options);
-    const double end = cpu_s();
-    const auto points = test_pieces::surface_points(mesh, map, 1);
-    for (const auto& p : points) carved += p.area;
-    const std::size_t count = test_pieces::points_of(passes);
+void print_passes(const std::vector<Pass>& passes, double carved_m2) {
     std::size_t rounded = 0;
     for (const Pass& pass : passes) {
-        rounded += static_cast<std::size_t>(
-            std::count_if(pass.points.begin(), pass.points.end(), [](const PassPoint& p) { return p.is_rounded; }));
+        for (const PassPoint& point : pass.points) rounded += point.is_rounded ? 1 : 0;
     }
-    for (const bool is_level : {true, false}) {
-        std::size_t n = 0, pts = 0;
-        double len = 0;
-        for (const Pass& pass : passes) {
-            if ((pass.points.front().tip.z == pass.points[pass.points.size() / 2].tip.z &&
-                 pass.points.front().tip.z == pass.points.back().tip.z) != is_level)
-                continue;
-            ++n;
-            pts += pass.points.size();
-            len += test_pieces::length_of({pass});
-        }
-        std::printf("  %s: %zu passes, %.1f m, %zu points: %.2f mm a point\n", is_level ? "levels" : "rows", n,
-                    1e-3 * len, pts, len / static_cast<double>(pts));
-    }
+    const auto points = static_cast<double>(test_pieces::points_of(passes));
     const double metres = 1e-3 * test_pieces::length_of(passes);
-    std::printf(
-        "cell %.2f: maps %.2f s, passes %.2f s: %zu passes, %.0f m, %zu points (%.0f %% rounded); carved %.3f m2: %.0f "
-        "m/m2, %.0f points/m2 = %.2f MB/m2\n",
-        cell, mapped - begin, end - ready, passes.size(), metres, count,
-        100.0 * static_cast<double>(rounded) / static_cast<double>(count), 1e-6 * carved, metres / (1e-6 * carved),
-        static_cast<double>(count) / (1e-6 * carved), 46e-6 * static_cast<double>(count) / (1e-6 * carved));
-    if (map.height.size() > 4000000) return;
-    HeightMap stock = map;
-    std::fill(stock.height.begin(), stock.height.end(), 1e6F);
-    const HeightMap left = test_pieces::replayed(stock, passes, tool);
-    double reachable = 0, within = 0, within_h = 0, all = 0, most = 0;
+    std::printf("  %zu passes, %.0f m, %.0f points, %.0f %% rounded; of %.3f m2: %.0f m, %.0f points, %.2f MB per m2\n",
+                passes.size(), metres, points, 100 * static_cast<double>(rounded) / points, carved_m2,
+                metres / carved_m2, points / carved_m2, 46e-6 * points / carved_m2);
+}
+
+// What is left over the points that the tool reaches to within `reach`.
+void print_leftover(const std::vector<test_pieces::SurfacePoint>& points, const HeightMap& closing,
+                    const HeightMap& left, double reach, double allowed) {
+    double all = 0;
+    double reachable = 0;
+    double within = 0;
+    double most = 0;
     for (const auto& p : points) {
         all += p.area;
-        if (test_pieces::foam_over(closing, p, 1) > options.scallop + 0.75 * cell) continue;
+        if (test_pieces::foam_over(closing, p, 2) > reach) continue;
         reachable += p.area;
         const double foam = test_pieces::foam_over(left, p, 20);
         most = std::max(most, foam);
-        within += foam <= options.scallop + 0.5 ? p.area : 0;
-        within_h += foam <= options.scallop + options.path_tolerance + cell ? p.area : 0;
+        if (foam <= allowed) within += p.area;
     }
-    std::printf(
-        "  reachable %.2f %%; leftover <= h + 0.5: %.3f %%, <= h + tolerance + cell: %.3f %%, most %.2f; gouge %.4f\n",
-        100 * reachable / all, 100 * within / reachable, 100 * within_h / reachable, most,
-        test_pieces::deepest_gouge(passes, tool, points, map));
+    std::printf("  within %.2f mm reachable: %.2f %%; of that at most %.2f mm left on %.3f %%; most %.2f mm\n", reach,
+                100 * reachable / all, allowed, 100 * within / reachable, most);
+}
+
+// Finishing of all that is seen from above.
+void measure_finishing(const Setup& setup, const TriangleMesh& mesh, double cell, double rounding) {
+    const CarvingTool tool = ball_tool(12);
+    FinishingOptions options;
+    options.rounding = rounding;
+    const double begin = process_cpu_s();
+    const HeightMap map = target_map(setup, mesh, 0, {cell, -6, 6});
+    const HeightMap tip = tip_surface(map, tool);
+    const HeightMap closing = remaining_surface(tip, tool);
+    const FinishingRegion region =
+        SurfaceLeft(mesh, std::nullopt).take(closing, 0.5 * options.scallop + 0.75 * cell, 2);
+    const double ready = process_cpu_s();
+    const std::vector<Pass> passes = finishing_passes(tip, tool, region, options);
+    const double end = process_cpu_s();
+    std::printf("cell %.2f mm: maps and region %.2f s, passes %.2f s\n", cell, ready - begin, end - ready);
+    const auto points = test_pieces::surface_points(mesh, map, 1);
+    double carved = 0;
+    for (const auto& p : points) carved += 1e-6 * p.area;
+    print_passes(passes, carved);
+    if (map.height.size() > most_replayed_cells) return;
+    HeightMap stock = map;
+    std::fill(stock.height.begin(), stock.height.end(), 1e6F);
+    const HeightMap left = test_pieces::replayed(stock, passes, tool);
+    for (const double cells : {0.75, 2.0}) {
+        print_leftover(points, closing, left, options.scallop + cells * cell, options.scallop + 0.5);
+    }
+    std::printf("  deepest cut into a point of the surface: %.4f mm\n",
+                test_pieces::deepest_gouge(passes, tool, points, map));
 }
 
 }  // namespace
@@ -126,15 +120,20 @@ int main(int argc, char** argv) {
     using namespace qchopper;
     using namespace qchopper::bench;
     const std::string name = argc > 1 ? argv[1] : "igea_268k.ply";
-    const double size = argc > 2 ? std::atof(argv[2]) : 500;
-    const auto mesh = scan(default_data() / (name == "ball" ? "igea_268k.ply" : name), 1);
-    if (!mesh) return 1;
-    const Vec3 box = bounds(*mesh).size();
-    TriangleMesh scaled = *mesh;
-    for (Vec3& p : scaled.points) p = (size / std::max({box.x, box.y, box.z})) * p;
-    if (name == "ball") scaled = shapes::ball({0, 0, 0}, 0.5 * size, 200);
-    const auto setup = standing(scaled);
-    for (const double cell : {0.5}) measure_tips(setup, scaled, cell);
-    for (const double cell : {0.25}) measure_finishing(setup, scaled, cell, argc > 3 ? std::atof(argv[3]) : 5);
+    const double size = argc > 2 ? std::atof(argv[2]) : 250;
+    const double rounding = argc > 3 ? std::atof(argv[3]) : 5;
+    TriangleMesh mesh;
+    if (name == "ball") {
+        mesh = shapes::ball({0, 0, 0}, 50, 200);
+    } else {
+        const auto scanned = scan(default_data() / name, 1);
+        if (!scanned) return 1;
+        mesh = *scanned;
+    }
+    const Vec3 box = bounds(mesh).size();
+    for (Vec3& p : mesh.points) p = (size / std::max({box.x, box.y, box.z})) * p;
+    const auto setup = standing(mesh);
+    for (const double cell : {0.5, 0.25, 0.2}) measure_tips(setup, mesh, cell);
+    measure_finishing(setup, mesh, 0.25, rounding);
     return 0;
 }

@@ -166,9 +166,14 @@ std::vector<Pass> finishing_passes(const HeightMap& tip, const CarvingTool& tool
     const double step = finishing_step(tool, options);
     assert(region.size() == tip.height.size());
     const double radius = 0.5 * tool.diameter;
+    const auto report = [&](std::size_t done) {
+        context.check_cancelled();
+        context.progress("steps of finishing", done, 4);
+    };
+    report(0);
     const double least_slope = std::tan(options.steep_deg * std::numbers::pi / 180);
     FinishingMasks masks = masks_of(tip, region, radius, least_slope);
-    context.check_cancelled();
+    report(1);
     SteepPatches(tip, masks).give_low_ones_to_flat(0.5 * step);
     // Passes go on beyond the cells, but not over an edge down to where there is nothing to finish.
     const auto by = static_cast<std::size_t>(std::ceil(0.5 * step / tip.cell));
@@ -178,13 +183,15 @@ std::vector<Pass> finishing_passes(const HeightMap& tip, const CarvingTool& tool
         const FinishingMasks wide = masks_of(tip, wide_region, radius, least_slope);
         visited = either(wide.flat, wide.steep);
     }
+    report(2);
     const RasterOptions common{radius, options.scallop, options.path_tolerance, 0.5 * step, options.rounding};
     const CellMask steep = grown(masks.steep, tip.columns, tip.rows, by);
     std::vector<Pass> passes = level_passes(tip, {masks.steep, steep}, wide_region, least_slope, common, context);
-    context.check_cancelled();
+    report(3);
     const CellMask flat = both(grown(masks.flat, tip.columns, tip.rows, 2 * by), visited);
     std::vector<Pass> rows = raster_passes(tip, {masks.flat, flat}, common, context);
     std::move(rows.begin(), rows.end(), std::back_inserter(passes));
+    report(4);
     return passes;
 }
 

@@ -1,9 +1,11 @@
 // Finishing passes of one tool from one direction.
 //
 // mm. Wherever the tool fits, what stays between the passes is no higher than the scallop height, measured square to
-// the surface; where they are rounded or their points reduced, by the path tolerance more
-// (tests/cam/toolpath/finishing_test.cpp). No pass is below the tip surface, but for what tip_surface.h says of paths
-// between middles of cells. The result does not depend on the number of threads.
+// the surface, and in all no more than that, 1.3 path tolerances and two cells of the map
+// (tests/cam/toolpath/finishing_test.cpp): the tip surface is higher than the exact one by up to the diagonal of a cell
+// across a slope, and along a vertical edge levels keep 0.75 cells away from it besides. No pass is below the tip
+// surface, but for what tip_surface.h says of paths between middles of cells and for a fiftieth of the path tolerance
+// where a corner is rounded. The result does not depend on the number of threads.
 
 #pragma once
 

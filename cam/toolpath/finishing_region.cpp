@@ -17,8 +17,9 @@
 namespace qchopper {
 namespace {
 
-constexpr std::uint8_t all = 255;       // more foam than is examined, or not seen at all
-constexpr std::uint8_t most_twice = 4;  // foam is examined up to near * 2^(most_twice - 1)
+constexpr std::uint8_t all = 255;        // more foam than is examined, or not seen at all
+constexpr std::uint8_t most_twice = 4;   // foam is examined up to near * 2^(most_twice - 1)
+constexpr double lowest_facing = -0.01;  // sine of half a degree: a vertical wall is not left out by rounding
 constexpr std::size_t triangles_at_once = 1024;
 
 // The least of the `width` values from each one on, in place; the last ones have fewer.
@@ -133,7 +134,7 @@ FinishingRegion SurfaceLeft::take(const HeightMap& remaining, double near, doubl
     parallel_ranges(0, mesh_->triangles.size(), triangles_at_once, [&](std::size_t first, std::size_t end) {
         for (std::size_t t = first; t < end; ++t) {
             const Vec3 normal = normalized(rotate(remaining.piece_in_map, area_vector(*mesh_, t)));
-            if (!(normal.z > 0)) continue;
+            if (!(normal.z > lowest_facing)) continue;
             for_each_point(t, [&](std::size_t index, Vec3 p) {
                 if (left_[index] <= least_before && (left_[index] == 0 || worth > 0)) return;
                 const Vec3 at = apply(remaining.piece_in_map, p);

@@ -192,7 +192,8 @@ class LevelGates {
         const Point2 at = point.at;
         const double length = std::max(distance(before, after), 1e-9);
         const Point2 left{-(after.y - before.y) / length, (after.x - before.x) / length};
-        double width = tolerance_ + (point.is_at_edge ? 0.75 * cell_ : 0);
+        const double width_at_edge = 0.75 * cell_ + 0.7 * tolerance_;
+        double width = point.is_at_edge ? std::max(tolerance_, width_at_edge) : tolerance_;
         const auto beside = [&](double far) { return Point2{at.x + far * left.x, at.y + far * left.y}; };
         // A cell farther, because next to an edge the interpolated surface is too high.
         if (smooth_.height(beside(width + cell_)) > z) width = 0.01 * tolerance_;

@@ -15,6 +15,7 @@ namespace qchopper {
 namespace {
 
 constexpr std::size_t places = 3;  // on a gate: right end, middle, left end
+constexpr double widest = 1.3;     // how far from the right end rounded corners may be, in widths
 
 Point2 minus(Point2 a, Point2 b) {
     return {a.x - b.x, a.y - b.y};
@@ -71,48 +72,58 @@ class GateWedge {
     bool is_bounded_ = false;
 };
 
-struct Corner {
+struct GatePlace {
     std::size_t gate = 0;
     std::size_t place = 0;
 };
 
-// Least numbers of straight lines from the first gate to each place of each gate.
+// Of a path: straight lines, and by how much they pass the gates left of their right ends, in places summed over gates.
+struct PathCost {
+    std::size_t lines = std::numeric_limits<std::size_t>::max();
+    std::size_t aside = 0;
+    bool operator<(const PathCost& other) const {
+        return lines != other.lines ? lines < other.lines : aside < other.aside;
+    }
+    bool is_reached() const { return lines != std::numeric_limits<std::size_t>::max(); }
+};
+
+// Cheapest paths from the first gate to each place of each gate.
 class FewestCorners {
  public:
     FewestCorners(const std::vector<Gate>& gates, bool is_closed, std::size_t reach)
-        : gates_(gates), reach_(reach), lines_(gates.size()), before_(gates.size()) {
-        for (auto& row : lines_) row.fill(unreached);
-        for (std::size_t k = 0; k < places; ++k) lines_[0][k] = is_closed && k != 1 ? unreached : 0;
+        : gates_(gates), reach_(reach), cost_(gates.size()), before_(gates.size()) {
+        for (std::size_t k = 0; k < places; ++k) {
+            if (!is_closed || k == 1) cost_[0][k] = {0, 0};
+        }
         for (std::size_t i = 0; i + 1 < gates.size(); ++i) {
             for (std::size_t k = 0; k < places; ++k) {
-                if (lines_[i][k] != unreached) extend({i, k});
+                if (cost_[i][k].is_reached()) extend({i, k});
             }
         }
-        const auto& last = lines_.back();
+        const auto& last = cost_.back();
         end_.gate = gates.size() - 1;
         end_.place =
             is_closed ? 1 : static_cast<std::size_t>(std::min_element(last.begin(), last.end()) - last.begin());
     }
 
-    std::vector<Corner> corners() const {
-        std::vector<Corner> path{end_};
+    std::vector<GatePlace> corners() const {
+        std::vector<GatePlace> path{end_};
         while (path.back().gate > 0) path.push_back(before_[path.back().gate][path.back().place]);
         std::reverse(path.begin(), path.end());
         return path;
     }
 
  private:
-    static constexpr std::size_t unreached = std::numeric_limits<std::size_t>::max();
-
-    void extend(Corner from) {
+    void extend(GatePlace from) {
         GateWedge wedge(place(gates_[from.gate], from.place));
-        const std::size_t lines = lines_[from.gate][from.place] + 1;
+        const PathCost so_far = cost_[from.gate][from.place];
         const std::size_t end = std::min(gates_.size(), from.gate + 1 + reach_);
         for (std::size_t j = from.gate + 1; j < end; ++j) {
             for (std::size_t k = 0; k < places; ++k) {
+                const PathCost cost{so_far.lines + 1, so_far.aside + (from.place + k) * (j - from.gate)};
                 // The next gate can always be reached.
-                if (lines >= lines_[j][k] || (j > from.gate + 1 && !wedge.holds(place(gates_[j], k)))) continue;
-                lines_[j][k] = lines;
+                if (!(cost < cost_[j][k]) || (j > from.gate + 1 && !wedge.holds(place(gates_[j], k)))) continue;
+                cost_[j][k] = cost;
                 before_[j][k] = from;
             }
             if (!wedge.narrow(gates_[j])) return;
@@ -121,9 +132,9 @@ class FewestCorners {
 
     const std::vector<Gate>& gates_;
     std::size_t reach_;
-    std::vector<std::array<std::size_t, places>> lines_;
-    std::vector<std::array<Corner, places>> before_;
-    Corner end_;
+    std::vector<std::array<PathCost, places>> cost_;
+    std::vector<std::array<GatePlace, places>> before_;
+    GatePlace end_;
 };
 
 // Where a point is between the exact line and its left limit: 0 on the line, 1 on the limit; gates [first, last].
@@ -148,21 +159,57 @@ double place_beside(const std::vector<Gate>& gates, std::size_t first, std::size
     return found;
 }
 
-bool can_round(const std::vector<Gate>& gates, const std::array<Corner, 3>& at, const ReductionOptions& options) {
-    const std::array<Point2, 3> p{place(gates[at[0].gate], at[0].place), place(gates[at[1].gate], at[1].place),
-                                  place(gates[at[2].gate], at[2].place)};
-    const double before = length(minus(p[0], p[1]));
-    const double behind = length(minus(p[2], p[1]));
-    const double a = std::min(options.rounding, 0.5 * std::min(before, behind));
+// A corner of a path, and the gate on which it lies.
+struct PathCorner {
+    std::size_t gate = 0;
+    Point2 at;
+};
+
+bool can_round(const std::vector<Gate>& gates, const PathCorner& before, const PathCorner& corner,
+               const PathCorner& behind, double rounding) {
+    const double side_before = length(minus(before.at, corner.at));
+    const double side_behind = length(minus(behind.at, corner.at));
+    const double a = std::min(rounding, 0.5 * std::min(side_before, side_behind));
     if (!(a > 0)) return false;
-    const Point2 begin = between(p[1], p[0], a / before);
-    const Point2 end = between(p[1], p[2], a / behind);
+    const Point2 begin = between(corner.at, before.at, a / side_before);
+    const Point2 end = between(corner.at, behind.at, a / side_behind);
     for (const double t : {0.25, 0.5, 0.75}) {
-        const Point2 on_parabola = between(between(begin, p[1], t), between(p[1], end, t), t);
-        const double beside = place_beside(gates, at[0].gate, at[2].gate, on_parabola);
-        if (beside < -0.02 || beside > 1.02) return false;
+        const Point2 on_parabola = between(between(begin, corner.at, t), between(corner.at, end, t), t);
+        const double beside = place_beside(gates, before.gate, behind.gate, on_parabola);
+        if (beside < -0.02 || beside > widest + 0.02) return false;
     }
     return true;
+}
+
+// Whether a straight line passes all gates between two corners.
+bool passes(const std::vector<Gate>& gates, const PathCorner& from, const PathCorner& to) {
+    GateWedge wedge(from.at);
+    for (std::size_t i = from.gate + 1; i < to.gate; ++i) {
+        if (!wedge.narrow(gates[i])) return false;
+    }
+    return wedge.holds(to.at);
+}
+
+// Moves corners that cannot be rounded to another place on their gate, or beside it as far as is allowed, if they can
+// be rounded there.
+void move_to_round(std::vector<PathCorner>& corners, const std::vector<Gate>& gates, double rounding) {
+    std::vector<Gate> wide = gates;
+    for (Gate& gate : wide) gate.left = between(gate.right, gate.left, widest);
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+        const PathCorner& before = corners[i - 1];
+        const PathCorner& behind = corners[i + 1];
+        if (can_round(gates, before, corners[i], behind, rounding)) continue;
+        for (const double t : {0.0, 0.5, 1.0, widest}) {
+            const Gate& gate = gates[corners[i].gate];
+            const PathCorner moved{corners[i].gate, between(gate.right, gate.left, t)};
+            if (!passes(wide, before, moved) || !passes(wide, moved, behind) ||
+                !can_round(gates, before, moved, behind, rounding)) {
+                continue;
+            }
+            corners[i] = moved;
+            break;
+        }
+    }
 }
 
 }  // namespace
@@ -170,15 +217,18 @@ bool can_round(const std::vector<Gate>& gates, const std::array<Corner, 3>& at, 
 std::vector<ReducedPoint> reduced_path(const std::vector<Gate>& gates, bool is_closed,
                                        const ReductionOptions& options) {
     assert(gates.size() >= 2);
-    const std::vector<Corner> corners = FewestCorners(gates, is_closed, options.reach).corners();
+    std::vector<PathCorner> corners;
+    for (const GatePlace& found : FewestCorners(gates, is_closed, options.reach).corners()) {
+        corners.push_back({found.gate, place(gates[found.gate], found.place)});
+    }
+    if (options.rounding > 0) move_to_round(corners, gates, options.rounding);
     std::vector<ReducedPoint> path;
     path.reserve(corners.size());
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        ReducedPoint point{place(gates[corners[i].gate], corners[i].place), false};
-        if (i > 0 && i + 1 < corners.size()) {
-            point.is_rounded = can_round(gates, {corners[i - 1], corners[i], corners[i + 1]}, options);
-        }
-        path.push_back(point);
+        const bool is_end = i == 0 || i + 1 == corners.size();
+        path.push_back(
+            {corners[i].at, !is_end && options.rounding > 0 &&
+                                can_round(gates, corners[i - 1], corners[i], corners[i + 1], options.rounding)});
     }
     return path;
 }
