@@ -131,7 +131,12 @@ void measure_one(const Choice& choice, const std::string& name, const std::strin
     const std::string at = "at cells of " + number_text(cell) + " mm";
     figures.record(name, "faces", number_text(static_cast<double>(piece.mesh->triangles.size())));
     figures.record(name, "toolpath " + at + ", CPU time", time_text(spent));
-    figures.at_most(name, "toolpath " + at + " / reading by OpenMesh", spent / reading, 100);
+    const std::string ratio = "toolpath " + at + " / reading by OpenMesh";
+    if (mesh->triangles.size() > 1'000'000) {
+        figures.at_most(name, ratio, spent / reading, 100);
+    } else {
+        figures.record(name, ratio, number_text(spent / reading));
+    }
     record(name, chosen.setups.front(), path, figures);
 }
 
