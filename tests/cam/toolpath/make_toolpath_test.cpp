@@ -89,7 +89,7 @@ TEST(MakeToolpath, LeavesABallAndNothingAboveIt) {
     const TriangleMesh mesh = shapes::ball({0, 0, 0}, 25, 32);
     const auto setup = setup_of(mesh, 8, 60);
     const Cell cell = ready_cell();
-    PlainReplay replay(setup, cell, 1.5);
+    PlainReplay replay(setup, cell, 2.3);
     const Toolpath path = make_toolpath(setup, mesh, cell, coarse_settings());
     for (const Operation& operation : path.operations) replay.carve(operation);
     for (std::size_t i = 0; i < replay.points().size(); ++i) {
