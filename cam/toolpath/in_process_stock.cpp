@@ -20,6 +20,7 @@ namespace qchopper {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr std::size_t sweep_rings = 1024;                    // of equal area under the tool
 constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
 
 Box block_of(const Setup& setup) {
@@ -108,34 +109,47 @@ class Rays {
     Box box_;
 };
 
-void sweep_at(HeightMap& map, const CarvingTool& tool, Vec3 tip, double slack) {
-    const double outer = 0.5 * tool.diameter - slack - half_diagonal * map.cell;
-    const auto first = [&](double at) {
-        return static_cast<std::ptrdiff_t>(std::max(0.0, std::ceil((at - outer) / map.cell - 0.5)));
-    };
-    const auto end = [&](double at, std::size_t count) {
-        return std::min(static_cast<std::ptrdiff_t>(count),
-                        static_cast<std::ptrdiff_t>(std::floor((at + outer) / map.cell - 0.5)) + 1);
-    };
-    for (std::ptrdiff_t row = first(tip.y); row < end(tip.y, map.rows); ++row) {
-        for (std::ptrdiff_t column = first(tip.x); column < end(tip.x, map.columns); ++column) {
-            const double r = std::hypot(map.cell * (static_cast<double>(column) + 0.5) - tip.x,
-                                        map.cell * (static_cast<double>(row) + 0.5) - tip.y);
-            if (r > outer) continue;
-            const double above = tool_profile(tool, r + half_diagonal * map.cell + slack);
-            float& own = map.height[static_cast<std::size_t>(row) * map.columns + static_cast<std::size_t>(column)];
-            own = std::min(own, static_cast<float>(tip.z + above + slack));
-        }
+}  // namespace
+
+ToolSweep::ToolSweep(const CarvingTool& tool, double cell, double slack)
+    : cell_(cell), outer_(0.5 * tool.diameter - slack - half_diagonal * cell), above_(sweep_rings, 0) {
+    const double beside = slack + half_diagonal * cell;
+    for (std::size_t i = 0; i < sweep_rings && outer_ > 0; ++i) {
+        const double r = outer_ * std::sqrt(static_cast<double>(i + 1) / static_cast<double>(sweep_rings));
+        above_[i] = static_cast<float>(tool_profile(tool, std::min(r + beside, 0.5 * tool.diameter)) + slack);
     }
 }
 
-}  // namespace
-
-void sweep(HeightMap& map, const CarvingTool& tool, Vec3 from, Vec3 to, double slack) {
+void ToolSweep::move(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) const {
+    assert(map.cell == cell_ && other.height.size() == map.height.size());
+    if (!(outer_ > 0)) return;
     const double length = std::hypot(to.x - from.x, to.y - from.y);
-    const auto parts = static_cast<std::size_t>(std::ceil(length / (0.5 * map.cell))) + 1;
+    const auto parts = static_cast<std::size_t>(std::ceil(length / cell_)) + 1;
     for (std::size_t i = 0; i <= parts; ++i) {
-        sweep_at(map, tool, from + (static_cast<double>(i) / static_cast<double>(parts)) * (to - from), slack);
+        stand(map, other, from + (static_cast<double>(i) / static_cast<double>(parts)) * (to - from));
+    }
+}
+
+void ToolSweep::stand(HeightMap& map, HeightMap& other, Vec3 tip) const {
+    const auto first = [&](double at) {
+        return static_cast<std::ptrdiff_t>(std::max(0.0, std::ceil((at - outer_) / cell_ - 0.5)));
+    };
+    const auto end = [&](double at, std::size_t count) {
+        return std::min(static_cast<std::ptrdiff_t>(count),
+                        static_cast<std::ptrdiff_t>(std::floor((at + outer_) / cell_ - 0.5)) + 1);
+    };
+    const double rings_per_square = static_cast<double>(sweep_rings) / (outer_ * outer_);
+    const auto z = static_cast<float>(tip.z);
+    for (std::ptrdiff_t row = first(tip.y); row < end(tip.y, map.rows); ++row) {
+        const double y = cell_ * (static_cast<double>(row) + 0.5) - tip.y;
+        for (std::ptrdiff_t column = first(tip.x); column < end(tip.x, map.columns); ++column) {
+            const double x = cell_ * (static_cast<double>(column) + 0.5) - tip.x;
+            const auto ring = static_cast<std::size_t>(rings_per_square * (x * x + y * y));
+            if (ring >= sweep_rings) continue;
+            const std::size_t i = static_cast<std::size_t>(row) * map.columns + static_cast<std::size_t>(column);
+            map.height[i] = std::min(map.height[i], z + above_[ring]);
+            other.height[i] = std::min(other.height[i], z + above_[ring]);
+        }
     }
 }
 

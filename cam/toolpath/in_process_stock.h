@@ -2,7 +2,7 @@
 //
 // mm. It is the block less, for each direction, all above a height of its own map: along a direction carving removes
 // only what lies open above. Conservative: a point that may still be foam counts as foam
-// (tests/cam/toolpath/in_process_stock_test.cpp), so that there is never more foam in the way than is known; it may be
+// (tests/cam/toolpath/stock_and_links_test.cpp), so that there is never more foam in the way than is known; it may be
 // up to three cells more than there is.
 
 #pragma once
@@ -17,10 +17,24 @@
 
 namespace qchopper {
 
-// Lowers a map, whose cells tell how high foam stands, by the tool on a straight way of its tip, in map coordinates. A
-// cell is lowered only if all of it lies under the tool, and to the highest point of the tool over it. `slack`: how far
-// the tool may pass beside the way, because a controller rounds corners. O(length / cell * (radius / cell)^2).
-void sweep(HeightMap& map, const CarvingTool& tool, Vec3 from, Vec3 to, double slack = 0);
+// Lowers maps, whose cells tell how high foam stands, by a tool on its way. A cell is lowered only if all of it lies
+// under the tool, and to the highest point of the tool over it.
+class ToolSweep {
+ public:
+    // For maps of a cell size. `slack`: how far the tool may pass beside its way, because a controller rounds corners.
+    ToolSweep(const CarvingTool& tool, double cell, double slack = 0);
+
+    // Along a straight line of the tip, in map coordinates, in two maps with the same cells. O(length / cell * (radius
+    // / cell)^2).
+    void move(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) const;
+
+ private:
+    void stand(HeightMap& map, HeightMap& other, Vec3 tip) const;
+
+    double cell_;
+    double outer_;              // farthest middle of a cell that is under the tool
+    std::vector<float> above_;  // by the square of the distance from the axis: the tool's highest point over the cell
+};
 
 class InProcessStock {
  public:

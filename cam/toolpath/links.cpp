@@ -11,18 +11,16 @@
 #include <optional>
 
 #include "cam/toolpath/disc_max.h"
-#include "cam/toolpath/in_process_stock.h"
 #include "cam/toolpath/pass_order.h"
 
 namespace qchopper {
 namespace {
 
-constexpr std::size_t many_moves = 250;  // a run ends at the next link that goes high
-constexpr std::size_t most_moves = 900;  // a run ends in the middle of a pass
-constexpr double ramp_slope = 0.364;     // tangent of 20 degrees
-constexpr double highest_lift = 5;       // over a ridge between two passes, at the feed of cuts
-constexpr double rounding_share = 0.36;  // of the rounding, how far it passes beside a right-angled corner
-constexpr double holder_clearance = 1;   // mm
+constexpr std::size_t many_moves = 250;                      // a run ends at the next link that goes high
+constexpr std::size_t most_moves = 900;                      // a run ends in the middle of a pass
+constexpr double ramp_slope = 0.364;                         // tangent of 20 degrees
+constexpr double highest_lift = 5;                           // over a ridge between two passes, at the feed of cuts
+constexpr double holder_clearance = 1;                       // mm
 constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
 constexpr double ramp_penalty = 60;                          // mm of way that an entry beside the foam is worth
 
@@ -104,7 +102,7 @@ HeightMap holder_limit_over(const HeightMap& foam, const ToolBody& body) {
     return limit;
 }
 
-// What is on a straight way from the tip to another place.
+// What is on a straight line from the tip to another place.
 struct RunBuilder::Way {
     double length = 0;
     double foam = -std::numeric_limits<double>::infinity();  // highest that the tool may touch
@@ -117,10 +115,14 @@ struct RunBuilder::Way {
 };
 
 RunBuilder::RunBuilder(CarvingSpace& space, const CarvingTool& tool, const Operation& operation, LinkOptions options)
-    : space_(&space), tool_(&tool), operation_(&operation), options_(options) {
+    : space_(&space),
+      tool_(&tool),
+      operation_(&operation),
+      options_(options),
+      sweep_(tool, space.foam.cell, options.slack) {
     const double radius = 0.5 * tool.diameter;
     const double cell = space.foam.cell;
-    outer_ = radius + (half_diagonal + 0.25) * cell + rounding_share * operation.rounding;
+    outer_ = radius + (half_diagonal + 0.25) * cell + options.slack;
     inner_ = std::max(0.0, radius - 2 * half_diagonal * cell);
 }
 
@@ -167,9 +169,7 @@ RunBuilder::Way RunBuilder::way_to(Vec3 to) const {
 
 void RunBuilder::move(Vec3 tip, MoveKind kind, bool is_rounded) {
     if (kind == MoveKind::cut || kind == MoveKind::approach) {
-        const double slack = rounding_share * operation_->rounding;
-        sweep(space_->foam, *tool_, at_, tip, slack);
-        sweep(space_->removed, *tool_, at_, tip, slack);
+        sweep_.move(space_->foam, space_->removed, at_, tip);
     }
     if (norm(tip - at_) > 1e-6) run_.moves.push_back({tip, kind, is_rounded});
     at_ = tip;
@@ -189,8 +189,10 @@ void RunBuilder::end_run() {
 }
 
 void RunBuilder::hop_to(Vec3 to, double height) {
-    move(raised(at_, height), MoveKind::retract, true);
-    move(raised(to, height), MoveKind::link, true);
+    // Rounding begins no deeper than the clearance.
+    const bool is_rounded = operation_->rounding <= options_.clearance;
+    move(raised(at_, height), MoveKind::retract, is_rounded);
+    move(raised(to, height), MoveKind::link, is_rounded);
 }
 
 void RunBuilder::ramp(const Pass& pass, double top) {

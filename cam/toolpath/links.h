@@ -2,7 +2,7 @@
 //
 // mm, in the frame of the height maps of one direction. A link at its own feed touches no foam: the whole tool must be
 // clear of all that may be foam. Where that is not known, the way is driven at the feed of cuts
-// (tests/cam/toolpath/links_test.cpp).
+// (tests/cam/toolpath/stock_and_links_test.cpp).
 //
 // The tool comes to a pass straight, where the way is clear or may be cut; else over what stands between; else through
 // the retract plane. It comes down at the feed of links to just above the foam. A pass of roughing is entered on a ramp
@@ -17,6 +17,7 @@
 #include "cam/cell/carving_tool.h"
 #include "cam/setup/height_map.h"
 #include "cam/setup/holder_limit.h"
+#include "cam/toolpath/in_process_stock.h"
 #include "cam/toolpath/pass.h"
 #include "cam/toolpath/toolpath.h"
 
@@ -41,9 +42,10 @@ HeightMap holder_limit_over(const HeightMap& foam, const ToolBody& body);
 
 struct LinkOptions {
     bool has_ramps = false;  // of roughing
-    double stay_down = 300;  // longest straight way to the next pass that is looked at
+    double stay_down = 300;  // longest straight line to the next pass that is looked at
     double gap = 2;          // above foam, where an approach begins
     double clearance = 3;    // above what a link goes over
+    double slack = 0.36;     // how far a controller that rounds corners may pass beside the way
 };
 
 class RunBuilder {
@@ -78,6 +80,7 @@ class RunBuilder {
     const CarvingTool* tool_;
     const Operation* operation_;
     LinkOptions options_;
+    ToolSweep sweep_;
     double outer_ = 0;  // radius within which a cell may hold foam that the tool touches
     double inner_ = 0;  // radius within which all of a cell lies under the tool
     Vec3 at_;

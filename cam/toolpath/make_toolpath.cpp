@@ -146,7 +146,9 @@ class ToolpathMaker {
         space.tip_limit = &tip;
         space.holder_limit = holder_limit_over(space.foam, body_of(tool_index));
         std::vector<Pass> passes = finishing_passes(tip, tool, region, options, context_);
-        RunBuilder runs(space, tool, operation, {});
+        LinkOptions links;
+        links.slack = settings_.path_tolerance;
+        RunBuilder runs(space, tool, operation, links);
         runs.add(clipped(passes, space, tool));
         std::vector<PathRun> joined = runs.finish();
         add(std::move(operation), space, std::move(joined));

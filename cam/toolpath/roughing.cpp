@@ -19,15 +19,15 @@ namespace {
 constexpr double least_foam = 0.2;    // mm above a level that is worth a cut
 constexpr double cells_beside = 2.5;  // by which a pass goes on beyond the foam, so that it begins beside it
 
-struct Heights {
+struct LevelSpan {
     double top = 0;
     double bottom = 0;
     bool is_empty() const { return !(top > bottom); }
 };
 
-class Levels {
+class RoughingLevels {
  public:
-    Levels(CarvingSpace& space, const CarvingTool& tool, const RoughingOptions& options)
+    RoughingLevels(CarvingSpace& space, const CarvingTool& tool, const RoughingOptions& options)
         : space_(space), tool_(tool), options_(options) {
         const double radius = 0.5 * tool.diameter;
         core_radius_ = std::max(0.0, radius - options.skin_width);
@@ -36,10 +36,10 @@ class Levels {
     }
 
     // From the highest foam that is to go, to the lowest tip over such foam.
-    Heights heights() const {
+    LevelSpan heights() const {
         const HeightMap foam = disc_max(space_.foam, core_radius_);
         const HeightMap& tip = *space_.tip_limit;
-        Heights found{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        LevelSpan found{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
         for (std::size_t i = 0; i < foam.height.size(); ++i) {
             const auto high = static_cast<double>(foam.height[i]);
             const auto low = static_cast<double>(tip.height[i]);
@@ -85,13 +85,14 @@ class Levels {
 
 std::vector<PathRun> rough(CarvingSpace& space, const CarvingTool& tool, const ToolBody& body,
                            const Operation& operation, const RoughingOptions& options, const Context& context) {
-    const Levels levels(space, tool, options);
-    const Heights heights = levels.heights();
+    const RoughingLevels levels(space, tool, options);
+    const LevelSpan heights = levels.heights();
     if (heights.is_empty()) return {};
     const auto count = static_cast<std::size_t>(std::ceil((heights.top - heights.bottom) / operation.step_down - 1e-6));
     const double down = (heights.top - heights.bottom) / static_cast<double>(count);
     LinkOptions links;
     links.has_ramps = true;
+    links.slack = 0.36 * operation.rounding;  // at a right angle the parabola passes 0.354 of it beside the corner
     RunBuilder runs(space, tool, operation, links);
     for (std::size_t k = 1; k <= count; ++k) {
         context.check_cancelled();

@@ -132,6 +132,7 @@ class RoughingPasses {
         for (std::vector<CellPlace>& rim : rims.all()) {
             const auto outside = std::find_if(rim.begin(), rim.end(), [&](CellPlace cell) { return !wanted(cell); });
             if (outside == rim.end()) {
+                if (rim.size() == 2) add(rim, false);
                 if (rim.size() < 3) continue;
                 rim.push_back(rim.front());
                 add(rim, true);
@@ -145,11 +146,12 @@ class RoughingPasses {
     void add_rows(std::ptrdiff_t step) {
         // The first row lies in the middle of a step, so that the rim and it are not at the same place.
         for (std::ptrdiff_t row = step / 2; row < static_cast<std::ptrdiff_t>(region_.rows); row += step) {
-            std::vector<CellPlace> cells;
-            for (std::ptrdiff_t column = 0; column < static_cast<std::ptrdiff_t>(region_.columns); ++column) {
-                cells.push_back({column, row});
+            std::ptrdiff_t first = 0;
+            for (std::ptrdiff_t column = 0; column <= static_cast<std::ptrdiff_t>(region_.columns); ++column) {
+                if (wanted({column, row})) continue;
+                if (column - first > 1) push({{first, row}, {column - 1, row}}, false);
+                first = column + 1;
             }
-            add_wanted(cells);
         }
     }
 
@@ -171,10 +173,12 @@ class RoughingPasses {
         if (part.size() > 1) add(part, false);
     }
 
-    void add(const std::vector<CellPlace>& cells, bool is_closed) {
+    void add(const std::vector<CellPlace>& cells, bool is_closed) { push(reduced(region_, cells), is_closed); }
+
+    void push(const std::vector<CellPlace>& corners, bool is_closed) {
         Pass pass;
         pass.is_closed = is_closed;
-        for (const CellPlace cell : reduced(region_, cells)) {
+        for (const CellPlace cell : corners) {
             pass.points.push_back({{region_.cell * (static_cast<double>(cell.column) + 0.5),
                                     region_.cell * (static_cast<double>(cell.row) + 0.5), height_},
                                    true});

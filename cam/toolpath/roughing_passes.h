@@ -1,7 +1,8 @@
 // The passes that clear a region of one level of roughing: along the rim of where the tip may go, and in rows.
 //
-// mm, in the frame of the map. Every point of a pass, and every cell under the line to the next one, is in the region
-// (tests/cam/toolpath/roughing_passes_test.cpp).
+// mm, in the frame of the map. Every point of a pass, and every cell under the line to the next one, is in the region,
+// but for corners of cells of which less than an eighth of a cell is passed
+// (tests/cam/toolpath/stock_and_links_test.cpp).
 
 #pragma once
 
@@ -34,7 +35,8 @@ struct LevelRegion {
     }
 };
 
-// At a height, with rows at most `step` apart. O(cells + points * length of the lines).
+// At a height, with rows at most `step` apart. Every wanted cell that has a neighbour is at most half of the step and a
+// cell from a pass. O(cells + points * length of the lines).
 std::vector<Pass> roughing_passes(const LevelRegion& region, double height, double step);
 
 }  // namespace qchopper

@@ -19,7 +19,7 @@ struct ToolpathSettings {
     double fine_allowance = 0.5;               // that roughing with the tool of the finishing leaves
     double step_down = 15;                     // largest height of a level of roughing
     double step_share = 0.6;                   // largest distance between passes of roughing, of the tool's diameter
-    double rounding = 1;                       // see PathMove::is_rounded: of finishing
+    double rounding = 5;                       // see PathMove::is_rounded: of finishing
     double roughing_rounding = 1;              // the same of roughing; at most two thirds of the allowance
     std::optional<std::size_t> roughing_tool;  // index in CellMachine::tools; nothing: chosen by choose_tools()
     std::optional<std::size_t> finishing_tool;

@@ -81,15 +81,33 @@ TEST(MakeToolpath, EveryOperationIsCleanInAPlainReplay) {
                                      std::to_string(operation.direction));
         }
     };
-    carve(bumpy(90, 30, 60, 3), 0, "bumps");
-    carve(bumpy(90, 30, 60, 4), 45, "tilted bumps");
-    carve(shapes::ball({0, 0, 0}, 45, 24), 60, "ball");
+    carve(bumpy(50, 16, 40, 4), 45, "tilted bumps");
+    carve(shapes::ball({0, 0, 0}, 25, 24), 60, "ball");
+}
+
+TEST(MakeToolpath, LeavesABallAndNothingAboveIt) {
+    const TriangleMesh mesh = shapes::ball({0, 0, 0}, 25, 32);
+    const auto setup = setup_of(mesh, 8, 60);
+    const Cell cell = ready_cell();
+    PlainReplay replay(setup, cell, 2.3);
+    const Toolpath path = make_toolpath(setup, mesh, cell, coarse_settings());
+    for (const Operation& operation : path.operations) replay.carve(operation);
+    for (std::size_t i = 0; i < replay.points().size(); ++i) {
+        const Vec3 p = replay.points()[i];
+        const double r = norm(p - Vec3{0, 0, 25});
+        // The facets lie up to 0.12 mm inside of the ball; a gouge of 0.25 mm is too much.
+        const bool is_piece = r < 25 - 0.37;
+        ASSERT_TRUE(!is_piece || replay.is_foam(i)) << p.x << " " << p.y << " " << p.z;
+        // Scallop height, path tolerance and two cells of the map.
+        const bool is_away = r > 25 + 1.4 && p.z > 25;
+        ASSERT_FALSE(is_away && replay.is_foam(i)) << p.x << " " << p.y << " " << p.z;
+    }
 }
 
 TEST(MakeToolpath, HolderAndSpindleStayClearBesideATallPiece) {
-    // A tower of 230 mm with a stick-out of 150: the holder is deep beside it.
+    // A tower of 200 mm with a stick-out of 150: the holder is deep beside it.
     const TriangleMesh mesh =
-        shapes::joined({shapes::box({-60, -60, 0}, {60, 60, 20}), shapes::box({-20, -20, 20}, {20, 20, 230})});
+        shapes::joined({shapes::box({-40, -40, 0}, {40, 40, 20}), shapes::box({-10, -10, 20}, {10, 10, 200})});
     const auto setup = setup_of(mesh, 5, 30);
     const Cell cell = ready_cell();
     PlainReplay replay(setup, cell, 4);

@@ -12,7 +12,7 @@ namespace qchopper::test_pieces {
 namespace {
 
 constexpr double touch = 0.1;             // mm that count as contact only
-constexpr std::size_t holder_every = 20;  // places
+constexpr std::size_t holder_every = 40;  // places
 
 }  // namespace
 

@@ -1,0 +1,163 @@
+// Measures whole toolpaths: CPU time beside OpenMesh's reading of the same file, memory, and points per area carved.
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bench/choice.h"
+#include "bench/clock.h"
+#include "bench/figures.h"
+#include "bench/other_readers.h"
+#include "cam/setup/choose_setup.h"
+#include "cam/toolpath/make_toolpath.h"
+#include "cam/toolpath/time_estimate.h"
+#include "segment/mesh/measure.h"
+
+namespace {
+
+using namespace qchopper;
+using namespace qchopper::bench;
+namespace fs = std::filesystem;
+
+constexpr const char* usage = R"(bench_whole_toolpath [--small] [--data FOLDER] [--only GROUP]...
+  --small  pieces of a tenth of the size, to check that it runs; the targets do not apply
+  --data   where ct_head_1912k.ply, bunny_bun_zipper.ply and igea_268k.ply lie
+  --only   head, bunny or igea; all if none is named
+)";
+
+constexpr double bytes_per_point = 46;  // of a line of a KRL program that states the position alone
+
+// Large enough for everything, a gantry, with tools as long as the piece is high.
+Cell large_cell(double length) {
+    Cell cell = read_cell(fs::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
+    cell.reach = {{-5000, -5000, -1000}, {5000, 5000, 5000}};
+    cell.table = {0, 0, 4000, 4000, 0};
+    cell.stock = {{"sawn", {3000, 3000, 3000}, Material::pu_foam, true, 3}};
+    cell.machine->robot.reset();
+    for (CarvingTool& tool : cell.machine->tools) tool.stick_out = length;
+    return cell;
+}
+
+// The longest side of the box becomes `longest` mm.
+Piece scaled(const Measured& measured, double longest) {
+    auto mesh = std::make_shared<TriangleMesh>(*measured.piece.mesh);
+    const Vec3 size = bounds(*mesh).size();
+    const double factor = longest / std::max({size.x, size.y, size.z});
+    for (Vec3& p : mesh->points) p = factor * p;
+    Piece piece = measured.piece;
+    piece.mesh = mesh;
+    return piece;
+}
+
+struct Totals {
+    std::size_t points = 0;
+    std::size_t cuts = 0;  // points that end one
+    std::size_t runs = 0;
+    double cut_mm = 0;
+};
+
+std::map<OperationKind, Totals> totals_of(const Toolpath& path) {
+    std::map<OperationKind, Totals> totals;
+    for (const Operation& operation : path.operations) {
+        Totals& own = totals[operation.kind];
+        for (const PathRun& run : operation.runs) {
+            own.points += run.moves.size() + 1;
+            ++own.runs;
+            Vec3 at = run.start;
+            for (const PathMove& move : run.moves) {
+                if (move.kind == MoveKind::cut) {
+                    own.cut_mm += norm(move.tip - at);
+                    ++own.cuts;
+                }
+                at = move.tip;
+            }
+        }
+    }
+    return totals;
+}
+
+const char* word_of(OperationKind kind) {
+    if (kind == OperationKind::roughing) return "roughing";
+    return kind == OperationKind::finishing ? "finishing" : "fine finishing";
+}
+
+double reached_m2(const Setup& setup) {
+    const SurfaceReach& reach = setup.reach;
+    return 1e-6 * (reach.area_mm2 - reach.unreachable_mm2());
+}
+
+void record(const std::string& name, const Setup& setup, const Toolpath& path, Figures& figures) {
+    const double area = reached_m2(setup);
+    figures.record(name, "surface reached, directions",
+                   number_text(area) + " m2, " + std::to_string(setup.reach.directions.size()));
+    for (const auto& [kind, totals] : totals_of(path)) {
+        const double points = static_cast<double>(totals.points);
+        figures.record(name, std::string(word_of(kind)) + ": length of cuts, points, of them at the end of cuts, runs",
+                       number_text(1e-3 * totals.cut_mm) + " m, " + number_text(points) + ", " +
+                           number_text(static_cast<double>(totals.cuts)) + ", " + std::to_string(totals.runs));
+        const std::string what = std::string(word_of(kind)) + ": megabytes of KRL per m2";
+        const double megabytes = 1e-6 * bytes_per_point * points / area;
+        if (kind == OperationKind::finishing) {
+            figures.at_most(name, what, megabytes, 4);
+        } else {
+            figures.record(name, what, number_text(megabytes));
+        }
+    }
+    const TimeEstimate time = time_estimate(path);
+    figures.record(name, "time estimated: all, cuts, links",
+                   number_text(time.total_s() / 3600) + " h, " + number_text(time.cut_s / 3600) + " h, " +
+                       number_text((time.link_s + time.approach_s) / 3600) + " h");
+}
+
+void measure_one(const Choice& choice, const std::string& name, const std::string& file, double longest, double cell,
+                 Figures& figures) {
+    const auto mesh = scan(choice.data / file, 1000);
+    if (!mesh) return;
+    const double reading = best_of(3, cpu_s, [&] { return openmesh_read(choice.data / file, false); });
+    const Piece piece = scaled(biggest(name, *mesh), choice.is_small ? 0.1 * longest : longest);
+    const Cell machine = large_cell(1.5 * longest);
+    SetupOptions options;
+    options.samples = 1000;
+    options.mapped = 1;
+    const SetupChoice chosen = choose_setup(piece, machine, options);
+    ToolpathSettings settings;
+    settings.cell = cell;
+    const double before = process_cpu_s();
+    const Toolpath path = make_toolpath(chosen.setups.front(), *piece.mesh, machine, settings);
+    const double spent = process_cpu_s() - before;
+    const std::string at = "at cells of " + number_text(cell) + " mm";
+    figures.record(name, "faces", number_text(static_cast<double>(piece.mesh->triangles.size())));
+    figures.record(name, "toolpath " + at + ", CPU time", time_text(spent));
+    const std::string ratio = "toolpath " + at + " / reading by OpenMesh";
+    if (mesh->triangles.size() > 1'000'000) {
+        figures.at_most(name, ratio, spent / reading, 100);
+    } else {
+        figures.record(name, ratio, number_text(spent / reading));
+    }
+    record(name, chosen.setups.front(), path, figures);
+}
+
+double peak_megabytes() {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);) {
+        if (line.starts_with("VmHWM:")) return 1e-3 * std::stod(line.substr(6));
+    }
+    return 0;
+}
+
+void measure(const Choice& choice, Figures& figures) {
+    if (choice.wants("head")) measure_one(choice, "ct_head", "ct_head_1912k.ply", 1000, 0.5, figures);
+    if (choice.wants("bunny")) measure_one(choice, "bunny", "bunny_bun_zipper.ply", 1500, 0.5, figures);
+    if (choice.wants("igea")) measure_one(choice, "igea", "igea_268k.ply", 1000, 0.5, figures);
+    // Of everything that was measured in this process.
+    figures.at_most("all", "peak memory, GB", 1e-3 * peak_megabytes(), 1.5);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return print_figures(argc, argv, usage, measure);
+}
