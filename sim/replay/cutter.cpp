@@ -160,16 +160,31 @@ double SweptCutter::distance(Vec3 point) const {
     return dot(move_, move_) < 1e-18 ? at(0) : at(place_of_least(0, 1, at));
 }
 
+// The distance from the cylinder is the least over the places s of the larger of two convex functions of point and
+// place: `aside` from the axis, `below` the tip. Any mean of their tangents at one place is below both.
 double SweptCutter::least_from_cylinder(const std::array<Vec3, 3>& triangle) const {
-    const Vec3 middle = (1.0 / 3) * (triangle[0] + triangle[1] + triangle[2]);
-    const double s = length_ > 0 ? std::clamp((middle.x * unit_x_ + middle.y * unit_y_) / length_, 0.0, 1.0) : 0;
-    const Vec3 off{middle.x - s * move_.x, middle.y - s * move_.y, 0};
-    const double aside = norm(off);
-    const Vec3 gradient = aside > 0 ? (1 / aside) * off : Vec3{};
-    double slope = 0;
-    for (const Vec3 corner : triangle) slope = std::min(slope, dot(gradient, corner - middle));
-    const double highest = std::max({triangle[0].z, triangle[1].z, triangle[2].z});
-    return std::max(aside + slope - cutter_.radius, std::min(0.0, move_.z) - highest);
+    const Vec3 m = (1.0 / 3) * (triangle[0] + triangle[1] + triangle[2]);
+    const auto aside_at = [&](double s) {
+        const double x = m.x - s * move_.x;
+        const double y = m.y - s * move_.y;
+        return std::sqrt(x * x + y * y) - cutter_.radius;
+    };
+    const double s = place_of_least(0, 1, [&](double at) { return std::max(aside_at(at), at * move_.z - m.z); });
+    const double aside = aside_at(s);
+    const double below = s * move_.z - m.z;
+    const double r = aside + cutter_.radius;
+    const Vec3 out = r > 0 ? (1 / r) * Vec3{m.x - s * move_.x, m.y - s * move_.y, 0} : Vec3{};
+    const double aside_by_s = -(out.x * move_.x + out.y * move_.y);
+    const auto bound = [&](double share) {
+        const Vec3 gradient = share * out - (1 - share) * Vec3{0, 0, 1};
+        const double by_s = share * aside_by_s + (1 - share) * move_.z;
+        double slope = std::numeric_limits<double>::infinity();
+        for (const Vec3 corner : triangle) slope = std::min(slope, dot(gradient, corner - m));
+        return share * aside + (1 - share) * below + slope + std::min(-by_s * s, by_s * (1 - s));
+    };
+    const double even = move_.z / (move_.z - aside_by_s);  // where the mean does not change with the place
+    const double both = even > 0 && even < 1 ? bound(even) : -infinite;
+    return std::max({bound(0), bound(1), both});
 }
 
 // A ball and its shank are all points within the radius of a strip: the way of the centre, and all above it.

@@ -2,7 +2,7 @@
 //
 // mm. The tip is the origin, the axis is z, from the tip into the spindle; the body goes on upwards without end. All
 // shapes are convex (ISO 14649-111: ball, flat, bull, cone). O(1); generic shapes minimise along a move by ternary
-// search (tests/sim/replay/cutter_test.cpp).
+// search (tests/sim/replay/gouge_test.cpp).
 
 #pragma once
 
@@ -47,8 +47,8 @@ class SweptCutter {
     double distance(Vec3 point) const;
     // Of a ball: the same with its gradient; the distance is a convex function of the point.
     double ball_distance(Vec3 point, Vec3& gradient) const;
-    // A lower bound of the distance for all points of a triangle: that of the cylinder about the tool, as two convex
-    // functions, distance from the axis and height above the tip.
+    // A lower bound of the distance for all points of a triangle, from the cylinder about the tool. It nears the
+    // distance with the square of the triangle's size, except at the edge of the cylinder.
     double least_from_cylinder(const std::array<Vec3, 3>& triangle) const;
     // The x of the points of a row that the tool can reach lie between these two.
     void reach_of_row(double y, double& x_min, double& x_max) const;

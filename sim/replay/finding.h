@@ -36,9 +36,8 @@ enum class FindingKind : std::uint8_t {
     rapid_in_foam,
     feed_window,  // foam is cut slower or faster than the tool may
     link_feed,
-    deep_cut,         // more foam at once than the flute is long
-    below_floor,      // a tool point below -spoil + 2 mm
-    flat_below_base,  // a flat tool below z = 0 within the piece's projection
+    deep_cut,     // more foam at once than the flute is long
+    below_floor,  // a tool point below -spoil + 2 mm
     spindle_off,
     spindle_speed,
     gouge,
@@ -47,7 +46,7 @@ enum class FindingKind : std::uint8_t {
     standing_foam,  // foam beside the piece that the tools reach
     no_cut          // the program removes nothing
 };
-constexpr std::size_t finding_kinds = 30;
+constexpr std::size_t finding_kinds = 29;
 
 // "chunk_order", "rapid_in_foam"
 const char* to_word(FindingKind kind);

@@ -3,7 +3,7 @@
 // mm. Distances from points of the target, weighted by triangle area, to the nearest removed point: cells count at
 // their middles, so that a distance is too large by at most 0.71 cells and never too small. A point is reachable if the
 // closing of the target by the finest tool of some direction comes within the scallop height + 0.75 cells of it. The
-// base is left out, other caps are in (tests/sim/replay/leftover_test.cpp).
+// base is left out, other caps are in (tests/sim/replay/ball_test.cpp).
 
 #pragma once
 

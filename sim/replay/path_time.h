@@ -3,7 +3,7 @@
 // Seconds and mm. Every line begins and ends with the largest speed that both neighbours, the rounding of the corner
 // and the acceleration allow: 0 where the corner is exact, else at most sqrt(acceleration * radius of the parabola in
 // its middle). One pass forwards, one backwards. Waiting for the spindle and for people is not counted.
-// tests/sim/replay/path_time_test.cpp.
+// tests/sim/replay/ball_test.cpp.
 
 #pragma once
 

@@ -2,7 +2,7 @@
 //
 // mm. Per direction the highest points of the target and of the floor of the spoil layer on square cells; the least
 // heights at which the finest tool of that direction may stand, its holder and the spindle clear; and the lowest
-// surface that it then leaves. O(cells * (radius / cell)^2) (tests/sim/replay/reachable_test.cpp).
+// surface that it then leaves. O(cells * (radius / cell)^2) (tests/sim/replay/ball_test.cpp).
 
 #pragma once
 

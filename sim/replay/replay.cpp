@@ -80,7 +80,6 @@ void judge_leftover(const ReplayReport& report, const ReplayOptions& options, Fi
     }
 }
 
-// A flat tool below the base plane within the piece's projection: the piece stands on foam there.
 double largest_radius(const ReplayScene& scene) {
     double radius = 0;
     for (const SceneChunk& chunk : scene.chunks) {

@@ -24,10 +24,10 @@ struct Grid {
     double y(std::int32_t j) const { return y_min + (j + 0.5) * cell; }
 };
 
-struct ColumnCrossing {
+struct LineHeight {
     std::int32_t column = 0;
     double z = 0;
-    bool operator<(const ColumnCrossing& o) const { return column != o.column ? column < o.column : z < o.z; }
+    bool operator<(const LineHeight& o) const { return column != o.column ? column < o.column : z < o.z; }
 };
 
 Grid grid_over(const ReplayScene& scene, const VolumeOptions& options) {
@@ -48,7 +48,7 @@ Grid grid_over(const ReplayScene& scene, const VolumeOptions& options) {
 }
 
 // Where a triangle crosses the lines of a row.
-void cross(const std::array<Vec3, 3>& t, const Grid& grid, std::int32_t row, std::vector<ColumnCrossing>& crossings) {
+void cross(const std::array<Vec3, 3>& t, const Grid& grid, std::int32_t row, std::vector<LineHeight>& crossings) {
     const double y = grid.y(row);
     std::array<std::pair<double, double>, 2> ends;  // x and z where the plane of the row cuts the sides
     std::size_t found = 0;
@@ -73,7 +73,7 @@ void cross(const std::array<Vec3, 3>& t, const Grid& grid, std::int32_t row, std
     }
 }
 
-// Which squares of 2 mm lie within `around` of the projection.
+// Which squares of 1 mm lie within `around` of the projection, never one that lies farther.
 class Zone {
  public:
     Zone(const TriangleMesh& mesh, const Grid& grid, double around) : x_min_(grid.x_min), y_min_(grid.y_min) {
@@ -82,7 +82,7 @@ class Zone {
         std::vector<bool> covered(static_cast<std::size_t>(columns_) * rows_, false);
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t) cover(corners_of(mesh, t), covered);
         is_in_.assign(covered.size(), false);
-        const auto reach = static_cast<std::int32_t>(std::floor(around / square));
+        const auto reach = std::max(0, static_cast<std::int32_t>(std::floor(around / square)) - 2);
         for (std::int32_t j = 0; j < rows_; ++j) {
             for (std::int32_t i = 0; i < columns_; ++i) {
                 if (covered[index(i, j)]) spread(i, j, reach, covered);
@@ -96,7 +96,7 @@ class Zone {
     }
 
  private:
-    static constexpr double square = 2;
+    static constexpr double square = 1;
     std::size_t index(std::int32_t i, std::int32_t j) const { return static_cast<std::size_t>(j) * columns_ + i; }
     // Squares in whose box a small triangle lies; of a large one those on a net of points.
     void cover(const std::array<Vec3, 3>& t, std::vector<bool>& covered) const {
@@ -190,7 +190,7 @@ class Measuring {
 };
 
 VolumeFigures Measuring::of_row(std::int32_t row) const {
-    std::vector<ColumnCrossing> crossings;
+    std::vector<LineHeight> crossings;
     for (const std::uint32_t t : by_row_[static_cast<std::size_t>(row)]) {
         cross(corners_of(*scene_.target, t), grid_, row, crossings);
     }
@@ -211,13 +211,12 @@ VolumeFigures Measuring::of_row(std::int32_t row) const {
 }
 
 bool Measuring::stands(Vec3 p) const {
-    if (tree_.is_any_nearer(*scene_.target, p, options_.standing)) return false;
-    for (const SurfaceMap& map : closings_) {
+    const bool is_reached = std::any_of(closings_.begin(), closings_.end(), [&](const SurfaceMap& map) {
         const Vec3 q = apply_inverse(map.frame_in_setup, p);
-        // Clear of the closing by more than what its cells do not know.
-        if (q.z > map.at(q.x, q.y) + closing_cell && map.distance_above(q, 10) == 0) return true;
-    }
-    return false;
+        // Above the closing by more than what its cells do not know.
+        return q.z > map.at(q.x, q.y) + closing_cell && map.distance_above(q, 10) == 0;
+    });
+    return is_reached && !tree_.is_any_nearer(*scene_.target, p, options_.standing);
 }
 
 void Measuring::add_line(double x, double y, const std::vector<FoamInterval>& target, VolumeFigures& sum) const {

@@ -1,7 +1,7 @@
 // Volumes between what is left of the foam and the target, on vertical lines through the middles of square cells.
 //
 // mm3. Along each line both are intervals, exact but for rounding. O(lines * (crossings + maps))
-// (tests/sim/replay/volumes_test.cpp).
+// (tests/sim/replay/foam_test.cpp).
 
 #pragma once
 

@@ -58,7 +58,6 @@ TEST(Mutations, EachIsRefused) {
             const auto mutant = mutation.apply(job.files());
             if (!mutant) continue;
             const std::string why = refusal(job, *mutant);
-            std::printf("%s %s: %s\n", cell, mutation.name.c_str(), why.c_str());
             if (std::find(equivalent.begin(), equivalent.end(), mutation.name) != equivalent.end()) continue;
             ++refused;
             EXPECT_NE(why, "") << mutation.name;

@@ -30,11 +30,6 @@ TEST_P(Replay, AGoodProgramHasNoFindings) {
     EXPECT_GT(report.share_reachable(), 0.99);
     EXPECT_GE(report.share_within(), 0.995);
     EXPECT_GT(report.carving.removed_mm3, 1e4);
-    std::printf(
-        "%s: %.1f s, %.0f mm, leftover %.3f, volume %.1f, gouge volume %.2f standing %.2f reach %.4f within %.4f\n",
-        GetParam().c_str(), report.time.seconds, report.time.line_mm, report.leftover.largest,
-        report.volumes.leftover_mm3, report.volumes.gouge_mm3, report.volumes.standing_mm3, report.share_reachable(),
-        report.share_within());
 }
 
 INSTANTIATE_TEST_SUITE_P(Cells, Replay, testing::Values("kr60-ha", "kr120-r2500-pro-rotary"),

@@ -1,0 +1,113 @@
+#include "sim/replay/gouge.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "base/parallel.h"
+#include "sim/replay/replay.h"
+#include "tests/sim/replay/box_job.h"
+
+namespace qchopper {
+namespace {
+
+const std::vector<Cutter> cutters{{ToolShape::ball, 6, 6, 0, 1},
+                                  {ToolShape::flat, 10, 0, 0, 1},
+                                  {ToolShape::bull, 8, 3, 0, 1},
+                                  {ToolShape::cone, 5, 0.5, 0.5, std::sqrt(0.75)}};
+
+ReplayOptions coarse_options() {
+    ReplayOptions options;
+    options.cell = 1;
+    return options;
+}
+
+// Depth of a point in the tool at one place: the least distance from its surface, of which many points are tried.
+double depth_by_points(const Cutter& cutter, double r, double z) {
+    if (r > cutter.radius || z < profile_height(cutter, r)) return 0;
+    double least = cutter.radius - r;
+    for (int i = 0; i <= 4000; ++i) {
+        const double at = cutter.radius * i / 4000;
+        least = std::min(least, std::hypot(at - r, profile_height(cutter, at) - z));
+    }
+    return least;
+}
+
+TEST(Gouge, IsThatOfManyPointsAndPlaces) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> in(-8, 8);
+    int deep = 0;
+    for (int round = 0; round < 40; ++round) {
+        const Cutter& cutter = cutters[static_cast<std::size_t>(round) % cutters.size()];
+        const Vec3 move{in(random), in(random), round % 3 == 0 ? 0 : 0.5 * in(random)};
+        const std::array<Vec3, 3> triangle{Vec3{in(random), in(random), in(random)},
+                                           Vec3{in(random), in(random), in(random)},
+                                           Vec3{in(random), in(random), in(random)}};
+        double brute = 0;
+        constexpr int n = 24;
+        for (int i = 0; i <= n; ++i) {
+            for (int j = 0; j <= n - i; ++j) {
+                const Vec3 p = triangle[0] + (double(i) / n) * (triangle[1] - triangle[0]) +
+                               (double(j) / n) * (triangle[2] - triangle[0]);
+                for (int k = 0; k <= n; ++k) {
+                    const Vec3 q = p - (double(k) / n) * move;
+                    const double r = std::hypot(q.x, q.y);
+                    const double most =
+                        std::min(cutter.radius - r, q.z - profile_height(cutter, std::min(r, cutter.radius)));
+                    if (most > brute) brute = std::max(brute, depth_by_points(cutter, r, q.z));
+                }
+            }
+        }
+        const double found = deepest_in(SweptCutter(cutter, move), triangle, 0);
+        if (brute > 0.1) ++deep;
+        // Points of a lattice miss the deepest one by less than their distance.
+        EXPECT_GE(found, brute - gouge_resolution - 0.01) << round;
+        EXPECT_LE(found, brute + 0.5) << round;
+    }
+    EXPECT_GT(deep, 15);
+}
+
+TEST(Gouge, OfAPlaneIsTheDepthBelowIt) {
+    const std::array<Vec3, 3> plane{Vec3{-50, -50, 0.3}, Vec3{50, -50, 0.3}, Vec3{0, 60, 0.3}};
+    for (const Cutter& cutter : {cutters[0], cutters[1], cutters[2]}) {
+        EXPECT_NEAR(deepest_in(SweptCutter(cutter, {10, 0, 0}), plane, 0), 0.3, gouge_resolution);
+    }
+    // A wall that the side of the tool is 0.2 mm in.
+    const std::array<Vec3, 3> wall{Vec3{-50, 5.8, -50}, Vec3{50, 5.8, -50}, Vec3{0, 5.8, 60}};
+    EXPECT_NEAR(deepest_in(SweptCutter(cutters[0], {10, 0, 0}), wall, 0), 0.2, gouge_resolution);
+    const std::array<Vec3, 3> clear{Vec3{-50, 6.1, -50}, Vec3{50, 6.1, -50}, Vec3{0, 6.1, 60}};
+    EXPECT_EQ(deepest_in(SweptCutter(cutters[0], {10, 0, 0}), clear, 0), 0);
+}
+
+TEST(Gouge, AShiftedPassIsFoundWithItsLineAndDepth) {
+    BoxJob job = box_job("kr60-ha");
+    job.job.chunks[0].moves[5].tip.z -= 0.6;
+    const ReplayReport report = replay(read_back(job, job.files()), job.scene(), coarse_options());
+    EXPECT_FALSE(report.is_good);
+    // On the piece the line is between its lowered end, 28 mm beside the piece's edge, and its other end.
+    EXPECT_GT(report.largest_gouge, 0.3);
+    EXPECT_LE(report.largest_gouge, 0.6 + 1e-6);
+    EXPECT_EQ(read_back(job, job.files()).files[report.gouge_place.file], "qc_1_001.src");
+}
+
+TEST(Gouge, AndAllFiguresAreTheSameOnAnyNumberOfThreads) {
+    BoxJob job = box_job("kr60-ha");
+    job.job.chunks[0].moves[5].tip.z -= 0.6;
+    const ParsedProgram program = read_back(job, job.files());
+    const ReplayReport one = [&] {
+        const ThreadLimit limit(1);
+        return replay(program, job.scene(), coarse_options());
+    }();
+    const ReplayReport many = replay(program, job.scene(), coarse_options());
+    EXPECT_EQ(one.largest_gouge, many.largest_gouge);
+    EXPECT_EQ(one.gouge_place, many.gouge_place);
+    EXPECT_EQ(one.gouge_at, many.gouge_at);
+    EXPECT_EQ(one.deviation, many.deviation);
+    EXPECT_EQ(one.leftover.within_mm2, many.leftover.within_mm2);
+    EXPECT_EQ(one.volumes.leftover_mm3, many.volumes.leftover_mm3);
+    EXPECT_EQ(one.counts, many.counts);
+}
+
+}  // namespace
+}  // namespace qchopper
