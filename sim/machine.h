@@ -35,6 +35,8 @@ void receive_heartbeat(CellState& cell, std::span<const std::uint16_t> block, Ce
 // cell.transfer_result.
 void receive_chunk(CellState& cell, const Chunk& chunk);
 
+// CELL_HB if it does not stand still.
+std::uint16_t heartbeat_of(const CellState& cell, CellTime now);
 Status status_of(const CellState& cell, CellTime now);
 Identity identity_of(const CellState& cell);
 

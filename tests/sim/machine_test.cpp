@@ -99,7 +99,9 @@ TEST(Machine, HoldStopsTheClockOfTheJob) {
     EXPECT_EQ(bench.status().progress, progress);
     EXPECT_EQ(bench.status().job_state, JobState::interrupted);
     ASSERT_EQ(bench.claim(), AckResult::ok);
-    ASSERT_EQ(bench.send(CellCommand::unhold, job_a), AckResult::ok);
+    ASSERT_EQ(bench.send(CellCommand::unhold, job_a), AckResult::pending);
+    bench.pass(10);
+    ASSERT_EQ(bench.cell.ack.result, AckResult::ok);
     bench.pass(80000);
     EXPECT_LT(bench.status().progress, 10000);
     bench.pass(1000);
