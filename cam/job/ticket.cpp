@@ -44,7 +44,9 @@ std::string to_json(const TicketTemplate& about) {
                        {"spindle_max_rpm", about.spindle_max_rpm},
                        {"feed_max_mm_per_min", about.feed_max_mm_per_min},
                        {"estimated_time_s", about.estimated_time_s},
-                       {"base_plane", about.base_plane}};
+                       {"base_plane", about.base_plane},
+                       {"part", about.part},
+                       {"parts", about.parts}};
     return written(json);
 }
 
@@ -68,6 +70,10 @@ TicketTemplate ticket_template_from_json(std::string_view text, const std::strin
         about.feed_max_mm_per_min = whole<std::uint32_t>(json, "feed_max_mm_per_min");
         about.estimated_time_s = whole<std::uint32_t>(json, "estimated_time_s");
         about.base_plane = whole<std::uint16_t>(json, "base_plane");
+        about.part = whole<std::uint16_t>(json, "part");
+        about.parts = whole<std::uint16_t>(json, "parts");
+        const bool is_part = about.part >= 1 && about.part <= about.parts && about.parts > 1;
+        if (!is_part && (about.part != 0 || about.parts != 0)) throw wrong("part", "is not one of 1 to parts");
         check_lengths(about);
         check_form(json, text);
         return about;
@@ -77,9 +83,12 @@ TicketTemplate ticket_template_from_json(std::string_view text, const std::strin
 }
 
 std::uint32_t crude_time_s(double stock_mm3, double piece_mm3, double removal_mm3_per_s) {
-    const double seconds = std::ceil((stock_mm3 - piece_mm3) / removal_mm3_per_s);
+    return whole_seconds((stock_mm3 - piece_mm3) / removal_mm3_per_s);
+}
+
+std::uint32_t whole_seconds(double seconds) {
     const double most = std::numeric_limits<std::uint32_t>::max();
-    return static_cast<std::uint32_t>(std::clamp(std::isnan(seconds) ? most : seconds, 1.0, most));
+    return static_cast<std::uint32_t>(std::clamp(std::isnan(seconds) ? most : std::ceil(seconds), 1.0, most));
 }
 
 }  // namespace qchopper
