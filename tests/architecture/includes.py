@@ -42,6 +42,7 @@ HEAVY = {
     "JSON": (r"nlohmann/(?!json_fwd\.hpp)", 20),
     "CLI11": (r"CLI/", 2),
     "libzip": (r"zip\.h$", 2),
+    "SQLite": (r"sqlite3(ext)?\.h$", 1),
     "expat": (r"expat\.h$", 1),
     "libpng": (r"png\.h$", 1),
     "libhersheyfont": (r"hersheyfont\.h$", 1),
