@@ -29,6 +29,7 @@ struct CellTool {
 // What this cell is and can do. The defaults of reach and stock are far above any bone.
 struct CellLimits {
     std::uint16_t cell_id = any_cell_id;
+    std::uint16_t version = map_version;  // of the register map that it serves; map_version_1_0: a cell of before
     Consent consent = Consent::automatic;
     double speed = 1;  // simulated seconds of a job per second
     Box reach{{-5000, -5000, -5000}, {5000, 5000, 5000}};
@@ -46,6 +47,8 @@ struct CellTime {
 
 // What outlives a power cut.
 struct CellMemory {
+    Uuid store_id{};  // drawn when the memory was made; 0 in that of a cell of version 1.0
+    std::uint64_t store_created_ms = 0;
     std::uint32_t boot_count = 0;
     std::uint32_t epoch_held = 0;
     std::uint32_t starts_total = 0;
@@ -125,7 +128,7 @@ struct CellState {
     AckResult bad_reason = AckResult::none;
     AckResult transfer_result = AckResult::none;
     ResultRecord answer;      // RESULT, if has_answer
-    bool has_answer = false;  // a QUERY was received
+    bool has_answer = false;  // a QUERY or QUERY_FILE was received
     std::uint32_t events = 0;
     std::uint32_t store_free_kib = 0;
     std::uint64_t random = 1;  // state of the generator of tokens and receipts

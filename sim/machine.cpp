@@ -39,6 +39,18 @@ std::uint32_t random_number(CellState& cell) {
 
 }  // namespace cell
 
+namespace {
+
+// Precondition: the memory has no id.
+void draw_store_id(CellState& cell, CellTime now) {
+    RegisterWriter drawn;
+    while (drawn.registers().size() < sizeof(Uuid) / 2) drawn.u32(cell::random_number(cell));
+    RegisterReader(drawn.registers()).bytes(cell.memory.store_id);
+    cell.memory.store_created_ms = now.unix_ms;
+}
+
+}  // namespace
+
 CellState boot(const CellLimits& limits, CellMemory memory, std::uint64_t seed, CellTime now, const CellHooks& hooks) {
     CellState cell;
     cell.limits = limits;
@@ -46,6 +58,7 @@ CellState boot(const CellLimits& limits, CellMemory memory, std::uint64_t seed, 
     cell.random = seed;
     cell.booted = now;
     cell.state_since_ms = now.steady_ms;
+    if (cell.memory.store_id == Uuid{} && has_identity(limits.version)) draw_store_id(cell, now);
     ++cell.memory.boot_count;
     for (auto& [id, record] : cell.memory.jobs) {
         if (record.state != JobState::running && record.state != JobState::interrupted) continue;
@@ -145,6 +158,7 @@ void show_job(const CellState& cell, CellTime now, Status& s) {
 
 Status status_of(const CellState& cell, CellTime now) {
     Status s;
+    s.version = cell.limits.version;
     s.snapshot = static_cast<std::uint16_t>(now.steady_ms);
     s.heartbeat = static_cast<std::uint16_t>((now.steady_ms - cell.booted.steady_ms) / 500);
     s.boot_count = cell.memory.boot_count;
@@ -173,6 +187,12 @@ Status status_of(const CellState& cell, CellTime now) {
     s.bad_reason = cell.bad_reason;
     show_job(cell, now, s);
     return s;
+}
+
+Identity identity_of(const CellState& cell) {
+    const CellMemory& memory = cell.memory;
+    return {cell.limits.version, memory.store_id,     memory.boot_count,
+            memory.epoch_held,   memory.starts_total, memory.store_created_ms};
 }
 
 }  // namespace qchopper

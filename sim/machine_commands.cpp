@@ -2,10 +2,12 @@
 //
 // CLAIM grants a lease (C. Gray, D. Cheriton: Leases: An Efficient Fault-Tolerant Mechanism for Distributed File Cache
 // Consistency, 1989) with a fencing number, the epoch; heartbeats extend it. A start is written to the memory before
-// the machine moves. O(owners kept), at most 256; CLAIM, CANCEL and Start copy the memory: O(jobs kept).
+// the machine moves. O(owners kept), at most 256; CLAIM, CANCEL and Start copy the memory and QUERY_FILE
+// searches it: O(jobs kept).
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "sim/machine_parts.h"
 #include "sim/ticket_check.h"
@@ -36,13 +38,14 @@ AckResult reason_of(BlockFault fault) {
     return fault == BlockFault::version ? AckResult::bad_version : AckResult::bad_crc;
 }
 
-bool is_known(CellCommand command) {
+bool is_known(CellCommand command, std::uint16_t version) {
+    if (command == CellCommand::query_file && !has_identity(version)) return false;
     return std::find(all_commands.begin(), all_commands.end(), command) != all_commands.end();
 }
 
 bool needs_lease(CellCommand command) {
-    return command != CellCommand::query && command != CellCommand::stop && command != CellCommand::hold &&
-           command != CellCommand::abort;
+    return command != CellCommand::query && command != CellCommand::query_file && command != CellCommand::stop &&
+           command != CellCommand::hold && command != CellCommand::abort;
 }
 
 bool is_current(const CellState& cell, const Uuid& id) {
@@ -142,6 +145,28 @@ Answer query(CellState& cell, const Command& command) {
     cell.answer = answer;
     cell.has_answer = true;
     return {answer.state == JobState::none ? AckResult::unknown_job : AckResult::ok, 0};
+}
+
+// The later of two starts. The time of day may have jumped: epochs rise, and so do the numbers of one owner in an
+// epoch.
+bool is_later(const JobRecord& one, const JobRecord& other) {
+    return std::pair(one.start_epoch, one.start_seq) > std::pair(other.start_epoch, other.start_seq);
+}
+
+Answer query_file(CellState& cell, const Command& command) {
+    if (command.job_id != Uuid{}) return {AckResult::wrong_job, 0};
+    const std::pair<const Uuid, JobRecord>* last = nullptr;
+    std::uint32_t count = 0;
+    for (const auto& job : cell.memory.jobs) {
+        if (job.second.starts == 0 || job.second.file_sha256 != command.file_sha256) continue;
+        ++count;
+        if (last == nullptr || is_later(job.second, last->second)) last = &job;
+    }
+    cell.answer = {last == nullptr ? JobRecord{} : last->second, last == nullptr ? Uuid{} : last->first, command.seq,
+                   command.owner};
+    if (last != nullptr && is_current(cell, last->first)) cell.answer.state = cell.job.state;
+    cell.has_answer = true;
+    return {last == nullptr ? AckResult::unknown_job : AckResult::ok, count};
 }
 
 Answer set_mode(CellState& cell, const Command& command) {
@@ -302,6 +327,8 @@ Answer job_command(CellState& cell, const Command& command, CellTime now, const 
             return cancel(cell, command, hooks);
         case CellCommand::query:
             return query(cell, command);
+        case CellCommand::query_file:
+            return query_file(cell, command);
         case CellCommand::clear_result:
             return clear_result(cell, command);
         case CellCommand::set_mode:
@@ -323,7 +350,7 @@ Answer job_command(CellState& cell, const Command& command, CellTime now, const 
 
 Answer execute(CellState& cell, const Command& command, CellTime now, const CellHooks& hooks) {
     if (command.owner == 0) return {AckResult::not_owner, 0};
-    if (!is_known(command.command)) return {AckResult::unknown_cmd, 0};
+    if (!is_known(command.command, cell.limits.version)) return {AckResult::unknown_cmd, 0};
     if (command.command == CellCommand::claim) return claim(cell, command, now, hooks);
     if (needs_lease(command.command)) {
         if (command.epoch < cell.memory.epoch_held) return {AckResult::stale_epoch, cell.memory.epoch_held};

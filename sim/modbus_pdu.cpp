@@ -25,8 +25,10 @@ std::uint16_t u16_at(std::span<const std::uint8_t> bytes, std::size_t at) {
     return static_cast<std::uint16_t>((bytes[at] << 8U) | bytes[at + 1]);
 }
 
-const Block* block_around(Side side, std::uint32_t address, std::uint32_t count) {
+// Nothing if the cell has no such block.
+const Block* block_around(const CellState& cell, Side side, std::uint32_t address, std::uint32_t count) {
     for (const Block* block : all_blocks()) {
+        if (block == &identity_block && !has_identity(cell.limits.version)) continue;
         if (block->side == side && block->contains(address, count)) return block;
     }
     return nullptr;
@@ -34,6 +36,7 @@ const Block* block_around(Side side, std::uint32_t address, std::uint32_t count)
 
 Registers read_block(const Block& block, const CellState& cell, CellTime now) {
     if (&block == &status_block) return encode(status_of(cell, now));
+    if (&block == &identity_block) return encode(identity_of(cell));
     if (&block == &result_block && cell.has_answer) return encode(cell.answer);
     return Registers(block.count, 0);  // what was written is never read back: it may hold a secret
 }
@@ -43,7 +46,7 @@ Bytes answer_read(Side side, std::span<const std::uint8_t> pdu, CellState& cell,
     const std::uint16_t address = u16_at(pdu, 1);
     const std::uint16_t count = u16_at(pdu, 3);
     if (count < 1 || count > most_read) return exception_pdu(pdu[0], illegal_value);
-    const Block* block = block_around(side, address, count);
+    const Block* block = block_around(cell, side, address, count);
     if (block == nullptr) return exception_pdu(pdu[0], illegal_address);
     pass_time(cell, now, hooks);
     const Registers registers = read_block(*block, cell, now);
@@ -82,7 +85,7 @@ Bytes answer_write(std::span<const std::uint8_t> pdu, CellState& cell, CellTime 
     const std::uint16_t count = u16_at(pdu, 3);
     const bool fits = count >= 1 && count <= most_written && pdu[5] == 2 * count && pdu.size() == 6U + 2U * count;
     if (!fits) return exception_pdu(pdu[0], illegal_value);
-    const Block* block = block_around(Side::holding, address, count);
+    const Block* block = block_around(cell, Side::holding, address, count);
     if (block == nullptr || address != block->base) return exception_pdu(pdu[0], illegal_address);
     const bool is_whole = block == &chunk_block ? count > chunk_head : count == block->count;
     if (!is_whole) return exception_pdu(pdu[0], illegal_address);
