@@ -222,6 +222,7 @@ class Dispatcher {
         out.refusal = state.refusal;
         out.cancelled = state.is_cancelled;
         out.carved_before = state.carved_before.has_value();
+        out.carved_complete = out.carved_before && state.carved_before->result == JobResult::complete;
         out.store_is_lost = state.store_is_lost;
         if (state.status) out.cell_id = state.status->cell_id;
         if (state.status) out.simulated = state.status->has(flag::simulated);
@@ -278,8 +279,8 @@ JobOutcome dispatch_job(RegisterBus& bus, const JobTicket& ticket, const Bytes& 
     order.rehearse = options.rehearse;
     order.transfer = options.drop_folder.empty() ? Transfer::chunks : Transfer::drop_folder;
     order.on_link_loss = options.on_link_loss;
-    order.part = options.part;
-    order.parts = options.parts;
+    order.part = options.has_parts ? ticket.about.part : std::uint16_t{0};
+    order.parts = options.has_parts ? ticket.about.parts : std::uint16_t{0};
     check_file(ticket, file);
     const HandOffPlan plan = plan_of(wire_ticket(ticket, order), options);
     JournalEvent created;

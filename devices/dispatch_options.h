@@ -52,9 +52,8 @@ struct DispatchOptions {
     HandOffTimings timings;
     bool again = false;               // also a file that the cell has carved before
     std::uint32_t takeover_code = 0;  // given at the cell's panel: ends the lease of another dispatcher
-    std::uint16_t part = 0;           // 1..parts of the programs of one piece; both 0: undivided
-    std::uint16_t parts = 0;
-    std::optional<Uuid> job_id;  // empty: a new random one
+    bool has_parts = true;            // the cell knows PART and PARTS (map 1.1); else both are sent as 0
+    std::optional<Uuid> job_id;       // empty: a new random one
     HandOffPast past;
     // Keeps an event before the action that follows from it; if it throws, the action is not done. May be empty.
     std::function<void(const JournalEvent& event)> journal;

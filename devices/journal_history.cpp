@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "devices/codec.h"
+
 namespace qchopper {
 namespace {
 
@@ -79,6 +81,38 @@ const JournalJob* JournalHistory::last_job_of(const Sha256& file) const {
     const auto found =
         std::find_if(jobs.rbegin(), jobs.rend(), [&](const JournalJob& job) { return job.file_sha256 == file; });
     return found == jobs.rend() ? nullptr : &*found;
+}
+
+HandOffPast past_of(const JournalHistory& history, const JournalJob* job) {
+    HandOffPast past;
+    past.store = history.store;
+    past.store_is_lost = history.store_is_lost;
+    past.epoch = history.epoch;
+    if (history.lease_may_live) {
+        past.owner = history.owner;
+        past.secret = history.secret;
+        past.seq = history.seq;
+    }
+    if (job == nullptr) return past;
+    past.is_stored = job->is_stored;
+    past.start_may_have_arrived = job->start_may_have_arrived;
+    past.is_started = job->is_started;
+    return past;
+}
+
+std::string why_part_must_wait(const JournalHistory& history, const WireTicket& ticket) {
+    if (ticket.part <= 1) return {};
+    for (const JournalJob& job : history.jobs) {
+        const Decoded<WireTicket> before = decode_ticket(job.ticket);
+        if (!job.is_complete() || !before.is_ok()) continue;
+        const WireTicket& t = before.value;
+        if (t.project_id == ticket.project_id && t.piece_no == ticket.piece_no && t.parts == ticket.parts &&
+            t.part + 1 == ticket.part) {
+            return {};
+        }
+    }
+    return "part " + std::to_string(ticket.part) + " of " + std::to_string(ticket.parts) +
+           " is not sent: the journal has no complete end of part " + std::to_string(ticket.part - 1);
 }
 
 JournalHistory history_of(std::span<const JournalRow> rows) {

@@ -8,8 +8,11 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "devices/blocks.h"
+#include "devices/dispatch_options.h"
 #include "devices/journal.h"
 
 namespace qchopper {
@@ -43,6 +46,13 @@ struct JournalHistory {
 
     const JournalJob* last_job_of(const Sha256& file) const;  // nullptr if none
 };
+
+// What a hand-off to this cell has to know; of `job` if it is taken up (nullptr: a new job).
+HandOffPast past_of(const JournalHistory& history, const JournalJob* job);
+
+// Why part `part` of `parts` of a piece must not be carved yet, or "": the part before it has not ended complete. Parts
+// of one piece have the same PROJECT_ID, PIECE_NO and PARTS.
+std::string why_part_must_wait(const JournalHistory& history, const WireTicket& ticket);
 
 JournalHistory history_of(std::span<const JournalRow> rows);
 

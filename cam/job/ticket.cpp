@@ -31,20 +31,24 @@ void check_lengths(const TicketTemplate& about) {
 }  // namespace
 
 std::string to_json(const TicketTemplate& about) {
-    const Json json = {{"ticket_version", 1},
-                       {"piece", about.piece},
-                       {"piece_no", about.piece_no},
-                       {"piece_count", about.piece_count},
-                       {"project_id", to_hex(about.project_id)},
-                       {"box", from_box(about.box)},
-                       {"stock", from_vector(about.stock)},
-                       {"material", to_word(about.material)},
-                       {"tool_no", about.tool_no},
-                       {"tool_diameter", about.tool_diameter},
-                       {"spindle_max_rpm", about.spindle_max_rpm},
-                       {"feed_max_mm_per_min", about.feed_max_mm_per_min},
-                       {"estimated_time_s", about.estimated_time_s},
-                       {"base_plane", about.base_plane}};
+    Json json = {{"ticket_version", 1},
+                 {"piece", about.piece},
+                 {"piece_no", about.piece_no},
+                 {"piece_count", about.piece_count},
+                 {"project_id", to_hex(about.project_id)},
+                 {"box", from_box(about.box)},
+                 {"stock", from_vector(about.stock)},
+                 {"material", to_word(about.material)},
+                 {"tool_no", about.tool_no},
+                 {"tool_diameter", about.tool_diameter},
+                 {"spindle_max_rpm", about.spindle_max_rpm},
+                 {"feed_max_mm_per_min", about.feed_max_mm_per_min},
+                 {"estimated_time_s", about.estimated_time_s},
+                 {"base_plane", about.base_plane}};
+    if (about.parts != 0) {  // a piece in one part has the text that it always had
+        json["part"] = about.part;
+        json["parts"] = about.parts;
+    }
     return written(json);
 }
 
@@ -68,6 +72,11 @@ TicketTemplate ticket_template_from_json(std::string_view text, const std::strin
         about.feed_max_mm_per_min = whole<std::uint32_t>(json, "feed_max_mm_per_min");
         about.estimated_time_s = whole<std::uint32_t>(json, "estimated_time_s");
         about.base_plane = whole<std::uint16_t>(json, "base_plane");
+        if (json.contains("parts")) {
+            about.part = whole<std::uint16_t>(json, "part");
+            about.parts = whole<std::uint16_t>(json, "parts");
+            if (about.part < 1 || about.part > about.parts) throw wrong("part", "is not one of the parts");
+        }
         check_lengths(about);
         check_form(json, text);
         return about;

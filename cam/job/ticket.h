@@ -23,6 +23,8 @@ struct TicketTemplate {
     std::string piece;           // name of the piece
     std::uint16_t piece_no = 0;  // 1..piece_count
     std::uint16_t piece_count = 0;
+    std::uint16_t part = 0;  // 1..parts of the programs of the piece; both 0: undivided
+    std::uint16_t parts = 0;
     Uuid project_id{};  // first 16 bytes of a SHA-256 over scan and decisions
     Box box;            // of the piece in setup coordinates
     Vec3 stock;         // size of the block as it stands
