@@ -14,6 +14,7 @@
 #include "base/box.h"
 #include "base/file.h"
 #include "devices/codec.h"
+#include "sim/faults.h"
 
 namespace qchopper {
 
@@ -38,6 +39,34 @@ struct CellLimits {
     std::uint32_t takeover_code = 0;           // with it a CLAIM replaces the lease of another dispatcher; 0: none does
     std::uint32_t max_chunk_file = 64U << 20;  // bytes that may come in chunks
     std::int64_t acting_ms = 200;              // of an acting state except Execute; a rehearsal takes five times that
+};
+
+// The block on the table, as a person sees it. unknown: nobody has said; a consent then says that it is right.
+enum class BlockOnTable { unknown, none, fresh, used, moved };
+
+// What a person at the cell sets; power cuts do not change it.
+struct Surroundings {
+    bool door_open = false;
+    bool e_stop = false;
+    bool local_control = false;
+    bool tool_broken = false;
+    BlockOnTable block = BlockOnTable::unknown;
+    bool is_safe() const { return !door_open && !e_stop; }
+};
+
+// The first alarm, until the machine is cleared; code 0: there is none.
+struct CellAlarm {
+    std::uint32_t code = 0;
+    std::uint32_t block = 0;  // of the program
+    std::string text;
+};
+
+// How the next power cut ends; `lost` from the event at which power was cut until boot().
+struct PowerCut {
+    enum class Store { stays, lost, back };
+    std::uint64_t at_event = 0;  // 0: none is due
+    Store store = Store::stays;
+    bool lost = false;
 };
 
 struct CellTime {
@@ -118,6 +147,14 @@ struct CellState {
     bool watchdog_expired = false;
     bool consent_present = false;
     bool warning = false;
+    CellAlarm alarm;
+    Surroundings surroundings;
+    Faults faults;
+    PowerCut power;
+    std::uint64_t steps = 0;   // lines of the log, and two for each write of the memory
+    std::int64_t jump_ms = 0;  // of the time of day
+    std::optional<std::uint16_t> frozen_heartbeat;
+    std::uint16_t heartbeat_offset = 0;
     std::optional<Pending> pending;
     std::uint64_t pending_count = 0;
     Registers ticket_draft;               // TICKET as written last; empty: none

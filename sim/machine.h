@@ -2,7 +2,7 @@
 //
 // Functions on a value (cell_state.h). The time is an argument and never decreases from call to call; store, log and
 // files are behind CellHooks. A refused command changes nothing but the acknowledgement, and a job id is started at
-// most once, power cuts included (tests/sim/machine_test.cpp, tests/sim/packml_test.cpp). Not thread-safe.
+// most once, power cuts included (tests/sim/start_test.cpp, tests/sim/packml_test.cpp). Not thread-safe.
 
 #pragma once
 
@@ -35,6 +35,8 @@ void receive_heartbeat(CellState& cell, std::span<const std::uint16_t> block, Ce
 // cell.transfer_result.
 void receive_chunk(CellState& cell, const Chunk& chunk);
 
+// CELL_HB if it does not stand still.
+std::uint16_t heartbeat_of(const CellState& cell, CellTime now);
 Status status_of(const CellState& cell, CellTime now);
 Identity identity_of(const CellState& cell);
 

@@ -34,11 +34,17 @@ const Block* block_around(const CellState& cell, Side side, std::uint32_t addres
     return nullptr;
 }
 
-Registers read_block(const Block& block, const CellState& cell, CellTime now) {
+Registers right_registers(const Block& block, const CellState& cell, CellTime now) {
     if (&block == &status_block) return encode(status_of(cell, now));
     if (&block == &identity_block) return encode(identity_of(cell));
     if (&block == &result_block && cell.has_answer) return encode(cell.answer);
     return Registers(block.count, 0);  // what was written is never read back: it may hold a secret
+}
+
+Registers read_block(const Block& block, CellState& cell, CellTime now) {
+    Registers registers = right_registers(block, cell, now);
+    spoil_read(cell.faults, block, registers);
+    return registers;
 }
 
 Bytes answer_read(Side side, std::span<const std::uint8_t> pdu, CellState& cell, CellTime now, const CellHooks& hooks) {
@@ -79,6 +85,13 @@ std::uint8_t write_block(const Block& block, const Registers& registers, CellSta
     return 0;
 }
 
+// What a PLC does whose time for its clients has run out.
+void write_zeros(CellState& cell, CellTime now, const CellHooks& hooks) {
+    for (const Block* block : all_blocks()) {
+        if (block->side == Side::holding) write_block(*block, Registers(block->count, 0), cell, now, hooks);
+    }
+}
+
 Bytes answer_write(std::span<const std::uint8_t> pdu, CellState& cell, CellTime now, const CellHooks& hooks) {
     if (pdu.size() < 6) return exception_pdu(pdu[0], illegal_value);
     const std::uint16_t address = u16_at(pdu, 1);
@@ -91,8 +104,10 @@ Bytes answer_write(std::span<const std::uint8_t> pdu, CellState& cell, CellTime 
     if (!is_whole) return exception_pdu(pdu[0], illegal_address);
     Registers registers;
     for (std::size_t i = 0; i < count; ++i) registers.push_back(u16_at(pdu, 6 + 2 * i));
+    spoil_written(cell.faults, registers);
     const std::uint8_t code = write_block(*block, registers, cell, now, hooks);
     if (code != 0) return exception_pdu(pdu[0], code);
+    if (take(cell.faults, Fault::zero_holding)) write_zeros(cell, now, hooks);
     return {pdu.begin(), pdu.begin() + 5};
 }
 
@@ -106,6 +121,10 @@ Bytes answer_pdu(std::uint8_t unit, std::span<const std::uint8_t> pdu, CellState
                  const CellHooks& hooks) {
     if (pdu.empty()) return exception_pdu(0, illegal_function);
     if (unit != 1 && unit != 255) return exception_pdu(pdu[0], no_such_unit);
+    if (take(cell.faults, Fault::close_before_effect)) return {};
+    if (const auto code = take(cell.faults, Fault::exception)) {
+        return exception_pdu(pdu[0], static_cast<std::uint8_t>(*code));
+    }
     switch (pdu[0]) {
         case read_holding:
             return answer_read(Side::holding, pdu, cell, now, hooks);

@@ -56,7 +56,9 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
   qchopper setup vertebra.qch --piece B --base 2 --directions 3)"},
     {"dry-run", R"(  qchopper dry-run vertebra.qch
   qchopper dry-run vertebra.qch --piece B)"},
-    {"cell-sim", R"(  qchopper cell-sim --listen 127.0.0.1:15020 --drop drop --consent ask)"},
+    {"cell-sim", R"(  qchopper cell-sim --listen 127.0.0.1:15020 --drop drop --consent ask
+  qchopper cell-sim --drop drop --script night.txt --store cell
+  qchopper cell-sim --list-faults)"},
     {"dispatch", R"(  qchopper dispatch vertebra.qch --to 127.0.0.1:15020 --drop drop
   qchopper dispatch vertebra.qch --piece B
   qchopper dispatch vertebra.qch --to 127.0.0.1:15020 --chunks --rehearse)"},

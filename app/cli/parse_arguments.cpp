@@ -193,13 +193,17 @@ struct Parser {
     void add_cell_sim() {
         CLI::App* c = app.add_subcommand("cell-sim", "run a simulated cell until stopped");
         c->add_option("--listen", cell_sim.listen, "HOST:PORT (127.0.0.1:15020); port 0 takes a free one");
-        c->add_option("--drop", cell_sim.drop, "the folder where job files arrive")->required();
+        c->add_option("--drop", cell_sim.drop, "the folder where job files arrive");
         c->add_option("--consent", cell_sim.consent, "auto, ask (on this terminal) or never (auto)")
             ->check(one_of({"auto", "ask", "never"}));
         c->add_option("--store", cell_sim.store, "the folder of the cell's lasting memory; none: a temporary one");
         c->add_option("--cell", cell_sim.cell, "take id, reach and stock from this cell file");
         c->add_option("--speed", cell_sim.speed, "simulated seconds per second (1)")
             ->check(number_between(1e-3, 1e9, "a factor above 0"));
+        c->add_option("--script", cell_sim.script, "perform the commands of this file; standard input takes the same");
+        c->add_flag("--list-faults", cell_sim.list_faults, "list the faults that a script can order, and end");
+        c->add_option("--map", cell_sim.map, "version of the register map: 1.1, or 1.0 as older cells (1.1)")
+            ->check(one_of({"1.0", "1.1"}));
         add_common(c, common, [this] { common.command = cell_sim; });
     }
 

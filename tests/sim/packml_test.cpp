@@ -34,7 +34,7 @@ constexpr const char* expected_table = R"(
 8  Aborting   -- af -- -- -- -- -- al -- --  ok ok bo af af af ok -- af -- ok
 9  Aborted    -- af -- -- -- -- -- al pe --  ok ok bo af af af ok ok af ok ok
 10 Holding    -- al 7  al -- -- -- 8  -- --  ok ok bo -- -- -- ok -- -- -- ok
-11 Held       -- al 7  al 12 -- -- 8  -- --  ok ok bo -- -- -- ok -- -- -- ok
+11 Held       -- al 7  al pe -- -- 8  -- --  ok ok bo -- -- -- ok -- -- -- ok
 12 Unholding  -- al 7  10 al -- -- 8  -- --  ok ok bo -- -- -- ok -- -- -- ok
 13 Suspending -- al 7  10 -- al -- 8  -- --  ok ok bo -- -- -- ok -- -- -- ok
 14 Unsuspending -- al 7 10 -- -- al 8 -- --  ok ok bo -- -- -- ok -- -- -- ok
@@ -111,7 +111,7 @@ AckResult result_of(const std::string& word) {
     return AckResult::ok;
 }
 
-TEST(PackML, EveryCommandInEveryStateDoesWhatTheTableSays) {
+TEST(Fault, F44_EveryCommandInEveryStateDoesWhatTheTableSays) {
     const auto table = expected();
     for (std::uint16_t n = 1; n <= last_pack_state; ++n) {
         for (std::size_t c = 0; c < all_commands.size(); ++c) {
@@ -127,7 +127,7 @@ TEST(PackML, EveryCommandInEveryStateDoesWhatTheTableSays) {
     }
 }
 
-TEST(PackML, StartMovesNothingInAnyStateButIdle) {
+TEST(Fault, F43_StartMovesNothingInAnyStateButIdle) {
     for (std::uint16_t n = 1; n <= last_pack_state; ++n) {
         if (static_cast<PackState>(n) == PackState::idle) continue;
         const auto whole = cell_in(PackState::idle);
