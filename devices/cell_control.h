@@ -1,7 +1,7 @@
 // One command to a cell, outside of any hand-off: what `qchopper cell` sends.
 //
 // Stop, Hold and Abort need no lease and work beside a dispatcher; the others claim the cell, send the command and give
-// the cell back. Times in seconds (tests/devices/cell_control_test.cpp, tests/sim/cell_control_test.cpp).
+// the cell back. Times in seconds (tests/sim/cell_control_test.cpp).
 
 #pragma once
 

@@ -22,12 +22,12 @@ constexpr const char* no_emergency_stop =
     "This is no emergency stop: it goes through network and controller. Danger is ended by the red button at the cell.";
 constexpr const char* consent_needed = "Nothing moves before the operator at the cell has consented.";
 
-struct Action {
+struct CellAction {
     const char* name;
     CellCommand command;
     const char* note;
 };
-constexpr Action actions[] = {
+constexpr CellAction actions[] = {
     {"hold", CellCommand::hold, ""},
     {"unhold", CellCommand::unhold, consent_needed},
     {"stop", CellCommand::stop, no_emergency_stop},
@@ -141,8 +141,8 @@ int accept_store(const CellControlArguments& arguments, Reached& reached, Termin
 }
 
 // A dispatcher of this user holds the cell: it passes on Unhold and Clear, for the others it has to end.
-int ask_running(const CellControlArguments& arguments, const Action& action, const Reached& reached, Terminal& terminal,
-                const InputError& busy) {
+int ask_running(const CellControlArguments& arguments, const CellAction& action, const Reached& reached,
+                Terminal& terminal, const InputError& busy) {
     if (action.command != CellCommand::unhold && action.command != CellCommand::clear) throw busy;
     constexpr double margin_s = 15;
     const std::string answer = ask_dispatcher(reached.folder, action.command, HandOffTimings{}.consent_s + margin_s);
@@ -153,7 +153,7 @@ int ask_running(const CellControlArguments& arguments, const Action& action, con
     return show(report, terminal);
 }
 
-int send(const CellControlArguments& arguments, const Action& action, Reached& reached, Terminal& terminal) {
+int send(const CellControlArguments& arguments, const CellAction& action, Reached& reached, Terminal& terminal) {
     ControlOrder order;
     order.command = action.command;
     order.takeover_code = arguments.code.value_or(0);
@@ -180,7 +180,7 @@ int run(const CellControlArguments& arguments, Terminal& terminal) {
     if (!reached) return Terminal::cancel_code();
     if (arguments.action == "status") return show_status(*reached, terminal);
     if (arguments.action == "accept-store") return accept_store(arguments, *reached, terminal);
-    for (const Action& action : actions) {
+    for (const CellAction& action : actions) {
         if (arguments.action == action.name) return send(arguments, action, *reached, terminal);
     }
     throw InputError(InputFault::use, arguments.action + " is no command to a cell", "see qchopper cell --help");

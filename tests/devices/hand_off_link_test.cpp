@@ -22,7 +22,7 @@ TEST(HandOff, AfterALostLinkComesAFenceAndAQuestionBeforeAnythingElse) {
     EXPECT_EQ(cell.commands[13].token, 1002U);  // a new token
 }
 
-TEST(HandOff, AStartThatArrivedThoughItsAnswerDidNotIsTakenUp) {
+TEST(Fault, F07_AStartThatArrivedThoughItsAnswerDidNotIsTakenUp) {
     ScriptedCell cell;
     lose_first_start(cell, [&](const Command& start) { cell.execute(start); });
     end_the_job(cell);
@@ -158,6 +158,18 @@ TEST(HandOff, ACellWithAnotherMagicNumberIsAnErrorOfTheProtocol) {
     HandOffTransition turn = advance(cell.plan, cell.state, cell.input, 1);
     EXPECT_EQ(turn.action.kind, Kind::finish);
     EXPECT_EQ(turn.state.fault, DeviceFault::protocol);
+}
+
+TEST(Fault, F48_ARealCellWhereASimulatedOneIsWantedAndTheReverse) {
+    for (const bool want_simulated : {true, false}) {
+        HandOffPlan plan = a_plan();
+        plan.options.want_simulated = want_simulated;
+        ScriptedCell cell(plan);
+        cell.status.flags = want_simulated ? 0 : flag::simulated;
+        cell.run();
+        EXPECT_EQ(cell.state.fault, DeviceFault::refused);
+        EXPECT_TRUE(cell.written.empty());
+    }
 }
 
 }  // namespace

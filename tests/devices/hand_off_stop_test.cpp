@@ -9,7 +9,7 @@ namespace {
 
 using namespace scripted;
 
-TEST(HandOff, AStopOnRequestAtAnyMomentBeforeStartIsConfirmedAndNothingIsStarted) {
+TEST(Fault, F58_AStopOnRequestAtAnyMomentBeforeStartIsConfirmedAndNothingIsStarted) {
     for (int at = 0; at < 200; ++at) {
         ScriptedCell cell;
         for (int n = 0; n < at && cell.state.step < HandOffStep::start; ++n) cell.step();

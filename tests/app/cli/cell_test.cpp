@@ -27,10 +27,10 @@ struct CellCommands : ::testing::Test {
         fs::create_directory(folder.path / "drop");
     }
     // At the same address each time, with the memory in the folder `store`.
-    void start_cell(const std::string& speed) {
-        cell = std::make_unique<Process>(
-            Arguments{"cell-sim", "--listen", to, "--drop", "drop", "--store", "store", "--speed", speed},
-            program::RunOptions{folder.path});
+    void start_cell(const std::string& speed, const Arguments& more = {}) {
+        Arguments arguments{"cell-sim", "--listen", to, "--drop", "drop", "--store", "store", "--speed", speed};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        cell = std::make_unique<Process>(arguments, program::RunOptions{folder.path});
         ASSERT_TRUE(cell->waits_until_out("\n")) << cell->err();
         const std::string line = cell->out();
         to = line.substr(std::string("listening ").size(), line.find('\n') - std::string("listening ").size());
@@ -64,6 +64,17 @@ TEST_F(CellCommands, AFileIsCarvedOnceUnlessAgainIsPassed) {
     const Ended all = run({"dispatch", "p.qch", "--drop", "drop"});  // A and B now, C before
     EXPECT_EQ(all.code, 0) << all.out << all.err;
     EXPECT_EQ(status()["store"]["starts_total"], 4);
+    stop_cell();
+}
+
+TEST_F(CellCommands, F60_WithoutANewBlockTheQueueStopsAfterOneJob) {
+    program::put(folder.path / "block.txt", "block fresh\n");
+    start_cell("100000", {"--script", "block.txt"});
+    const Ended queue = run({"dispatch", "p.qch", "--drop", "drop"});
+    EXPECT_EQ(queue.code, exit_demand_broken) << queue.out;
+    EXPECT_TRUE(has(queue.out, "NO_CONSENT")) << queue.out;
+    EXPECT_TRUE(has(queue.out, "2 of 3 jobs were handed")) << queue.out;
+    EXPECT_EQ(status()["store"]["starts_total"], 1);
     stop_cell();
 }
 
