@@ -261,7 +261,8 @@ Answer cancel(CellState& cell, const Command& command, const CellHooks& hooks) {
 Answer clear_result(CellState& cell, const Command& command) {
     if (!is_current(cell, command.job_id)) {
         const AckResult known = not_current(cell, command.job_id);
-        return {known == AckResult::already_finished ? AckResult::already : AckResult::unknown_job, 0};
+        const bool is_over = known == AckResult::already_finished || known == AckResult::cancelled;
+        return {is_over ? AckResult::already : AckResult::unknown_job, 0};
     }
     if (!cell.job.is_finished()) return {AckResult::wrong_state, 0};
     if (is_refused(cell, command.command)) return {AckResult::wrong_state, 0};

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
+#include <utility>
 
 #include "base/error.h"
 
@@ -44,8 +44,7 @@ std::vector<std::string> words_of(std::string_view text) {
     for (const char c : text.substr(0, text.find('#'))) {
         const bool is_space = c == ' ' || c == '\t' || c == '\r';
         if (!is_space) word += c;
-        if (is_space && !word.empty()) words.push_back(std::move(word));
-        if (is_space) word.clear();
+        if (is_space && !word.empty()) words.push_back(std::exchange(word, {}));
     }
     if (!word.empty()) words.push_back(std::move(word));
     return words;

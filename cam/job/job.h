@@ -7,11 +7,13 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/file.h"
 #include "cam/cell/cell.h"
+#include "cam/job/job_program.h"
 #include "cam/job/ticket.h"
 #include "cam/setup/envelope.h"
 #include "cam/setup/setup.h"
@@ -20,7 +22,7 @@
 
 namespace qchopper {
 
-constexpr int job_schema_version = 4;
+constexpr int job_schema_version = 5;
 
 // Precondition of all functions that take it: piece.mesh is not null, setup.block.stock is an index in cell.stock, so
 // are those of the alternatives, the envelope has a margin, states are empty or one per triangle, and max_unreachable
@@ -40,6 +42,8 @@ struct JobInput {
     double max_unreachable = 1;         // share beyond which dispatch asks for the operator's word
     std::vector<std::string> warnings;  // of the project: "scaled by 0.5 on request"
     WorkEnvelope work_envelope = {};    // of the setup
+    std::optional<ProgramInput> program = {};
+    std::string no_program_because = "none was asked for";  // for people; not used if there is a program
 };
 
 // Another way to lay the piece, as far as a person needs it to choose; mm, mm3.
@@ -83,6 +87,8 @@ struct ReadJob {
     std::vector<Pose> setup_in_cell;  // of a rotary table one per direction, else one
     std::uint64_t faces = 0;
     double volume_mm3 = 0;
+    std::optional<JobProgram> program;
+    std::string no_program_because;  // empty where there is one
     TicketTemplate ticket;
     std::vector<JobEntry> entries;       // every file but the manifest
     std::map<std::string, Bytes> files;  // all by name, the manifest too

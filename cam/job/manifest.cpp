@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/json.h"
+#include "cam/job/program_document.h"
 #include "cam/setup/block_placement.h"
 
 namespace qchopper {
@@ -338,6 +339,11 @@ ReadJob to_job(const Json& json) {
     const Json& poses = member(json, "work_envelope");
     job.is_arm_checked = truth(poses, "arm_checked");
     job.holds_poses = truth(poses, "holds");
+    job.program = to_program(member(json, "programs"));
+    job.no_program_because = text(json, "no_program_because");
+    if (job.program.has_value() != job.no_program_because.empty()) {
+        throw wrong("no_program_because", "contradicts the programs");
+    }
     job.entries = to_entries(json);
     return job;
 }
@@ -382,6 +388,8 @@ std::string to_manifest(const JobInput& input, const std::vector<JobEntry>& entr
         {"envelope", from_envelope(input.envelope)},
         {"work_envelope",
          {{"arm_checked", input.work_envelope.is_arm_checked}, {"holds", input.work_envelope.holds()}}},
+        {"programs", from_program(input.program ? std::optional(input.program->program) : std::nullopt)},
+        {"no_program_because", input.program ? std::string() : input.no_program_because},
         {"warnings", input.warnings},
         {"files", files},
     };

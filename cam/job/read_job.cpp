@@ -9,6 +9,7 @@
 #include "base/zip.h"
 #include "cam/job/envelope_document.h"
 #include "cam/job/manifest.h"
+#include "cam/job/program_document.h"
 
 namespace qchopper {
 namespace {
@@ -42,14 +43,19 @@ void check_entries(const ReadJob& job, const std::string& source) {
     for (const char* name : names) {
         if (!job.files.contains(name)) refuse(source, std::string(name) + " is missing");
     }
+    const std::string fault = fault_of_program_files(job.program, job.files);
+    if (!fault.empty()) refuse(source, fault);
 }
 
 void check_ticket(const ReadJob& job, const std::string& source) {
     const TicketTemplate& ticket = job.ticket;
     const std::int32_t base = job.setup.base.value_or(no_base_plane);
-    const bool same = ticket.piece == job.piece && ticket.piece_no == job.piece_no &&
-                      ticket.piece_count == job.piece_count && ticket.project_id == job.project_id &&
-                      ticket.box == job.setup.box && ticket.stock == job.setup.block.size && ticket.base_plane == base;
+    const JobPart part = job.program ? job.program->part : JobPart{};
+    const bool same = ticket.part == (part.count > 1 ? part.number : 0) &&
+                      ticket.parts == (part.count > 1 ? part.count : 0) && ticket.piece == job.piece &&
+                      ticket.piece_no == job.piece_no && ticket.piece_count == job.piece_count &&
+                      ticket.project_id == job.project_id && ticket.box == job.setup.box &&
+                      ticket.stock == job.setup.block.size && ticket.base_plane == base;
     if (!same) refuse(source, "ticket.json and manifest.json describe different jobs");
 }
 

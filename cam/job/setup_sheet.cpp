@@ -12,6 +12,7 @@
 #include "cam/job/envelope_picture.h"
 #include "cam/job/envelope_section.h"
 #include "cam/job/manifest.h"
+#include "cam/job/program_section.h"
 #include "cam/job/setup_picture.h"
 #include "cam/job/sheet_html.h"
 #include "segment/picture/svg.h"
@@ -368,11 +369,6 @@ std::string warning_section(const JobInput& input) {
     return section("12. Warnings", list.empty() ? paragraph("None.") : "<ul>\n" + list + "</ul>\n");
 }
 
-std::string time_section(const Tool& tool, std::uint32_t seconds) {
-    return section("13. Time", paragraph("About " + duration(seconds) + ". Crude: foam to remove over " +
-                                         fixed(tool.removal_mm3_per_s / 1000, 1) + " cm3/s, no finishing, no travel."));
-}
-
 }  // namespace
 
 std::string setup_sheet(const JobInput& input, std::uint32_t estimated_time_s) {
@@ -381,8 +377,7 @@ std::string setup_sheet(const JobInput& input, std::uint32_t estimated_time_s) {
            head(input) + pictures(input) + block_section(input) + place_section(input) + holding_section(input.setup) +
            piece_section(input.setup) + tool_section(input.cell) + direction_section(input) + reach_section(input) +
            parting_section(input.setup) + alternative_section(input) + margin_section(input.envelope) +
-           envelope_section(input) + warning_section(input) + time_section(input.cell.tool, estimated_time_s) +
-           "<footer>" +
+           envelope_section(input) + warning_section(input) + program_section(input, estimated_time_s) + "<footer>" +
            svg_text("Project " + to_hex(input.project_id) + ". Scan " + to_hex(input.scan_sha256) +
                     ". Written by qchopper " + input.program_version + ".") +
            "</footer>\n</body>\n</html>\n";

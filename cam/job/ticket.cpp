@@ -31,24 +31,22 @@ void check_lengths(const TicketTemplate& about) {
 }  // namespace
 
 std::string to_json(const TicketTemplate& about) {
-    Json json = {{"ticket_version", 1},
-                 {"piece", about.piece},
-                 {"piece_no", about.piece_no},
-                 {"piece_count", about.piece_count},
-                 {"project_id", to_hex(about.project_id)},
-                 {"box", from_box(about.box)},
-                 {"stock", from_vector(about.stock)},
-                 {"material", to_word(about.material)},
-                 {"tool_no", about.tool_no},
-                 {"tool_diameter", about.tool_diameter},
-                 {"spindle_max_rpm", about.spindle_max_rpm},
-                 {"feed_max_mm_per_min", about.feed_max_mm_per_min},
-                 {"estimated_time_s", about.estimated_time_s},
-                 {"base_plane", about.base_plane}};
-    if (about.parts != 0) {  // a piece in one part has the text that it always had
-        json["part"] = about.part;
-        json["parts"] = about.parts;
-    }
+    const Json json = {{"ticket_version", 1},
+                       {"piece", about.piece},
+                       {"piece_no", about.piece_no},
+                       {"piece_count", about.piece_count},
+                       {"project_id", to_hex(about.project_id)},
+                       {"box", from_box(about.box)},
+                       {"stock", from_vector(about.stock)},
+                       {"material", to_word(about.material)},
+                       {"tool_no", about.tool_no},
+                       {"tool_diameter", about.tool_diameter},
+                       {"spindle_max_rpm", about.spindle_max_rpm},
+                       {"feed_max_mm_per_min", about.feed_max_mm_per_min},
+                       {"estimated_time_s", about.estimated_time_s},
+                       {"base_plane", about.base_plane},
+                       {"part", about.part},
+                       {"parts", about.parts}};
     return written(json);
 }
 
@@ -72,11 +70,10 @@ TicketTemplate ticket_template_from_json(std::string_view text, const std::strin
         about.feed_max_mm_per_min = whole<std::uint32_t>(json, "feed_max_mm_per_min");
         about.estimated_time_s = whole<std::uint32_t>(json, "estimated_time_s");
         about.base_plane = whole<std::uint16_t>(json, "base_plane");
-        if (json.contains("parts")) {
-            about.part = whole<std::uint16_t>(json, "part");
-            about.parts = whole<std::uint16_t>(json, "parts");
-            if (about.part < 1 || about.part > about.parts) throw wrong("part", "is not one of the parts");
-        }
+        about.part = whole<std::uint16_t>(json, "part");
+        about.parts = whole<std::uint16_t>(json, "parts");
+        const bool is_part = about.part >= 1 && about.part <= about.parts && about.parts > 1;
+        if (!is_part && (about.part != 0 || about.parts != 0)) throw wrong("part", "is not one of 1 to parts");
         check_lengths(about);
         check_form(json, text);
         return about;
@@ -86,9 +83,12 @@ TicketTemplate ticket_template_from_json(std::string_view text, const std::strin
 }
 
 std::uint32_t crude_time_s(double stock_mm3, double piece_mm3, double removal_mm3_per_s) {
-    const double seconds = std::ceil((stock_mm3 - piece_mm3) / removal_mm3_per_s);
+    return whole_seconds((stock_mm3 - piece_mm3) / removal_mm3_per_s);
+}
+
+std::uint32_t whole_seconds(double seconds) {
     const double most = std::numeric_limits<std::uint32_t>::max();
-    return static_cast<std::uint32_t>(std::clamp(std::isnan(seconds) ? most : seconds, 1.0, most));
+    return static_cast<std::uint32_t>(std::clamp(std::isnan(seconds) ? most : std::ceil(seconds), 1.0, most));
 }
 
 }  // namespace qchopper

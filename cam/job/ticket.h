@@ -23,8 +23,6 @@ struct TicketTemplate {
     std::string piece;           // name of the piece
     std::uint16_t piece_no = 0;  // 1..piece_count
     std::uint16_t piece_count = 0;
-    std::uint16_t part = 0;  // 1..parts of the programs of the piece; both 0: undivided
-    std::uint16_t parts = 0;
     Uuid project_id{};  // first 16 bytes of a SHA-256 over scan and decisions
     Box box;            // of the piece in setup coordinates
     Vec3 stock;         // size of the block as it stands
@@ -35,6 +33,8 @@ struct TicketTemplate {
     std::uint32_t feed_max_mm_per_min = 0;
     std::uint32_t estimated_time_s = 0;
     std::uint16_t base_plane = no_base_plane;  // number of the cut whose cap lies on the table
+    std::uint16_t part = 0;  // 1..parts of a piece that several jobs carve in one clamping; both 0: undivided
+    std::uint16_t parts = 0;
     bool operator==(const TicketTemplate&) const = default;
 };
 
@@ -57,5 +57,8 @@ TicketTemplate ticket_template_from_json(std::string_view text, const std::strin
 // The volume of foam to remove over the removal rate, rounded up to whole seconds, 1 to 2^32 - 1. Crude: without
 // finishing, travel and acceleration.
 std::uint32_t crude_time_s(double stock_mm3, double piece_mm3, double removal_mm3_per_s);
+
+// Rounded up to whole seconds, 1 to 2^32 - 1.
+std::uint32_t whole_seconds(double seconds);
 
 }  // namespace qchopper

@@ -3,6 +3,9 @@
 
 #include "cam/job/write_job.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/error.h"
 #include "base/zip.h"
 #include "cam/job/envelope_document.h"
@@ -36,6 +39,22 @@ std::uint16_t base_plane(const JobInput& input) {
     return static_cast<std::uint16_t>(*input.setup.base);
 }
 
+// The first tool that the program uses; diameter, speed and feed are the largest of all that it uses.
+void set_tools(TicketTemplate& about, const ProgramInput& program, const Cell& cell) {
+    if (program.tools.empty() || !cell.machine) return;
+    about.tool_no = program.tools.front();
+    about.tool_diameter = 0;
+    about.spindle_max_rpm = 0;
+    double feed = 0;
+    for (const CarvingTool& tool : cell.machine->tools) {
+        if (std::find(program.tools.begin(), program.tools.end(), tool.number) == program.tools.end()) continue;
+        about.tool_diameter = std::max(about.tool_diameter, tool.diameter);
+        about.spindle_max_rpm = std::max(about.spindle_max_rpm, tool.rpm_max);
+        feed = std::max(feed, tool.feed_max_mm_per_s);
+    }
+    about.feed_max_mm_per_min = static_cast<std::uint32_t>(std::lround(60 * feed));
+}
+
 }  // namespace
 
 TicketTemplate ticket_template(const JobInput& input) {
@@ -56,6 +75,15 @@ TicketTemplate ticket_template(const JobInput& input) {
     about.estimated_time_s =
         crude_time_s(block.x * block.y * block.z, volume_mm3(*input.piece.mesh), tool.removal_mm3_per_s);
     about.base_plane = base_plane(input);
+    if (input.program) {
+        const JobProgram& program = input.program->program;
+        about.estimated_time_s = whole_seconds(program.time_s);
+        if (program.part.count > 1) {
+            about.part = program.part.number;
+            about.parts = program.part.count;
+        }
+        set_tools(about, *input.program, input.cell);
+    }
     return about;
 }
 
@@ -72,6 +100,10 @@ Bytes job_file(const JobInput& input) {
         files["setup-1.png"] = pictures.front;
         files["setup-2.png"] = pictures.back;
         if (input.work_envelope.is_arm_checked) files["envelope.png"] = envelope_picture(input, lying);
+    }
+    if (input.program) {
+        for (const auto& [name, text] : input.program->texts) files[name] = to_bytes(text);
+        if (!input.program->deviation_picture.empty()) files["deviation.png"] = input.program->deviation_picture;
     }
     const TicketTemplate ticket = ticket_template(input);
     files["setup.html"] = to_bytes(setup_sheet(input, ticket.estimated_time_s));

@@ -15,7 +15,7 @@ MODULES = ["base", "segment", "cam", "devices", "sim", "app"]
 # Inside these modules the sub-modules are ordered as well.
 SUB_MODULES = {
     "segment": ["mesh", "io", "repair", "import", "cut", "simplify", "sample", "picture", "score", "search"],
-    "cam": ["cell", "setup", "job", "export"],
+    "cam": ["cell", "setup", "toolpath", "program", "post", "job", "export"],
     "app": ["project", "report", "cli"],
 }
 
@@ -39,7 +39,7 @@ HEAVY = {
     "TBB": (r"tbb/", 1),
     "libmodbus": (r"(modbus/)?modbus(-.*)?\.h$", 0),  # only the tests use it, as a client that is not ours
     "toml++": (r"toml\+\+/", 1),
-    "JSON": (r"nlohmann/(?!json_fwd\.hpp)", 22),
+    "JSON": (r"nlohmann/(?!json_fwd\.hpp)", 25),
     "CLI11": (r"CLI/", 2),
     "libzip": (r"zip\.h$", 2),
     "SQLite": (r"sqlite3(ext)?\.h$", 1),

@@ -131,6 +131,16 @@ TEST(Fault, F35_AStoredOrCancelledJobIsNoStartOfItsFile) {
     EXPECT_EQ(bench.send(CellCommand::query_file, job_a), AckResult::wrong_job) << "its JOB_ID is 0";
 }
 
+TEST(Fault, F35_ACancelledJobIsGoneAndHasNothingToClear) {
+    Bench bench;
+    bench.to_stored();
+    ASSERT_EQ(bench.send(CellCommand::cancel, job_a), AckResult::ok);
+    EXPECT_EQ(bench.send(CellCommand::clear_result, job_a), AckResult::already);
+    EXPECT_EQ(bench.send(CellCommand::clear_result, job_b), AckResult::unknown_job);
+    bench.write_ticket(good_ticket());
+    EXPECT_EQ(bench.send(CellCommand::store, job_a), AckResult::cancelled) << "for ever";
+}
+
 TEST(Fault, F36_TheSameJobIdWithAnotherFile) {
     WireTicket changed = good_ticket();
     changed.file_sha256.bytes.fill(1);

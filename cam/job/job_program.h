@@ -1,0 +1,76 @@
+// The robot program of a job, as the manifest describes it, and what the proof of it found, as the setup sheet shows
+// it.
+//
+// Values; lengths in mm in the program's base frame, which is the setup frame. The texts themselves are entries of the
+// job file (docs/programs.md explains them); what is stated of a chunk is what a reader finds in its text.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/box.h"
+#include "base/file.h"
+#include "base/sha256.h"
+#include "cam/cell/cell.h"
+
+namespace qchopper {
+
+// A file of moves of one tool from one direction.
+struct JobChunk {
+    std::string file;
+    std::uint16_t tool = 0;     // its number in the cell file
+    std::size_t direction = 0;  // index in SurfaceReach::directions
+    std::uint64_t moves = 0;    // straight ones
+    double length_mm = 0;       // of the straight moves
+    Box box;                    // of the points that the tip moves to
+    Vec3 first;
+    Vec3 last;
+    bool operator==(const JobChunk&) const = default;
+};
+
+// A piece whose program exceeds the controller's memory is carved by several jobs in one clamping: its parts.
+struct JobPart {
+    std::uint16_t number = 1;      // 1..count
+    std::uint16_t count = 1;       // 1: undivided
+    std::optional<Sha256> before;  // of the job file of part number - 1; nothing for the first part
+    bool operator==(const JobPart&) const = default;
+};
+
+struct JobProgram {
+    Dialect dialect = Dialect::krl;
+    std::string entry;               // the file that is started
+    std::vector<std::string> files;  // all of the program, in the order in which they are loaded
+    std::vector<JobChunk> chunks;    // in the order in which they run; at least one
+    JobPart part;
+    double scallop_mm = 0;  // scallop height that finishing was made for
+    double time_s = 0;      // estimated, accelerations and tool changes included
+    bool operator==(const JobProgram&) const = default;
+};
+
+// One figure of the proof: "largest gouge", 0.08, "mm".
+struct ProofFigure {
+    std::string key;  // "max_gouge_mm", for JSON
+    std::string name;
+    double value = 0;
+    std::string unit;
+    int decimals = 2;
+    bool operator==(const ProofFigure&) const = default;
+};
+
+// What goes into a job with its program.
+struct ProgramInput {
+    JobProgram program;
+    std::map<std::string, std::string> texts;  // of all its files, by name
+    std::vector<std::uint16_t> tools;          // numbers, in the order in which they are used
+    bool is_proven = false;                    // the replay found nothing against the program
+    std::vector<ProofFigure> figures;          // of the replay
+    std::vector<std::string> findings;         // one sentence each; empty if it is proven
+    Bytes deviation_picture;                   // PNG; empty: none
+};
+
+}  // namespace qchopper

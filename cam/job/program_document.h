@@ -1,0 +1,27 @@
+// The programs in the manifest of a job file, as JSON.
+//
+// What is read is what was written (tests/cam/job/job_program_test.cpp). docs/job-folder.md holds the grammar.
+
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "base/file.h"
+#include "cam/job/job_program.h"
+
+namespace qchopper {
+
+// A list of one program, or of none. Precondition: all numbers are finite.
+nlohmann::ordered_json from_program(const std::optional<JobProgram>& program);
+
+// The inverse. Throws std::runtime_error that names the key and the reason.
+std::optional<JobProgram> to_program(const nlohmann::ordered_json& json);
+
+// Why the files of a job do not belong to its program: a file that is missing, or a program file that the program does
+// not name. Empty: they do.
+std::string fault_of_program_files(const std::optional<JobProgram>& program, const std::map<std::string, Bytes>& files);
+
+}  // namespace qchopper

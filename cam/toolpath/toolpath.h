@@ -1,0 +1,68 @@
+// The toolpath of a setup: where the tip of which tool goes, in which order, before any machine is asked.
+//
+// Values only; lengths in mm, in setup coordinates (cam/setup/setup.h), speeds in mm/s. The tip of a tool is the point
+// of its lowest end on its axis; while a direction is carved the tool axis points along -out.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/vec3.h"
+
+namespace qchopper {
+
+// Roughing leaves an allowance. Fine finishing goes only where the tool of the finishing left more than the scallop
+// height.
+enum class OperationKind : std::uint8_t { roughing, finishing, fine_finishing };
+
+// What a move is for, which decides its speed: an approach enters the foam from above, a cut removes foam, a link leads
+// to the next cut through space that is already clear, a retract leaves.
+enum class MoveKind : std::uint8_t { approach, cut, link, retract };
+
+// A straight move of the tip.
+struct PathMove {
+    Vec3 tip;  // where it ends
+    MoveKind kind = MoveKind::cut;
+    // Whether the controller may round the corner at its end, beginning at most Operation::rounding before and ending
+    // at most as far behind it, and at most in the middle of the shorter move.
+    bool is_rounded = false;
+    bool operator==(const PathMove&) const = default;
+};
+
+// Moves without a break. It begins and ends at the retract height of its direction, above everything that stands on the
+// table; the last move is a retract.
+struct PathRun {
+    Vec3 start;
+    std::vector<PathMove> moves;  // at least two
+    bool operator==(const PathRun&) const = default;
+};
+
+// What one tool does from one direction.
+struct Operation {
+    OperationKind kind = OperationKind::roughing;
+    std::size_t tool = 0;       // index in CellMachine::tools
+    std::size_t direction = 0;  // index in SurfaceReach::directions of the setup
+    double feed = 0;            // of cuts
+    double approach_feed = 0;
+    double link_feed = 0;  // of links and retracts
+    double rpm = 0;
+    double rounding = 0;        // see PathMove::is_rounded
+    double step = 0;            // largest distance between neighbouring passes
+    double step_down = 0;       // of roughing: height of a level; else 0
+    double allowance = 0;       // of foam that is left on the piece
+    double scallop = 0;         // of finishing: the scallop height that holds wherever the tool fits; else 0
+    double retract = 0;         // height along the direction's `out` of the plane in which runs begin and end
+    std::vector<PathRun> runs;  // at least one
+    bool operator==(const Operation&) const = default;
+};
+
+struct Toolpath {
+    std::vector<Operation> operations;  // in the order in which they are carved; at least one
+    double cell = 0;                    // of the height maps that finishing was made from
+    double path_tolerance = 0;  // by how much points were reduced: the path is at most so far above the exact one
+    bool operator==(const Toolpath&) const = default;
+};
+
+}  // namespace qchopper

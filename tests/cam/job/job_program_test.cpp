@@ -1,0 +1,153 @@
+// The program of a job: written into the job file and read back, and what a reader refuses.
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/zip.h"
+#include "cam/job/program_document.h"
+#include "cam/job/read_job.h"
+#include "cam/job/write_job.h"
+#include "tests/cam/job/some_job.h"
+
+namespace qchopper {
+namespace {
+
+using namespace test_pieces;
+
+ProgramInput some_program() {
+    ProgramInput input;
+    JobProgram& program = input.program;
+    program.entry = "qc_2.src";
+    program.files = {"qc_2.src", "qc_2.dat", "qc_2_001.src", "qc_2_002.src"};
+    program.chunks = {{"qc_2_001.src", 1, 0, 120, 4567.25, {{-1, -2, 0}, {3, 4, 60}}, {0, 0, 60}, {1, 1, 60}},
+                      {"qc_2_002.src", 7, 1, 30, 89, {{-1, -2, -3}, {3, 4, 60}}, {0, 0, 60}, {2, 1, 60}}};
+    program.scallop_mm = 0.25;
+    program.time_s = 3599.2;
+    for (const std::string& name : program.files) input.texts[name] = "DEF " + name + "\r\nEND\r\n";
+    input.tools = {1, 7};
+    input.is_proven = true;
+    input.figures = {{"max_gouge_mm", "largest gouge", 0.125, "mm", 3}};
+    input.deviation_picture = {0x89, 'P', 'N', 'G'};
+    return input;
+}
+
+JobInput job_with_program() {
+    JobInput input = tilting_job(3);
+    input.program = some_program();
+    return input;
+}
+
+std::string refusal(const Bytes& bytes) {
+    try {
+        parse_job(bytes, "AB.qjob");
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "taken";
+}
+
+TEST(JobProgram, IsReadAsItWasWritten) {
+    const JobInput input = job_with_program();
+    const ReadJob job = parse_job(job_file(input), "AB.qjob");
+    ASSERT_TRUE(job.program);
+    EXPECT_EQ(*job.program, input.program->program);
+    EXPECT_TRUE(job.no_program_because.empty());
+    for (const auto& [name, text] : input.program->texts) {
+        ASSERT_TRUE(job.files.contains(name)) << name;
+        EXPECT_EQ(job.files.at(name), Bytes(text.begin(), text.end()));
+    }
+    EXPECT_EQ(job.ticket.estimated_time_s, 3600U);
+    EXPECT_EQ(job.ticket.tool_no, 1);
+    EXPECT_EQ(job.ticket.tool_diameter, 20);
+    EXPECT_EQ(job.ticket.feed_max_mm_per_min, 9000U);
+    EXPECT_EQ(job.ticket.part, 0);
+    EXPECT_EQ(job.ticket.parts, 0);
+}
+
+TEST(JobProgram, AJobWithoutOneSaysWhy) {
+    JobInput input = tilting_job(3);
+    input.no_program_because = "the cell file describes no machine";
+    const ReadJob job = parse_job(job_file(input), "AB.qjob");
+    EXPECT_FALSE(job.program);
+    EXPECT_EQ(job.no_program_because, "the cell file describes no machine");
+}
+
+TEST(JobProgram, PartsNameTheJobBefore) {
+    JobInput input = job_with_program();
+    JobPart& part = input.program->program.part;
+    part = {2, 3, sha256({})};
+    const ReadJob job = parse_job(job_file(input), "AB.qjob");
+    EXPECT_EQ(job.program->part, part);
+    EXPECT_EQ(job.ticket.part, 2);
+    EXPECT_EQ(job.ticket.parts, 3);
+    part.before.reset();
+    EXPECT_NE(refusal(job_file(input)).find("before_sha256"), std::string::npos);
+}
+
+TEST(JobProgram, TheSheetShowsTimeToolsFiguresAndPicture) {
+    JobInput input = job_with_program();
+    const Bytes sheet = parse_job(job_file(input), "AB.qjob").files.at("setup.html");
+    const std::string html(sheet.begin(), sheet.end());
+    for (const char* text :
+         {"13. Program and time", "largest gouge", "0.125", "deviation.png", "qc_2_002.src", "1, 7"}) {
+        EXPECT_NE(html.find(text), std::string::npos) << text;
+    }
+    EXPECT_EQ(html.find("found faults"), std::string::npos);
+    input.program->is_proven = false;
+    input.program->findings = {"qc_2_001.src line 7: rapid move in foam"};
+    const Bytes refused = parse_job(job_file(input), "AB.qjob").files.at("setup.html");
+    const std::string stop(refused.begin(), refused.end());
+    EXPECT_NE(stop.find("DO NOT START: the replay of the program found faults"), std::string::npos);
+    EXPECT_NE(stop.find("line 7: rapid move in foam"), std::string::npos);
+}
+
+using Change = std::function<void(nlohmann::ordered_json& program)>;
+
+// What a reader says of the program after a change.
+std::string fault_after(const Change& change) {
+    nlohmann::ordered_json json = from_program(some_program().program);
+    change(json.front());
+    try {
+        to_program(json);
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "taken";
+}
+
+TEST(JobProgram, AProgramThatContradictsItselfIsRefused) {
+    const std::pair<const char*, Change> cases[] = {
+        {"dialect", [](auto& p) { p["dialect"] = "basic"; }},
+        {"entry", [](auto& p) { p["entry"] = "other.src"; }},
+        {"files", [](auto& p) { p["files"][1] = "../qc_2.dat"; }},
+        {"files", [](auto& p) { p["files"][1] = "qc_2.src"; }},
+        {"file", [](auto& p) { p["chunks"][0]["file"] = "qc_2_009.src"; }},
+        {"direction", [](auto& p) { p["chunks"][0]["direction"] = 0; }},
+        {"length_mm", [](auto& p) { p["chunks"][0]["length_mm"] = -1; }},
+        {"chunks", [](auto& p) { p["chunks"] = nlohmann::ordered_json::array(); }},
+        {"number", [](auto& p) { p["part"]["number"] = 2; }},
+        {"scallop_mm", [](auto& p) { p["scallop_mm"] = "0.25"; }}};
+    for (const auto& [key, change] : cases) {
+        EXPECT_EQ(fault_after(change).find(key), 0U) << key << ": " << fault_after(change);
+    }
+    EXPECT_EQ(fault_after([](auto&) {}), "taken");
+}
+
+TEST(JobProgram, FilesAndProgramBelongTogether) {
+    const ProgramInput input = some_program();
+    std::map<std::string, Bytes> files;
+    for (const auto& [name, text] : input.texts) files[name] = {};
+    EXPECT_EQ(fault_of_program_files(input.program, files), "");
+    EXPECT_NE(fault_of_program_files(std::nullopt, files), "");
+    files["qc_2_003.src"] = {};
+    EXPECT_EQ(fault_of_program_files(input.program, files), "qc_2_003.src belongs to no program of the manifest");
+    files.erase("qc_2_003.src");
+    files.erase("qc_2.dat");
+    EXPECT_EQ(fault_of_program_files(input.program, files), "qc_2.dat, a file of the program, is missing");
+}
+
+}  // namespace
+}  // namespace qchopper
