@@ -45,9 +45,13 @@ HandedOver named(const std::vector<PieceJob>& jobs, const WireTicket& ticket) {
     return {ticket.file_name, {}, false};
 }
 
-bool was_taken_up(const std::vector<HandedOver>& handed, const PieceJob& job) {
-    return std::any_of(handed.begin(), handed.end(),
-                       [&](const HandedOver& one) { return one.is_ordered && one.piece == job.piece; });
+// By its file: the parts of a piece have one name.
+bool was_taken_up(const std::vector<HandedOver>& handed, const PieceJob& job, const JournalHistory& history) {
+    return std::any_of(handed.begin(), handed.end(), [&](const HandedOver& one) {
+        return std::any_of(history.jobs.begin(), history.jobs.end(), [&](const JournalJob& known) {
+            return known.job_id == one.outcome.job_id && known.file_sha256 == job.ticket.file_sha256;
+        });
+    });
 }
 
 // False if one of them is no reason to go on: it is UNKNOWN, or did not run to its end.
@@ -141,9 +145,10 @@ std::vector<HandedOver> hand_over(const std::vector<PieceJob>& jobs, RegisterBus
     };
     std::vector<HandedOver> handed;
     if (!take_up_open_jobs(jobs, bus, kept, journal, context, handed)) return handed;
+    const std::vector<HandedOver> taken_up = handed;
     for (const PieceJob& job : jobs) {
-        if (was_taken_up(handed, job)) continue;
         const JournalHistory history = history_of(journal.content().rows);
+        if (was_taken_up(taken_up, job, history)) continue;
         kept.past = past_of(history, nullptr);
         check_part(history, job);
         context.message("piece " + job.piece + ": " + job.ticket.file_name + ", " + with_commas(job.ticket.file_size) +
