@@ -391,7 +391,7 @@ HandOffTransition advance(const HandOffPlan& plan, HandOff state, const HandOffI
     }
     state.last = action;
     result.state = std::move(state);
-    result.action = std::move(action);
+    result.action = action;
     return result;
 }
 
