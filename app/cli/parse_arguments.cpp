@@ -243,10 +243,10 @@ struct Parser {
         CLI::App* show = c->add_subcommand("show", "show the rows of a journal, which is verified");
         show->add_option("JOURNAL", journal_show.folder, "its folder, or its name in the state folder (all)");
         add_common(show, common, [this] { common.command = journal_show; });
-        CLI::App* verify = c->add_subcommand("verify", "verify the hash chain of a journal");
-        verify->add_option("JOURNAL", journal_verify.folder, "its folder, or its name in the state folder (all)");
+        CLI::App* chain = c->add_subcommand("verify", "verify the hash chain of a journal");
+        chain->add_option("JOURNAL", journal_verify.folder, "its folder, or its name in the state folder (all)");
         journal_verify.shows = false;
-        add_common(verify, common, [this] { common.command = journal_verify; });
+        add_common(chain, common, [this] { common.command = journal_verify; });
     }
 
     void add_cell() {
