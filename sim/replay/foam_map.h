@@ -27,16 +27,22 @@ struct FoamTile {
         float high = 0;
     };
     std::vector<float> cut = std::vector<float>(cells, std::numeric_limits<float>::infinity());
-    // The highest interval of each column; low >= high: none is left.
+    // The highest interval of each column; low >= high: none is left. Of a tile that no tool came to they are empty.
     std::vector<float> low, high;
-    std::vector<Below> below;  // further ones, by cell, of each cell the highest last
+    // Above this height a column is what is left of the foam; below, foam may stand in it that another direction took.
+    std::vector<float> known_from;
+    std::array<std::vector<Below>, side> below;  // further intervals, per row by cell, of each cell the highest last
     float least_cut = std::numeric_limits<float>::infinity();
     // The least of `cut` of each square of 8 x 8 cells: lines far below it pass the square at once.
     static constexpr std::int32_t square = 8;
     std::array<float, cells / (square * square)> least_of_square = filled_with_infinity();
-    std::uint64_t version = 0;  // of the other maps when the columns were made; 0: not made
+    std::uint64_t version = 0;  // of the other maps to which `known_from` refers; 0: there are no columns
     // Highest foam of each square of 16 x 16 cells; too high is allowed.
-    std::array<float, 16> top{};
+    static constexpr std::int32_t top_square = 16;
+    std::array<float, cells / (top_square * top_square)> top{};
+    static constexpr std::size_t top_of_cell(std::size_t cell) {
+        return cell / side / top_square * (side / top_square) + cell % side / top_square;
+    }
 
     // Lowers `cut` of a cell, and the least ones with it.
     void lower_cut(std::size_t cell, float height) {
