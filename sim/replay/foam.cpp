@@ -59,7 +59,9 @@ CutResult Foam::cut(std::size_t direction, const Cutter& cutter, double flute, V
     const double r = cutter.radius;
     const CellRange cells = map.range(std::min(a.x, a.x + move.x) - r, std::max(a.x, a.x + move.x) + r,
                                       std::min(a.y, a.y + move.y) - r, std::max(a.y, a.y + move.y) + r);
+    const double least = a.z + std::min(0.0, move.z);
     for_tiles(columns, cells, [&](FoamTile& tile, std::int32_t tx, std::int32_t ty) {
+        if (tile.most_cut <= least) return;
         const std::int32_t y_end = std::min(cells.y_end - ty * side, side);
         for (std::int32_t j = std::max(0, cells.y_begin - ty * side); j < y_end; ++j) {
             const double y = map.middle_y(ty * side + j) - a.y;
@@ -69,6 +71,11 @@ CutResult Foam::cut(std::size_t direction, const Cutter& cutter, double flute, V
             const CellRange row = map.range(x_min + a.x, x_max + a.x, 0, 0);
             const std::int32_t x_end = std::min(row.x_end - tx * side, side);
             for (std::int32_t i = std::max(0, row.x_begin - tx * side); i < x_end; ++i) {
+                if (tile.most_of_square[FoamTile::square_of_cut(i, j)] <= least) {
+                    i |= FoamTile::square - 1;
+                    continue;
+                }
+                if (tile.cut[static_cast<std::size_t>(j * side + i)] <= least) continue;
                 const double x = map.middle_x(tx * side + i) - a.x;
                 const SweptCutter::Height at = swept.height(x, y);
                 const double z = a.z + at.z;
@@ -88,6 +95,7 @@ CutResult Foam::cut(std::size_t direction, const Cutter& cutter, double flute, V
                 if (depth > flute) result.deep_mm2 += cell_ * cell_;
             }
         }
+        tile.measure_most();
     });
     if (length > 0) ++map.version;
     result.volume = length * cell_ * cell_;
