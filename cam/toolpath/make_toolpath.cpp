@@ -26,6 +26,7 @@ constexpr double cells_per_radius = 6;  // of the tool of the roughing, in the m
 constexpr double border_cells = 6;
 constexpr double surface_spacing = 1;  // mm, between points that are asked what is left over them
 constexpr double clear_of_table = 2;   // mm
+constexpr double upright = 0.9999;     // cosine of the tilt of a direction from above
 constexpr double skin_cells = 2.5;     // by which foam may be known as more than it is
 
 // Height along a direction, in setup coordinates, in which the tool comes and goes (carving_poses.h).
@@ -135,8 +136,11 @@ class ToolpathMaker {
         operation.step = finishing_step(tool, options);
         operation.scallop = options.scallop;
         operation.rounding = settings_.rounding;
-        // The ball goes below the base, so that it carves the sides down to it, but not into the table.
-        const double floor_z = std::max(-0.5 * tool.diameter, clear_of_table - setup_.spoil);
+        // The ball goes below the base, so that it carves the sides down to it, but not into the table. From above, its
+        // radius is enough.
+        const double lowest = clear_of_table - setup_.spoil;
+        const bool is_upright = out_of(direction).z > upright;
+        const double floor_z = is_upright ? std::max(-0.5 * tool.diameter, lowest) : lowest;
         HeightMap tip;
         const FinishingRegion region = finishing_region(operation, floor_z, tip);
         const bool is_empty = std::all_of(region.begin(), region.end(), [](float low) { return low == not_finished; });
