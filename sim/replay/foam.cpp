@@ -18,7 +18,7 @@ constexpr std::int32_t side = FoamTile::side;
 constexpr std::int32_t square = FoamTile::top_square;
 
 // mm below what was asked for that is made known with it: a tool that comes deeper in short moves finds it done.
-constexpr double known_below = 4;
+constexpr double known_below = 2;
 
 }  // namespace
 

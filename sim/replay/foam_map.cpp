@@ -35,13 +35,6 @@ void subtract(std::vector<FoamInterval>& intervals, double low, double high) {
     }
 }
 
-// The t at which from + t * along leaves the slab min..max in which it is; infinite if it does not move.
-double leaves(double from, double along, double per_along, double min, double max) {
-    if (along > 0) return (max - from) * per_along;
-    if (along < 0) return (min - from) * per_along;
-    return infinite;
-}
-
 }  // namespace
 
 void FoamTile::measure_most() {
@@ -127,16 +120,6 @@ FoamInterval FoamMap::block_on(Vec3 from, Vec3 along) const {
         inside.high = std::min(inside.high, std::max(a, b));
     }
     return inside.low < inside.high ? inside : FoamInterval{0, 0};
-}
-
-// From t on, where in a square of `step` cells the line leaves it, but not beyond `end`.
-double FoamMap::leaves_square(const MapLine& line, std::int32_t ci, std::int32_t cj, std::int32_t step, double t,
-                              double end) const {
-    const double x0 = x_min_ + (ci / step) * step * cell_;
-    const double y0 = y_min_ + (cj / step) * step * cell_;
-    const double next = std::min(leaves(line.from.x, line.along.x, line.per_x, x0, x0 + step * cell_),
-                                 leaves(line.from.y, line.along.y, line.per_y, y0, y0 + step * cell_));
-    return std::min(std::max(next, t), end);
 }
 
 // Squares that the line passes below all that was cut there, or through air alone, are passed at once: tiles, then

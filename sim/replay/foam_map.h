@@ -119,8 +119,17 @@ class FoamMap {
     };
     double remove_in_square(std::vector<FoamInterval>& intervals, const MapLine& line, const FoamTile& here, MapCell at,
                             double t, double end) const;
+    // From t on, where in a square of `step` cells, a power of 2, the line leaves it, but not beyond `end`.
     double leaves_square(const MapLine& line, std::int32_t ci, std::int32_t cj, std::int32_t step, double t,
-                         double end) const;
+                         double end) const {
+        const double x0 = x_min_ + (ci & -step) * cell_;
+        const double y0 = y_min_ + (cj & -step) * cell_;
+        const double size = step * cell_;
+        double next = end;
+        if (line.along.x != 0) next = std::min(next, ((line.along.x > 0 ? x0 + size : x0) - line.from.x) * line.per_x);
+        if (line.along.y != 0) next = std::min(next, ((line.along.y > 0 ? y0 + size : y0) - line.from.y) * line.per_y);
+        return std::min(std::max(next, t), end);
+    }
     std::size_t index(std::int32_t tx, std::int32_t ty) const { return static_cast<std::size_t>(ty) * tiles_x_ + tx; }
 
     double cell_;
