@@ -40,14 +40,14 @@ class Leaves {
 };
 
 // Solids of one side of a cut, and which of them must stand before which.
-struct Side {
+struct CutSide {
     std::vector<Indices> solids;
     std::vector<double> nearness;                  // of the middle of the solid, along the normal from the plane
     std::vector<std::vector<bool>> precedes;       // [i][k]: i stands before k, because k is in front of i
     std::vector<std::vector<std::size_t>> groups;  // of solids, in the order in which they are joined
 };
 
-void find_order_relation(Side& side, const std::vector<Piece>& pieces, Vec3 outward, const Context& context) {
+void find_order_relation(CutSide& side, const std::vector<Piece>& pieces, Vec3 outward, const Context& context) {
     const std::size_t count = side.solids.size();
     side.precedes.assign(count, std::vector<bool>(count, false));
     std::vector<std::optional<TurnedSolid>> turned(count);
@@ -86,7 +86,7 @@ std::vector<std::vector<bool>> closure(std::vector<std::vector<bool>> reaches) {
 }
 
 // Groups of solids that interlock, nearest first among those that nothing left precedes.
-void order_groups(Side& side) {
+void order_groups(CutSide& side) {
     const std::size_t count = side.solids.size();
     const std::vector<std::vector<bool>> reaches = closure(side.precedes);
     std::vector<bool> is_left(count, true);
@@ -211,7 +211,7 @@ class CutAssembly {
     // No solid that stands on the side of those that move is in front of one of them, the plane separates the others,
     // and the dowels of the joints are parallel to the move.
     bool is_clear(const Group& group, const Indices& standing, const std::array<double, 2>& moved_range) const {
-        const Side& side = sides_[group.above];
+        const CutSide& side = sides_[group.above];
         for (const std::size_t i : side.groups[group.number]) {
             for (std::size_t k = 0; k < side.solids.size(); ++k) {
                 const bool stands = contains(standing, side.solids[k].front());
@@ -252,7 +252,7 @@ class CutAssembly {
     const std::vector<Piece>& pieces_;
     std::span<const PieceJoint> joints_;
     const Cut& cut_;
-    std::array<Side, 2> sides_;  // below, above
+    std::array<CutSide, 2> sides_;  // below, above
 };
 
 }  // namespace

@@ -149,20 +149,20 @@ std::vector<SitesOfSizes> all_sites(std::span<const Piece> pieces, const std::ve
 }  // namespace
 
 std::vector<PieceJoint> contacts_of(std::span<const Piece> pieces, double least_mm2) {
-    struct Side {
+    struct BoundedPiece {
         HalfSpace half_space;
         std::size_t piece = 0;
     };
-    std::vector<Side> sides;
+    std::vector<BoundedPiece> sides;
     for (std::size_t p = 0; p < pieces.size(); ++p) {
         for (const HalfSpace& half_space : pieces[p].half_spaces) sides.push_back({half_space, p});
     }
     std::stable_sort(sides.begin(), sides.end(),
-                     [](const Side& a, const Side& b) { return a.half_space.cut < b.half_space.cut; });
+                     [](const BoundedPiece& a, const BoundedPiece& b) { return a.half_space.cut < b.half_space.cut; });
     std::vector<std::optional<PieceJoint>> found;
-    std::vector<std::pair<Side, Side>> pairs;
-    for (const Side& below : sides) {
-        for (const Side& above : sides) {
+    std::vector<std::pair<BoundedPiece, BoundedPiece>> pairs;
+    for (const BoundedPiece& below : sides) {
+        for (const BoundedPiece& above : sides) {
             if (below.half_space.cut != above.half_space.cut || below.half_space.above || !above.half_space.above)
                 continue;
             pairs.emplace_back(below, above);
