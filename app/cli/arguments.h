@@ -76,7 +76,9 @@ struct ProjectArguments : RepairChoiceArguments {
     std::optional<std::filesystem::path> out;
 };
 
-struct PrepareArguments : ProjectArguments {};
+struct PrepareArguments : ProjectArguments {
+    bool no_programs = false;
+};
 
 struct SegmentArguments : ProjectArguments {
     // What to do: one of these, or none to see the state of the project.
@@ -134,6 +136,12 @@ struct SetupArguments {
     bool is_free = false;  // --auto
 };
 
+struct VerifyArguments {
+    std::filesystem::path input;  // a job file, or a project folder
+    std::optional<std::filesystem::path> cell;
+    std::optional<std::string> piece;
+};
+
 struct DryRunArguments {
     std::filesystem::path project;
     std::optional<std::string> piece;
@@ -164,7 +172,8 @@ struct Arguments {
     bool timings = false;
     std::variant<SampleArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
                  ExplainArguments, ExportArguments, CellsListArguments, CellsShowArguments, CellsCheckArguments,
-                 CellsReachArguments, SetupArguments, DryRunArguments, CellSimArguments, DispatchArguments>
+                 CellsReachArguments, SetupArguments, VerifyArguments, DryRunArguments, CellSimArguments,
+                 DispatchArguments>
         command;
 };
 

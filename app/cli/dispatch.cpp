@@ -8,6 +8,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
+#include "app/project/proven_jobs.h"
 #include "app/report/hand_over_report.h"
 #include "cam/cell/cell.h"
 #include "cam/cell/cell_check.h"
@@ -42,18 +43,22 @@ void refuse_uncertain(const Cell& cell) {
                      "see qchopper cells check, measure, correct the cell file and prepare the scan again");
 }
 
-// All jobs are looked at before the first one is sent. That foam would stay is an answer and not an error: the exit
+// All jobs are looked at before the first one is sent. What speaks against one is an answer and not an error: the exit
 // code is that of a demand that is not met.
-bool refuse_unreachable(const std::vector<PieceJob>& jobs, Terminal& terminal) {
-    std::vector<std::string> sentences = unreachable_jobs(jobs);
+bool refuse(const std::vector<std::string>& sentences, std::size_t jobs, Terminal& terminal) {
     if (sentences.empty()) return false;
-    for (std::string& sentence : sentences) {
-        sentence += "; pass --accept-unreachable if the foam that stays there may stay";
-        terminal.error(sentence);
-    }
-    const HandOverReport report{{}, jobs.size(), false, sentences};
+    for (const std::string& sentence : sentences) terminal.error(sentence);
+    const HandOverReport report{{}, jobs, false, sentences};
     terminal.show({"no job was sent"}, document(report, dispatch_schema));
     return true;
+}
+
+bool refuse_unreachable(const std::vector<PieceJob>& jobs, Terminal& terminal) {
+    std::vector<std::string> sentences = unreachable_jobs(jobs);
+    for (std::string& sentence : sentences) {
+        sentence += "; pass --accept-unreachable if the foam that stays there may stay";
+    }
+    return refuse(sentences, jobs.size(), terminal);
 }
 
 }  // namespace
@@ -69,7 +74,9 @@ int hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const Dispatc
 
 int run(const DispatchArguments& arguments, Terminal& terminal) {
     terminal.set_unchanged("The project is unchanged, and no job was started.");
-    const auto [cell, jobs] = jobs_of(arguments.project, arguments.piece, terminal.context());
+    const ProjectJobs ordered = jobs_of(arguments.project, arguments.piece, terminal.context());
+    const auto& [folder, cell, cell_sha256, jobs] = ordered;
+    if (refuse(unproven_jobs(ordered, false), jobs.size(), terminal)) return exit_demand_broken;
     if (!arguments.accept_unreachable && refuse_unreachable(jobs, terminal)) return exit_demand_broken;
     const std::optional<std::string> to = arguments.to ? arguments.to : cell.link.to;
     const std::optional<std::filesystem::path> drop = arguments.drop ? arguments.drop : cell.link.drop;
@@ -91,8 +98,11 @@ int run(const DispatchArguments& arguments, Terminal& terminal) {
     options.drop_folder = *drop;
     if (options.want_simulated) {
         terminal.message("the cell at " + *to + " is SIMULATED: nothing moves");
+        for (const std::string& sentence : simulated_only_jobs(ordered))
+            terminal.warn(sentence + "; a real cell would not get it");
     } else {
         refuse_uncertain(cell);
+        if (refuse(unproven_jobs(ordered, true), jobs.size(), terminal)) return exit_demand_broken;
     }
     if (!options.want_simulated && !arguments.yes &&
         !is_confirmed("Hand " + std::to_string(jobs.size()) + " jobs to the REAL cell \"" + cell.name + "\" at " + *to +

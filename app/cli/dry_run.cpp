@@ -2,6 +2,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/simulated_limits.h"
+#include "app/project/proven_jobs.h"
 #include "base/temporary_folder.h"
 #include "devices/modbus_tcp.h"
 #include "sim/cell_sim.h"
@@ -10,7 +11,11 @@ namespace qchopper {
 
 int run(const DryRunArguments& arguments, Terminal& terminal) {
     terminal.set_unchanged("The project is unchanged.");
-    const auto [cell, jobs] = jobs_of(arguments.project, arguments.piece, terminal.context());
+    const ProjectJobs ordered = jobs_of(arguments.project, arguments.piece, terminal.context());
+    const auto& [folder, cell, cell_sha256, jobs] = ordered;
+    for (const std::string& sentence : unproven_jobs(ordered, true)) {
+        terminal.warn(sentence + "; dispatch to a real cell refuses it");
+    }
     for (const std::string& sentence : unreachable_jobs(jobs)) {
         terminal.warn(sentence + "; dispatch asks for --accept-unreachable");
     }

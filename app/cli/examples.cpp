@@ -12,7 +12,7 @@ struct Examples {
     const char* lines;
 };
 
-constexpr std::array<Examples, 13> all_examples{{
+constexpr std::array<Examples, 14> all_examples{{
     {"", R"(  qchopper sample vertebra --faces 50000 -o vertebra.ply
   qchopper inspect vertebra.ply --units mm
   qchopper prepare vertebra.ply --units mm --cell cells/foam-1.toml -o vertebra.qch
@@ -32,7 +32,8 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
   qchopper repair femur.obj --units cm --weld 0.05 --fill fair --smooth-pen-grooves -o solid.ply)"},
     {"prepare", R"(  qchopper prepare vertebra.ply --units mm --cell cells/foam-1.toml -o vertebra.qch
   qchopper prepare femur.3mf --cell cells/foam-1.toml --preset femur --beam 3 -o femur.qch
-  qchopper prepare femur.qch)"},
+  qchopper prepare femur.qch
+  qchopper prepare vertebra.ply --units mm --cell cells/kr60-ha.toml --no-programs -o pieces-only.qch)"},
     {"segment", R"(  qchopper segment vertebra.ply --units mm -o by-hand.qch
   qchopper segment by-hand.qch --step
   qchopper segment by-hand.qch --accept 1
@@ -54,6 +55,9 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
     {"setup", R"(  qchopper setup vertebra.qch
   qchopper setup vertebra.qch --piece B
   qchopper setup vertebra.qch --piece B --base 2 --directions 3)"},
+    {"verify", R"(  qchopper verify vertebra.qch
+  qchopper verify vertebra.qch --piece B
+  qchopper verify B.qjob --cell cells/kr60-ha.toml)"},
     {"dry-run", R"(  qchopper dry-run vertebra.qch
   qchopper dry-run vertebra.qch --piece B)"},
     {"cell-sim", R"(  qchopper cell-sim --listen 127.0.0.1:15020 --drop drop --consent ask)"},

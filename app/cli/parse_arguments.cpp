@@ -44,6 +44,7 @@ struct Parser {
     CellsCheckArguments cells_check;
     CellsReachArguments cells_reach;
     SetupArguments setup;
+    VerifyArguments verify;
     DryRunArguments dry_run;
     CellSimArguments cell_sim;
     DispatchArguments dispatch;
@@ -61,6 +62,7 @@ struct Parser {
         add_export();
         add_cells();
         add_setup();
+        add_verify();
         add_dry_run();
         add_cell_sim();
         add_dispatch();
@@ -174,6 +176,15 @@ struct Parser {
             ->excludes(base)
             ->excludes(directions);
         add_common(c, common, [this] { common.command = setup; });
+    }
+
+    void add_verify() {
+        CLI::App* c = app.add_subcommand(
+            "verify", "read the robot programs of jobs back, replay them in foam, and write the verdict beside each");
+        c->add_option("JOB", verify.input, "a job file NAME.qjob, or the folder NAME.qch of a project")->required();
+        c->add_option("--cell", verify.cell, "the cell file of a job file (cell.toml of the project that it lies in)");
+        c->add_option("--piece", verify.piece, "of a project only this piece");
+        add_common(c, common, [this] { common.command = verify; });
     }
 
     void add_dry_run() {

@@ -12,13 +12,15 @@ namespace qchopper {
 
 int run(const PrepareArguments& a, Terminal& terminal) {
     check_arguments(a);
-    const PrepareOptions options{version, a.time_limit_s};
+    const PrepareOptions options{version, a.time_limit_s, !a.no_programs};
     const PreparedProject prepared = is_project_folder(a.input)
                                          ? prepare_project(without_slash(a.input), a.cell, options, terminal.context())
                                          : prepare_scan(choices_of(a), options, terminal.context());
     terminal.warn(warnings(prepared));
     terminal.show(table(prepared), document(prepared));
-    return prepared.project.do_rules_hold() && prepared.all_fit() ? exit_done : exit_demand_broken;
+    return prepared.project.do_rules_hold() && prepared.all_fit() && prepared.are_programs_proven()
+               ? exit_done
+               : exit_demand_broken;
 }
 
 }  // namespace qchopper

@@ -132,6 +132,8 @@ void add_prepare(CLI::App& app, PrepareArguments& prepare, Arguments& common) {
     c->add_option("SCAN", prepare.input, scan_formats + "; or the folder NAME.qch of a project to go on with")
         ->required();
     add_project_options(c, prepare);
+    c->add_flag("--no-programs", prepare.no_programs,
+                "write jobs without robot programs; they go to a simulated cell only");
     c->add_option("-o,--out", prepare.out, "the project folder to make: NAME.qch");
     add_common(c, common, [&] { common.command = prepare; });
 }

@@ -2,6 +2,8 @@
 
 #include "app/project/hand_over.h"
 
+#include <iterator>
+
 #include "app/project/ordered_job.h"
 #include "app/project/project_folder.h"
 #include "app/project/shell_word.h"
@@ -13,23 +15,44 @@
 namespace qchopper {
 namespace {
 
-// Nothing if prepare wrote no job for the piece, because it does not fit.
-std::optional<PieceJob> job_of(const JobOrder& order) {
+PieceJob job_of(const JobOrder& order) {
     std::error_code error;
-    const bool is_there = std::filesystem::exists(std::filesystem::symlink_status(order.file, error));
-    if (written_job_of(order.project, order.piece) == nullptr) {
-        if (is_there) refuse_unrecorded(order.folder, order.file);
-        return std::nullopt;
-    }
-    if (!is_there) {
+    if (!std::filesystem::exists(std::filesystem::symlink_status(order.file, error))) {
         throw InputError(InputFault::missing, order.file.string() + " is gone",
                          "write the jobs again: qchopper prepare " + shell_word(order.folder));
     }
     Bytes bytes = read_job(order.file);
-    const ReadJob job = parse_job(bytes, order.file.string());
-    check_ordered(job, order);
-    const JobTicket ticket = job_ticket(job, order.file.filename().string());
-    return PieceJob{order.piece, std::move(bytes), ticket, job.setup.reach.unreachable_share(), job.max_unreachable};
+    const ReadJob read = parse_job(bytes, order.file.string());
+    check_ordered(read, order);
+    PieceJob job;
+    job.piece = order.piece;
+    job.file = std::move(bytes);
+    job.ticket = job_ticket(read, order.file.filename().string());
+    if (read.program) {
+        job.part = read.program->part.number;
+        job.parts = read.program->part.count;
+    }
+    job.no_program_because = read.no_program_because;
+    job.verdict = read_verdict(order.file);
+    job.unreachable_share = read.setup.reach.unreachable_share();
+    job.max_unreachable = read.max_unreachable;
+    return job;
+}
+
+// None if prepare wrote no job for the piece, because it does not fit.
+std::vector<PieceJob> jobs_of_piece(const std::filesystem::path& folder, const Project& project,
+                                    const std::string& piece, const Cell& cell) {
+    const std::vector<WrittenJob> written = written_jobs_of(project, piece);
+    std::error_code error;
+    const std::filesystem::path first = folder / "jobs" / job_file_name(piece);
+    if (written.empty() && std::filesystem::exists(std::filesystem::symlink_status(first, error))) {
+        refuse_unrecorded(folder, first);
+    }
+    std::vector<PieceJob> jobs;
+    for (const WrittenJob& job : written) {
+        jobs.push_back(job_of({project, piece, job, cell, folder, folder / "jobs" / job_file_name(piece, job.part)}));
+    }
+    return jobs;
 }
 
 }  // namespace
@@ -42,13 +65,13 @@ ProjectJobs jobs_of(const std::filesystem::path& folder, const std::optional<std
         throw InputError(InputFault::use, folder.string() + " is not finished",
                          "finish it first: qchopper prepare " + shell_word(folder));
     }
-    ProjectJobs found{read_cell(folder / "cell.toml"), {}};
+    ProjectJobs found{
+        folder, read_cell(folder / "cell.toml"), sha256(read_file(folder / "cell.toml", settings_limit)), {}};
     for (const SolidRecord& record : project.pieces) {
         if (piece && record.name != *piece) continue;
-        const JobOrder order{project, record.name, found.cell, folder, folder / "jobs" / job_file_name(record.name)};
-        if (std::optional<PieceJob> job = job_of(order)) {
-            found.jobs.push_back(std::move(*job));
-        } else if (piece) {  // without it the pieces that do not fit are left out
+        std::vector<PieceJob> jobs = jobs_of_piece(folder, project, record.name, found.cell);
+        std::move(jobs.begin(), jobs.end(), std::back_inserter(found.jobs));
+        if (jobs.empty() && piece) {  // without it the pieces that do not fit are left out
             throw InputError(InputFault::missing, "piece " + *piece + " has no job",
                              "it does not fit the cell; see the table that prepare printed");
         }

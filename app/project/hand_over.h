@@ -2,11 +2,13 @@
 
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/project/job_verdict.h"
 #include "app/project/project_context.h"
 #include "base/file.h"
 #include "cam/cell/cell.h"
@@ -20,14 +22,20 @@ struct PieceJob {
     std::string piece;
     Bytes file;
     JobTicket ticket;
-    double unreachable_share = 0;  // of the surface
-    double max_unreachable = 0;    // the limit of the job
+    std::uint16_t part = 1;  // of `parts` that carve the piece in one clamping
+    std::uint16_t parts = 1;
+    std::string no_program_because;     // empty: it holds a robot program
+    std::optional<JobVerdict> verdict;  // the one beside it
+    double unreachable_share = 0;       // of the surface
+    double max_unreachable = 0;         // the limit of the job
     bool is_unreachable() const { return unreachable_share > max_unreachable; }
 };
 
 struct ProjectJobs {
+    std::filesystem::path folder;
     Cell cell;
-    std::vector<PieceJob> jobs;  // at least one
+    Sha256 cell_sha256;          // of the cell file
+    std::vector<PieceJob> jobs;  // at least one; the parts of a piece in their order
 };
 
 // The jobs that the project ordered for its cell, in the order of its pieces; only that of one piece if it is named.

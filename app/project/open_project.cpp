@@ -8,6 +8,7 @@
 #include "app/project/distance_store.h"
 #include "app/project/evaluation_store.h"
 #include "app/project/ignored_surface.h"
+#include "app/project/piece_program.h"
 #include "app/project/project_folder.h"
 #include "app/project/replay.h"
 #include "app/project/shell_word.h"
@@ -32,6 +33,15 @@ std::optional<Candidate> nudged_off(const Piece& piece, const Plane& plane) {
 
 bool PreparedProject::all_fit() const {
     return std::all_of(pieces.begin(), pieces.end(), [](const PieceReport& p) { return !p.job.empty(); });
+}
+
+bool PreparedProject::has_programs() const {
+    return project.has_programs && no_programs_for(cell).empty();
+}
+
+bool PreparedProject::are_programs_proven() const {
+    return !has_programs() || std::all_of(pieces.begin(), pieces.end(),
+                                          [](const PieceReport& p) { return p.job.empty() || p.is_proven(); });
 }
 
 std::string early_end(const std::string& sentence) {
@@ -221,7 +231,7 @@ bool OpenProject::decide_setup(const SetupOrder& order) {
 void OpenProject::write_job_again(std::size_t piece, const std::string& program_version) {
     check_cell();
     if (project_.stage != Stage::done) return;
-    write_job(folder_, project_, segmentation(), piece, *setups(), program_version);
+    write_job(folder_, project_, segmentation(), piece, *setups(), program_version, context_);
     save_project(folder_, project_);
 }
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "app/project/outputs.h"
+#include "app/project/piece_jobs.h"
 #include "app/project/project.h"
 #include "segment/search/search.h"
 
@@ -29,6 +30,10 @@ struct PreparedProject {
     double max_unreachable = 0;       // share of a piece's surface that may stay out of reach
     std::vector<PieceReport> pieces;  // in the order of the project's
     bool all_fit() const;
+    // Whether jobs of this cell hold programs, and programs were asked for.
+    bool has_programs() const;
+    // Whether every program that was made is proven.
+    bool are_programs_proven() const;
 };
 
 // "the stop rules do not hold: ...", the warning of a project whose search ended too early.
@@ -118,6 +123,8 @@ class OpenProject {
 
     // Writes pieces, jobs and pictures. Of a project whose last search ran out of time too; its stage stays
     // Stage::cutting, so that it can go on. Throws what check_cell throws, and Cancelled.
+    // Whether jobs are written with robot programs from now on.
+    void set_has_programs(bool has_programs) { project_.has_programs = has_programs; }
     PreparedProject prepare(const std::string& program_version, const Context& context);
 
     // Writes the job of one piece again, if the jobs are written; `piece` is an index in segmentation().pieces. Throws

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 
 #include "app/project/shell_word.h"
 #include "base/error.h"
@@ -38,30 +39,32 @@ Uuid project_id(const Project& project) {
     return id;
 }
 
-WrittenJob written_job(const std::string& piece, const Bytes& file, const Uuid& project_id) {
-    return {piece, sha256(file), to_hex(project_id)};
+WrittenJob written_job(const std::string& piece, const Bytes& file, const Uuid& project_id, std::uint16_t part) {
+    return {piece, sha256(file), to_hex(project_id), part};
 }
 
-const WrittenJob* written_job_of(const Project& project, const std::string& piece) {
-    const auto found = std::find_if(project.jobs.begin(), project.jobs.end(),
-                                    [&](const WrittenJob& job) { return job.piece == piece; });
-    return found == project.jobs.end() ? nullptr : &*found;
+std::vector<WrittenJob> written_jobs_of(const Project& project, const std::string& piece) {
+    std::vector<WrittenJob> jobs;
+    std::copy_if(project.jobs.begin(), project.jobs.end(), std::back_inserter(jobs),
+                 [&](const WrittenJob& job) { return job.piece == piece; });
+    return jobs;
 }
 
 void check_ordered(const ReadJob& job, const JobOrder& order) {
     const std::string file = order.file.string();
-    const WrittenJob* written = written_job_of(order.project, order.piece);
-    if (written == nullptr) refuse_unrecorded(order.folder, order.file);
+    const std::uint16_t part = job.program ? job.program->part.number : std::uint16_t{1};
     // Compared with the decisions too: a record that was copied with the jobs of another project would agree with them.
     const bool is_of_project =
-        to_hex(job.project_id) == written->project_id && job.project_id == project_id(order.project);
+        to_hex(job.project_id) == order.written.project_id && job.project_id == project_id(order.project);
     const std::pair<bool, std::string> faults[] = {
         {job.piece != order.piece, " is the job of piece " + job.piece + ", not of piece " + order.piece},
+        {part != order.written.part,
+         " is part " + std::to_string(part) + " of its piece, not part " + std::to_string(order.written.part)},
         {!is_of_project, " is a job of another project, or of other cuts"},
         {job.cell_id != order.cell.id, " is made for cell " + std::to_string(job.cell_id) + ", and the cell here is " +
                                            std::to_string(order.cell.id) + " (" + order.cell.name + ")"},
         {!job.envelope.fits() || !job.holds_poses, " states that its piece does not fit the cell"},
-        {job.file_sha256 != written->sha256,
+        {job.file_sha256 != order.written.sha256,
          " is not the file that prepare wrote: its SHA-256 is not the one in project.json"}};
     for (const auto& [is_wrong, what] : faults) {
         if (is_wrong) refuse(order.folder, file + what);

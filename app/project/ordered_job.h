@@ -5,8 +5,10 @@
 
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "app/project/project.h"
 #include "cam/cell/cell.h"
@@ -18,15 +20,16 @@ namespace qchopper {
 Uuid project_id(const Project& project);
 
 // The record of a job file for project.json. O(bytes).
-WrittenJob written_job(const std::string& piece, const Bytes& file, const Uuid& project_id);
+WrittenJob written_job(const std::string& piece, const Bytes& file, const Uuid& project_id, std::uint16_t part = 1);
 
-// nullptr if the project has no record of a job for that piece.
-const WrittenJob* written_job_of(const Project& project, const std::string& piece);
+// The jobs that the project has on record for a piece, in the order of its parts.
+std::vector<WrittenJob> written_jobs_of(const Project& project, const std::string& piece);
 
 // The references must outlive the order.
 struct JobOrder {
     const Project& project;
     const std::string& piece;
+    const WrittenJob& written;
     const Cell& cell;
     std::filesystem::path folder;  // of the project
     std::filesystem::path file;

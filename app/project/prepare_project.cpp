@@ -31,6 +31,7 @@ PreparedProject finish(OpenProject& project, const PrepareOptions& options, cons
         if (!end.is_finished()) context.warn({early_end(end.sentence)});
     }
     project.judge_setups(context);
+    project.set_has_programs(options.has_programs);
     return project.prepare(options.program_version, context);
 }
 

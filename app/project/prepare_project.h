@@ -16,6 +16,7 @@ namespace qchopper {
 struct PrepareOptions {
     std::string program_version;         // is written into the jobs
     std::optional<double> time_limit_s;  // of the search; the round that is being made is finished
+    bool has_programs = true;            // whether jobs get robot programs, where the cell allows it
 };
 
 // Makes a project of a scan. Without a stop rule in the choices, or with those of the preset carve, every piece must

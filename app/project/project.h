@@ -59,6 +59,7 @@ struct WrittenJob {
     std::string piece;
     Sha256 sha256;           // of the whole file
     std::string project_id;  // 32 hexadecimal digits, as in the job itself
+    std::uint16_t part = 1;  // of a piece that several jobs carve in one clamping
     bool operator==(const WrittenJob&) const = default;
 };
 
@@ -87,7 +88,8 @@ struct Project {
     std::vector<std::string> warnings;
     std::optional<BeamState> beam;        // of a search that was interrupted and can go on
     std::optional<SetupVerdict> verdict;  // what setups said of the cuts after the search; nothing: they were not asked
-    std::vector<WrittenJob> jobs;         // in the order of the pieces; a piece that does not fit has none
+    bool has_programs = true;             // whether jobs are written with robot programs, where the cell allows it
+    std::vector<WrittenJob> jobs;  // in the order of the pieces and their parts; none of a piece that does not fit
     bool operator==(const Project&) const = default;
 
     bool do_rules_hold() const { return !end_reason || is_finished(*end_reason); }

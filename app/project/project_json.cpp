@@ -82,14 +82,14 @@ IgnoredSurface ignored_from(const Json& json) {
 }
 
 Json json_of(const WrittenJob& job) {
-    return {{"piece", job.piece}, {"sha256", to_hex(job.sha256)}, {"project_id", job.project_id}};
+    return {{"piece", job.piece}, {"sha256", to_hex(job.sha256)}, {"project_id", job.project_id}, {"part", job.part}};
 }
 
 std::vector<WrittenJob> jobs_from(const Json& json) {
     std::vector<WrittenJob> jobs;
     for (const Json& j : json) {
-        jobs.push_back(
-            {j.at("piece").get<std::string>(), sha256_from(j.at("sha256")), j.at("project_id").get<std::string>()});
+        jobs.push_back({j.at("piece").get<std::string>(), sha256_from(j.at("sha256")),
+                        j.at("project_id").get<std::string>(), j.value("part", std::uint16_t{1})});
     }
     return jobs;
 }
@@ -266,6 +266,7 @@ Project from_json(const Json& json) {
     project.pieces = solids_from(json.at("pieces"));
     project.fragment_list = solids_from(json.at("fragments"));
     project.warnings = json.at("warnings").get<std::vector<std::string>>();
+    project.has_programs = json.value("programs", true);
     project.jobs = jobs_from(json.at("jobs"));
     return project;
 }
@@ -285,6 +286,7 @@ std::string to_json(const Project& project) {
               {"fragments", list_of(project.fragment_list)},
               {"discarded", list_of(project.discarded)},
               {"warnings", project.warnings},
+              {"programs", project.has_programs},
               {"jobs", list_of(project.jobs)}};
     if (project.ignored) json["ignored"] = json_of(*project.ignored);
     if (project.beam) json["beam"] = json_of(*project.beam);

@@ -72,7 +72,7 @@ SetupAnswer setup_project(const std::filesystem::path& folder, const SetupReques
             context.saved("The setup of piece " + piece.name + " is changed; its job is not written yet.");
             const bool had_jobs = project.project().stage == Stage::done;
             project.write_job_again(*index, program_version);
-            answer.is_job_written = had_jobs && written_job_of(project.project(), piece.name) != nullptr;
+            answer.is_job_written = had_jobs && !written_jobs_of(project.project(), piece.name).empty();
         } else {
             answer.done = "This setup is in force already.";
         }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/project/project_lines.h"
 #include "app/project/shell_word.h"
@@ -51,6 +52,56 @@ std::string advice_words(const std::vector<ReachAdvice>& advice) {
     return words;
 }
 
+Json program_json(const PieceReport& piece) {
+    if (piece.verdicts.empty()) return {{"parts", 0}, {"none_because", piece.no_program_because}};
+    Json verdicts = Json::array();
+    for (const JobVerdict& verdict : piece.verdicts) {
+        Json figures = Json::object();
+        for (const ProofFigure& figure : verdict.figures) figures[figure.key] = figure.value;
+        verdicts.push_back({{"job", verdict.job},
+                            {"positive", verdict.is_positive},
+                            {"figures", figures},
+                            {"findings", verdict.findings.size() + verdict.findings_left_out}});
+    }
+    return {{"parts", piece.verdicts.size()},
+            {"proven", piece.is_proven()},
+            {"time_s", piece.time_s},
+            {"length_mm", piece.length_mm},
+            {"verdicts", verdicts}};
+}
+
+// "3 h 20 min, verified", "-" without a program.
+std::string program_word(const PieceReport& piece) {
+    if (piece.verdicts.empty()) return "-";
+    const std::string parts =
+        piece.verdicts.size() > 1 ? " in " + std::to_string(piece.verdicts.size()) + " parts" : "";
+    return duration(static_cast<std::uint32_t>(piece.time_s)) + parts + ", " +
+           (piece.is_proven() ? "verified" : "REFUSED");
+}
+
+// What the proof says against the program of a piece.
+std::string refusal_word(const PieceReport& piece, const std::string& folder) {
+    for (const JobVerdict& verdict : piece.verdicts) {
+        if (verdict.is_positive) continue;
+        const std::string why = verdict.findings.empty() ? "nothing was carved" : describe(verdict.findings.front());
+        return "piece " + piece.name + ": its program is not proven: " + why + "; see qchopper verify " + folder +
+               " --piece " + piece.name;
+    }
+    return {};
+}
+
+// Why no job of a cell that takes programs has one, once for all pieces of the same reason.
+std::vector<std::string> missing_programs(const PreparedProject& prepared) {
+    std::vector<std::string> sentences;
+    std::set<std::string> reasons;
+    for (const PieceReport& p : prepared.pieces) {
+        if (p.job.empty() || p.no_program_because.empty() || !reasons.insert(p.no_program_because).second) continue;
+        sentences.push_back("piece " + p.name + " has no robot program: " + p.no_program_because +
+                            "; its job goes to a simulated cell only");
+    }
+    return sentences;
+}
+
 Json piece_json(const PieceReport& piece, const Cell& cell) {
     const Setup& s = piece.carving.setup();
     Json margins;
@@ -70,7 +121,8 @@ Json piece_json(const PieceReport& piece, const Cell& cell) {
             {"margins_mm", margins},
             {"work_envelope", json_of(piece.carving.work_envelope)},
             {"out_of_reach", advice_json(piece.advice)},
-            {"job", piece.job.empty() ? Json() : Json(piece.job.string())}};
+            {"job", piece.job.empty() ? Json() : Json(piece.job.string())},
+            {"program", program_json(piece)}};
 }
 
 }  // namespace
@@ -89,6 +141,11 @@ std::vector<std::string> warnings(const PreparedProject& prepared) {
                            advice_words(p.advice) + "; see qchopper setup " + shell_word(prepared.folder) +
                            " --piece " + p.name + ", or dispatch it with --accept-unreachable");
         }
+        const std::string refusal = refusal_word(p, shell_word(prepared.folder));
+        if (!refusal.empty()) text.push_back(refusal);
+    }
+    if (prepared.has_programs()) {
+        for (const std::string& sentence : missing_programs(prepared)) text.push_back(sentence);
     }
     return text;
 }
@@ -105,8 +162,10 @@ std::vector<std::string> table(const PreparedProject& prepared) {
                         is_mapped ? describe_volume(s.reach.foam_mm3) : "-",
                         is_mapped ? fixed(s.reach.foam_depth_mm, 0) : "-", p.job.empty() ? "no" : "yes"});
         if (prepared.cell.machine) rows.back().push_back(margin_word(p.carving.work_envelope));
+        if (prepared.has_programs()) rows.back().push_back(program_word(p));
     }
     if (prepared.cell.machine) rows.front().emplace_back("tightest margin");
+    if (prepared.has_programs()) rows.front().emplace_back("program");
     std::vector<std::string> lines = columns(rows);
     lines.emplace_back(
         "unreachable: of the surface without the base, along the directions of the setup; foam: what they leave, and "
@@ -148,7 +207,7 @@ std::string document(const PreparedProject& prepared) {
     for (const PieceReport& piece : prepared.pieces) pieces.push_back(piece_json(piece, prepared.cell));
     Json fragments = Json::array();
     for (const SolidRecord& fragment : p.fragment_list) fragments.push_back(json_of(fragment));
-    Json json{{"schema", "qchopper-prepare-3"},
+    Json json{{"schema", "qchopper-prepare-4"},
               {"project", prepared.folder.string()},
               {"scan",
                {{"path", p.scan.path.string()},

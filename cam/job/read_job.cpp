@@ -70,8 +70,8 @@ void check_poses(const ReadJob& job, const std::string& source) {
 
 }  // namespace
 
-std::string job_file_name(const std::string& piece) {
-    std::string name = piece + ".qjob";
+std::string job_file_name(const std::string& piece, std::uint16_t part) {
+    std::string name = piece + (part > 1 ? ".p" + std::to_string(part) : std::string()) + ".qjob";
     if (!is_portable_name(name) || piece.empty()) {
         throw InputError(InputFault::use, "piece \"" + piece + "\" cannot name a job file",
                          "use up to 27 of A-Z a-z 0-9 . _ -");

@@ -13,8 +13,9 @@
 
 namespace qchopper {
 
-// "<piece>.qjob". Throws InputError (use) if the name does not fit the wire (is_portable_name).
-std::string job_file_name(const std::string& piece);
+// "<piece>.qjob", of part 2 and on "<piece>.p2.qjob". Throws InputError (use) if the name does not fit the wire
+// (is_portable_name).
+std::string job_file_name(const std::string& piece, std::uint16_t part = 1);
 
 // The bytes of a job file (job_limit). Throws InputError: missing if it cannot be read, mesh if it is too large.
 Bytes read_job(const std::filesystem::path& path);

@@ -319,7 +319,11 @@ void PoseJudge::judge_home(const StandingBlock& block, MarginTally& tally) {
         place_axis(machine_.start.tip, {0, 0, 1});
         return judge_tool(block, true, tally);
     }
-    const Joints& joints = machine_.start.joints;
+    judge_joints(block, machine_.start.joints, tally);
+}
+
+void PoseJudge::judge_joints(const StandingBlock& block, const Joints& joints, MarginTally& tally) {
+    assert(arm_);
     for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
         judge_limit(axis, joints[axis], 0, tally);
         judge_limit(axis, joints[axis], 1, tally);

@@ -53,6 +53,8 @@ class PoseJudge {
 
     // Adds the margins of home, with the tool of this judge.
     void judge_home(const StandingBlock& block, MarginTally& tally);
+    // The same for any joints, on the way through the air: limits and distances. Precondition: not a gantry.
+    void judge_joints(const StandingBlock& block, const Joints& joints, MarginTally& tally);
 
  private:
     struct JointExtent {

@@ -7,9 +7,11 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "cam/cell/carving_tool.h"
 #include "cam/setup/height_map.h"
+#include "cam/setup/holder_limit.h"
 #include "cam/setup/setup.h"
 #include "segment/mesh/triangle_mesh.h"
 
@@ -23,8 +25,10 @@ struct TargetOptions {
 };
 
 // The highest point of the piece or of the floor over the whole of each cell, not only over its middle. It covers the
-// projection of the block, and every cell has a height. Preconditions: the mesh is that of the piece, direction is one
-// of setup.reach.directions, cell > 0. Throws as height_map() does. O(triangles + cells).
+// projection of the block, and every cell has a height; along a direction on whose side the floor is steeper than the
+// block is high, the floor ends at the block's highest and lowest point. Preconditions: the mesh is that of the piece,
+// direction is one of setup.reach.directions. Throws InputError (use) if a value is not finite, the cell not above
+// zero or the border below it, and as height_map() does. O(triangles + cells covered).
 HeightMap target_map(const Setup& setup, const TriangleMesh& mesh, std::size_t direction, const TargetOptions& options);
 
 // The point of a map in setup coordinates, and back.
@@ -35,9 +39,45 @@ Vec3 setup_to_map(const Setup& setup, const HeightMap& map, Vec3 point);
 // gives the shapes; ball, flat, bull, cone). Precondition: r >= 0.
 double tool_profile(const CarvingTool& tool, double r);
 
+// The least height at which the tip may stand over cells of a map: dilation of the map by the tool, each cell taken as
+// its point nearest to the tool axis. Cells beside the map count as `nothing`.
+class TipDilation {
+ public:
+    // The map must outlive it. Throws InputError (use) if the allowance is negative or not finite. O(cells).
+    TipDilation(const HeightMap& target, const CarvingTool& tool, double allowance = 0);
+
+    // The tip heights of the cells [first, end) of a row, in `tip`. O(cells * (radius / cell)^2) at most; terms that
+    // cannot be the largest are left out.
+    void fill(std::size_t row, std::size_t first, std::size_t end, float* tip) const;
+
+    // What remains where the tip stands over the middle of every cell: fill() then gives its height at the middles of
+    // cells, and map and result are both the negative of heights.
+    static TipDilation of_negative_tips(const HeightMap& negative_tip, const CarvingTool& tool);
+
+ private:
+    TipDilation() = default;
+    void take(const HeightMap& target);
+    void fill_chunk(std::size_t row, std::size_t first, std::size_t count, float* tip, float* pair) const;
+    float highest(std::size_t row, std::size_t first, std::size_t end) const;
+
+    const HeightMap* target_ = nullptr;
+    std::vector<std::vector<float>> drop_;  // by rows and columns from the axis: tip height less surface height
+    std::vector<float> block_top_;          // highest cell of each block of a row
+    std::size_t blocks_ = 0;                // per row
+};
+
 // The least height at which the tip may stand over each cell so that the tool, up to its flute and shank with its whole
-// diameter, stays at least `allowance` away from the target: dilation of the map by the tool. O(cells * (radius /
-// cell)^2) at most, on several threads.
+// diameter, stays at least `allowance` away from the target. On several threads; the result does not depend on them.
 HeightMap tip_surface(const HeightMap& target, const CarvingTool& tool, double allowance = 0);
+
+// The surface that remains where the tip has stood at its least height over the middle of every cell (erosion of the
+// tip surface by the tool): nothing that the tool reaches from this direction can be lower. Cells beside the map are
+// not visited. Cost as of tip_surface.
+HeightMap remaining_surface(const HeightMap& tip, const CarvingTool& tool);
+
+// Raises a tip surface to where holder and spindle stay clear of the target and above z = 0 of the setup as well; on
+// the safe side by at most three cells of raise_to_holder_limit(), which are at most a twelfth of the holder's least
+// radius wide, or two cells of the map. Whether it was raised anywhere. Precondition: both maps have the same cells.
+bool raise_to_holder(HeightMap& tip, const HeightMap& target, const ToolBody& body, const Pose& piece_in_setup);
 
 }  // namespace qchopper

@@ -53,7 +53,7 @@ TEST_F(Json, OfPrepare) {
     program::Arguments arguments = program::prepare_arguments("scan.ply");
     arguments.insert(arguments.end(), {"-o", "p.qch", "--json"});
     const program::Ended ended = run(arguments);
-    const json made = document(ended, "qchopper-prepare-3");
+    const json made = document(ended, "qchopper-prepare-4");
     EXPECT_EQ(made["cuts"].size(), 2U);
     EXPECT_EQ(made["all_fit"], true);
     double volume = 0;
@@ -83,7 +83,7 @@ TEST_F(Json, OfAPieceThatDoesNotFit) {
     program::put(folder.path / "low.toml", cell);
     const program::Ended ended =
         run({"prepare", "scan.ply", "--units", "mm", "--cell", "low.toml", "--min-cuts", "1", "-o", "p.qch", "--json"});
-    const json made = document(ended, "qchopper-prepare-3", 1);
+    const json made = document(ended, "qchopper-prepare-4", 1);
     EXPECT_EQ(made["all_fit"], false);
     for (const json& piece : made["pieces"]) {
         EXPECT_EQ(piece["fits"], false);

@@ -1,0 +1,31 @@
+// Verifies the jobs of a project, or one job file.
+
+#include "app/cli/commands.h"
+#include "app/cli/exit_code.h"
+#include "app/cli/project_arguments.h"
+#include "app/cli/version.h"
+#include "app/project/project_folder.h"
+#include "app/project/verify_jobs.h"
+#include "app/report/verify_report.h"
+#include "base/error.h"
+
+namespace qchopper {
+
+int run(const VerifyArguments& a, Terminal& terminal) {
+    terminal.set_unchanged("No verdict was changed.");
+    VerifyAnswer answer;
+    if (is_project_folder(a.input)) {
+        if (a.cell) {
+            throw InputError(InputFault::use, "a project has its own cell file",
+                             "leave --cell out, or name a job file NAME.qjob");
+        }
+        answer = verify_project(without_slash(a.input), a.piece, version, terminal.context());
+    } else {
+        if (a.piece) throw InputError(InputFault::use, "a job file holds one piece", "leave --piece out");
+        answer.push_back(verify_job(a.input, a.cell, version, terminal.context()));
+    }
+    terminal.show(lines(answer), document(answer));
+    return is_all_positive(answer) ? exit_done : exit_demand_broken;
+}
+
+}  // namespace qchopper

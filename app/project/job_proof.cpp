@@ -1,0 +1,183 @@
+// The texts are read once and replayed once, with corners rounded as far as the controller may: gouge is measured for
+// exact and rounded corners alike, and what stays in a corner is more where it is rounded. The cost is that of the
+// replay.
+
+#include "app/project/job_proof.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "segment/io/read_mesh.h"
+#include "sim/program/chunk_summary.h"
+#include "sim/program/krl_reader.h"
+#include "sim/replay/machine_walk.h"
+#include "sim/replay/replay.h"
+
+namespace qchopper {
+namespace {
+
+constexpr double agreement = 1e-6;  // mm: of what the manifest says of a chunk with what is read
+
+void add(JobProof& proof, const std::string& kind, const std::string& file, std::size_t line, const std::string& text) {
+    if (proof.findings.size() < most_listed_findings) {
+        proof.findings.push_back({kind, file, line, text});
+    } else {
+        ++proof.findings_left_out;
+    }
+}
+
+std::string without_ending(const std::string& file) {
+    return file.substr(0, file.rfind('.'));
+}
+
+// "x.src:17: text" without its place, which stands in fields of its own.
+std::string without_place(const std::string& text, const std::string& place) {
+    const std::string prefix = place + ": ";
+    return text.rfind(prefix, 0) == 0 ? text.substr(prefix.size()) : text;
+}
+
+std::optional<ParsedProgram> read(const ProofInput& input, JobProof& proof) {
+    std::vector<ProgramFile> files;
+    for (const std::string& name : input.program.files) files.push_back({name, input.texts.at(name)});
+    try {
+        return read_krl(files, without_ending(input.program.entry), {called_programs(input.cell)});
+    } catch (const InputError& error) {
+        add(proof, "not_readable", "", 0, error.what());
+        return std::nullopt;
+    }
+}
+
+bool is_near(Vec3 a, Vec3 b) {
+    return norm(a - b) <= agreement;
+}
+
+bool is_same(const JobChunk& stated, const ChunkSummary& read) {
+    return stated.file == read.file && stated.moves == read.moves && std::abs(stated.length_mm - read.length) <= 1e-3 &&
+           is_near(stated.box.min, read.box.min) && is_near(stated.box.max, read.box.max) &&
+           is_near(stated.first, read.first) && is_near(stated.last, read.last);
+}
+
+// Chunks as read, with tool and direction of those that are stated. A chunk that is stated without figures is not
+// compared: prepare fills them in from here.
+void compare_chunks(const ProofInput& input, const ParsedProgram& program, JobProof& proof) {
+    const std::vector<ChunkSummary> read = summarise_chunks(program);
+    const std::vector<JobChunk>& stated = input.program.chunks;
+    if (read.size() != stated.size()) {
+        add(proof, "other_chunks", "", 0,
+            "the manifest lists " + counted(stated.size(), "chunk") + ", and the program calls " +
+                std::to_string(read.size()));
+        return;
+    }
+    for (std::size_t i = 0; i < read.size(); ++i) {
+        if (stated[i].moves != 0 && !is_same(stated[i], read[i])) {
+            add(proof, "other_chunks", read[i].file, 0, "the manifest describes another chunk in its place");
+        }
+        proof.chunks.push_back({read[i].file, stated[i].tool, stated[i].direction, read[i].moves, read[i].length,
+                                read[i].box, read[i].first, read[i].last});
+    }
+}
+
+// Triangles of the plane of the base that face down. A piece without a base has none.
+std::vector<bool> base_of(const Setup& setup, const TriangleMesh& mesh) {
+    constexpr double flat = 1e-3;  // mm; piece.stl is single precision
+    std::vector<bool> is_base;
+    if (!setup.base) return is_base;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const std::array<Vec3, 3> corners = corners_of(mesh, t);
+        const bool is_low = std::all_of(corners.begin(), corners.end(), [](Vec3 p) { return std::abs(p.z) <= flat; });
+        is_base.push_back(is_low && area_vector(mesh, t).z < 0);
+    }
+    return is_base;
+}
+
+ReplayScene scene_of(const ProofInput& input) {
+    ReplayScene scene;
+    scene.cell = &input.cell;
+    const Setup& setup = input.setup;
+    for (std::size_t d = 0; d < setup.reach.directions.size(); ++d) {
+        const Vec3 out = normalized(rotate(setup.piece_in_setup, setup.reach.directions[d].out));
+        const Pose& frame = input.setup_in_cell[std::min(d, input.setup_in_cell.size() - 1)];
+        scene.directions.push_back({out, setup.placement.table_angle(d), frame});
+    }
+    for (const JobChunk& chunk : input.program.chunks) {
+        scene.chunks.push_back({without_ending(chunk.file), chunk.tool, chunk.direction});
+    }
+    const Vec3 size = setup.block.size;
+    scene.block = {{-size.x / 2, -size.y / 2, -setup.spoil}, {size.x / 2, size.y / 2, size.z - setup.spoil}};
+    scene.spoil = setup.spoil;
+    scene.target = &input.mesh;
+    scene.is_base = base_of(setup, input.mesh);
+    scene.scallop = input.program.scallop_mm;
+    return scene;
+}
+
+std::vector<ProofFigure> figures_of(const ReplayReport& report, double cell) {
+    const double percent = 100;
+    const double cm3 = 1e-3;
+    return {{"max_gouge_mm", "largest gouge", report.largest_gouge, "mm", 3},
+            {"gouge_cm3", "gouged volume", report.volumes.gouge_mm3 * cm3, "cm3", 3},
+            {"within_tolerance_percent", "within tolerance, of the reachable surface", percent * report.share_within(),
+             "%", 2},
+            {"reachable_percent", "reachable surface", percent * report.share_reachable(), "%", 1},
+            {"max_leftover_mm", "largest leftover on the reachable surface", report.leftover.largest, "mm", 2},
+            {"leftover_cm3", "foam that stays around the piece", report.volumes.leftover_mm3 * cm3, "cm3", 1},
+            {"rapids_in_foam", "rapid moves in foam",
+             static_cast<double>(report.counts[static_cast<std::size_t>(FindingKind::rapid_in_foam)]), "", 0},
+            {"holder_contacts", "contacts of the holder",
+             static_cast<double>(report.counts[static_cast<std::size_t>(FindingKind::holder_contact)]), "", 0},
+            {"air_percent", "length at feed that removes nothing", percent * report.share_air(), "%", 1},
+            {"path_m", "path", report.time.line_mm / 1000, "m", 1},
+            {"time_s", "time", report.time.seconds, "s", 0},
+            {"cell_mm", "cells of the replay", cell, "mm", 2}};
+}
+
+void add_findings(const ParsedProgram& program, const ReplayReport& report, JobProof& proof) {
+    for (const Finding& finding : report.findings) {
+        const bool has_place = finding.place.line > 0;
+        const std::string file = has_place ? program.files[finding.place.file] : std::string();
+        const std::string text =
+            has_place ? without_place(finding.text, describe_place(program, finding.place)) : finding.text;
+        add(proof, to_word(finding.kind), file, finding.place.line, text);
+    }
+    std::size_t all = 0;
+    for (const std::size_t count : report.counts) all += count;
+    proof.findings_left_out += all - std::min(all, report.findings.size());
+}
+
+}  // namespace
+
+JobProof prove(const ProofInput& input, const Context& context) {
+    JobProof proof;
+    if (input.program.dialect != Dialect::krl) {
+        add(proof, "not_readable", "", 0,
+            std::string("programs in the dialect ") + to_word(input.program.dialect) + " cannot be read back yet");
+        return proof;
+    }
+    const std::optional<ParsedProgram> program = read(input, proof);
+    if (!program) return proof;
+    compare_chunks(input, *program, proof);
+    if (proof.chunks.empty()) return proof;
+    const ReplayOptions options;
+    try {
+        const ReplayReport report = replay(*program, scene_of(input), options, context);
+        proof.figures = figures_of(report, options.cell);
+        proof.deviation = report.deviation;
+        proof.time_s = report.time.seconds;
+        proof.length_mm = report.time.line_mm;
+        add_findings(*program, report, proof);
+    } catch (const InputError& error) {
+        add(proof, "not_replayable", "", 0, error.what());
+    }
+    return proof;
+}
+
+TriangleMesh job_mesh(const Bytes& piece_stl, const std::string& source) {
+    ReadOptions options;
+    options.weld = true;
+    return parse_mesh(piece_stl, source, {}, options).mesh;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,219 @@
+// A job is made of the setup of its piece and of the program for it; every file is written aside and renamed. Several
+// pieces at a time. O(triangles) and what the program costs (piece_program.h).
+
+#include "app/project/piece_jobs.h"
+
+#include <algorithm>
+#include <iterator>
+#include <mutex>
+
+#include "app/project/job_verdict.h"
+#include "app/project/ordered_job.h"
+#include "app/project/piece_program.h"
+#include "app/project/shell_word.h"
+#include "base/file.h"
+#include "base/parallel.h"
+#include "base/timings.h"
+#include "cam/job/read_job.h"
+#include "cam/job/write_job.h"
+#include "segment/mesh/measure.h"
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::size_t place_of(const std::string& piece, const Segmentation& segmentation) {
+    const auto found = std::find_if(segmentation.pieces.begin(), segmentation.pieces.end(),
+                                    [&](const Piece& p) { return p.name == piece; });
+    return static_cast<std::size_t>(found - segmentation.pieces.begin());
+}
+
+}  // namespace
+
+bool PieceReport::is_proven() const {
+    return !verdicts.empty() &&
+           std::all_of(verdicts.begin(), verdicts.end(), [](const JobVerdict& v) { return v.is_positive; });
+}
+
+double most_unreachable(const Project& project, const Cell& cell) {
+    if (project.settings.stop.max_unreachable) return *project.settings.stop.max_unreachable;
+    return cell.machine ? cell.machine->max_unreachable : 1;
+}
+
+namespace {
+
+struct MadeJob {
+    PieceReport report;
+    std::vector<WrittenJob> written;  // one per part; none of a piece that does not fit
+};
+
+// Empty for a piece of which no more is out of reach than may be.
+std::vector<ReachAdvice> advice_for(const fs::path& folder, const Project& project, const Piece& piece,
+                                    const SurfaceReach& reach, const Cell& cell) {
+    if (reach.unreachable_share() <= most_unreachable(project, cell)) return {};
+    AdviceInput input;
+    input.reach = reach;
+    input.inside_share = inside_share(piece);
+    input.tilt_deg = max_tilt_deg(cell);
+    input.max_directions = SetupOptions{}.max_directions;
+    for (const SetupOrder& order : committed_setup_orders(project.history)) {
+        if (order.piece == piece.name) input.max_directions = order.max_directions.value_or(input.max_directions);
+    }
+    const std::string of_piece = shell_word(folder) + " --piece " + piece.name;
+    input.segment_command = "qchopper segment " + of_piece + " --step";
+    input.setup_command = "qchopper setup " + of_piece;
+    return reach_advice(input, cell);
+}
+
+// What all jobs of a run have in common.
+struct JobOrders {
+    const fs::path& folder;
+    const Project& project;
+    const Segmentation& segmentation;
+    const Cell& cell;
+    Sha256 cell_sha256;  // of the cell file
+    const std::string& program_version;
+};
+
+JobOrders orders_of(const fs::path& folder, const Project& project, const Segmentation& segmentation, const Cell& cell,
+                    const std::string& program_version) {
+    return {folder,         project, segmentation, cell, sha256(read_file(folder / "cell.toml", settings_limit)),
+            program_version};
+}
+
+JobInput job_input(const JobOrders& orders, std::size_t index, const Carving& carving) {
+    JobInput input;
+    input.piece = orders.segmentation.pieces[index];
+    input.piece_no = static_cast<std::uint16_t>(index + 1);
+    input.piece_count = static_cast<std::uint16_t>(orders.segmentation.pieces.size());
+    input.program_version = orders.program_version;
+    input.project_id = project_id(orders.project);
+    input.scan_sha256 = orders.project.scan.sha256;
+    input.cell = orders.cell;
+    input.setup = carving.setup();
+    input.envelope = carving.envelope;
+    input.work_envelope = carving.work_envelope;
+    input.alternatives.assign(carving.choice.setups.begin() + 1, carving.choice.setups.end());
+    input.states = carving.choice.states;
+    input.max_unreachable = most_unreachable(orders.project, orders.cell);
+    input.warnings = orders.project.warnings;
+    return input;
+}
+
+// Removes the jobs of a piece and their verdicts, of all its parts.
+void remove_jobs(const fs::path& folder, const std::string& piece) {
+    std::error_code error;
+    std::uint16_t part = 1;
+    for (; part == 1 || fs::exists(folder / "jobs" / job_file_name(piece, part), error); ++part) {
+        const fs::path file = folder / "jobs" / job_file_name(piece, part);
+        fs::remove(verdict_file(file), error);
+        fs::remove(file, error);
+    }
+}
+
+JobVerdict verdict_of(const JobProof& proof, const JobOrders& orders, const std::string& piece, const fs::path& file,
+                      const Sha256& job) {
+    JobVerdict verdict;
+    verdict.piece = piece;
+    verdict.job = file.filename().string();
+    verdict.job_sha256 = job;
+    verdict.cell = orders.cell.name;
+    verdict.cell_sha256 = orders.cell_sha256;
+    verdict.program_version = orders.program_version;
+    verdict.figures = proof.figures;
+    verdict.findings = proof.findings;
+    verdict.findings_left_out = proof.findings_left_out;
+    verdict.is_positive = proof.is_proven();
+    return verdict;
+}
+
+// Writes one job file and adds it to what was made.
+void write_one(const JobInput& input, const JobProof* proof, const JobOrders& orders, MadeJob& made) {
+    const std::uint16_t part = input.program ? input.program->program.part.number : std::uint16_t{1};
+    const fs::path file = orders.folder / "jobs" / job_file_name(input.piece.name, part);
+    const Bytes bytes = job_file(input);
+    write_file(file, bytes);
+    made.written.push_back(written_job(input.piece.name, bytes, input.project_id, part));
+    if (made.report.job.empty()) made.report.job = file;
+    if (proof == nullptr) return;
+    JobVerdict verdict = verdict_of(*proof, orders, input.piece.name, file, made.written.back().sha256);
+    write_verdict(file, verdict);
+    made.report.verdicts.push_back(std::move(verdict));
+    made.report.time_s += proof->time_s;
+    made.report.length_mm += proof->length_mm;
+}
+
+// Writes the files of the jobs of one piece; removes those that an earlier run wrote.
+MadeJob make_job(const JobOrders& orders, std::size_t index, const Carving& carving, const Context& context) {
+    const Piece& piece = orders.segmentation.pieces[index];
+    MadeJob made{{piece.name, piece.mesh->triangles.size(), volume_mm3(*piece.mesh), carving, {}}, {}};
+    made.report.carving.mesh.reset();
+    made.report.carving.choice.states.clear();
+    made.report.advice = advice_for(orders.folder, orders.project, piece, carving.setup().reach, orders.cell);
+    remove_jobs(orders.folder, piece.name);
+    if (!carving.fits()) return made;
+    JobInput input = job_input(orders, index, carving);
+    std::string none_because = no_programs_for(orders.cell);
+    if (none_because.empty() && !orders.project.has_programs) none_because = "prepare was asked for none";
+    PiecePrograms programs{{}, none_because};
+    if (none_because.empty()) programs = make_programs(piece, carving, input.piece_no, orders.cell, context);
+    made.report.no_program_because = programs.none_because;
+    if (programs.parts.empty()) {
+        input.no_program_because = programs.none_because;
+        write_one(input, nullptr, orders, made);
+    }
+    for (const ProvenProgram& part : programs.parts) {
+        input.program = part.input;
+        if (!made.written.empty()) input.program->program.part.before = made.written.back().sha256;
+        write_one(input, &part.proof, orders, made);
+    }
+    return made;
+}
+
+}  // namespace
+
+PieceReport write_job(const fs::path& folder, Project& project, const Segmentation& segmentation, std::size_t index,
+                      Setups& setups, const std::string& program_version, const Context& context) {
+    const Piece& piece = segmentation.pieces[index];
+    MadeJob made = make_job(orders_of(folder, project, segmentation, setups.cell(), program_version), index,
+                            setups.held(piece), context);
+    std::erase_if(project.jobs, [&](const WrittenJob& job) { return job.piece == piece.name; });
+    const auto later = std::find_if(project.jobs.begin(), project.jobs.end(),
+                                    [&](const WrittenJob& job) { return place_of(job.piece, segmentation) > index; });
+    project.jobs.insert(later, made.written.begin(), made.written.end());
+    return std::move(made.report);
+}
+
+std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, const Segmentation& segmentation,
+                                    Setups& setups, const std::string& program_version, const Context& context) {
+    StageTimer stage(context, "setups chosen");
+    const std::size_t count = segmentation.pieces.size();
+    context.progress("setups chosen", 0, count);
+    setups.compute(segmentation.pieces, context);
+    stage.next("work envelopes judged");
+    setups.compute_held(segmentation.pieces, context);
+    stage.next("jobs written");
+    context.progress("jobs written", 0, count);
+    std::vector<const Carving*> carvings;
+    for (const Piece& piece : segmentation.pieces) carvings.push_back(&setups.held(piece));
+    const JobOrders orders = orders_of(folder, project, segmentation, setups.cell(), program_version);
+    std::vector<MadeJob> made(count);
+    std::mutex reporting;
+    std::size_t done = 0;
+    parallel_for(0, count, [&](std::size_t i) {
+        context.check_cancelled();
+        made[i] = make_job(orders, i, *carvings[i], context);
+        const std::lock_guard lock(reporting);
+        context.progress("jobs written", ++done, count);
+    });
+    project.jobs.clear();
+    std::vector<PieceReport> reports;
+    for (MadeJob& job : made) {
+        project.jobs.insert(project.jobs.end(), job.written.begin(), job.written.end());
+        reports.push_back(std::move(job.report));
+    }
+    return reports;
+}
+
+}  // namespace qchopper

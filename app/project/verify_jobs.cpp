@@ -1,0 +1,177 @@
+// The proof is that of job_proof.h; the pieces of a project are made again from scan and decisions. The cost is that of
+// the replay.
+
+#include "app/project/verify_jobs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/project/hand_over.h"
+#include "app/project/job_proof.h"
+#include "app/project/open_project.h"
+#include "app/project/replay.h"
+#include "app/project/shell_word.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/timings.h"
+#include "cam/job/read_job.h"
+#include "cam/setup/block_placement.h"
+#include "segment/mesh/transform.h"
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+
+VerdictFinding finding(const char* kind, const std::string& text) {
+    return {kind, "", 0, text};
+}
+
+bool is_near(const Pose& a, const Pose& b) {
+    constexpr double tolerance = 1e-6;  // mm, and of unit vectors: a job and a cell file of another rounding
+    double most = norm(a.shift - b.shift);
+    for (std::size_t i = 0; i < 3; ++i) most = std::max(most, norm(a.row[i] - b.row[i]));
+    return most <= tolerance;
+}
+
+// What of the job contradicts the cell file.
+std::vector<VerdictFinding> faults_against_cell(const ReadJob& job, const Cell& cell) {
+    std::vector<VerdictFinding> faults;
+    if (job.cell_id != cell.id) {
+        faults.push_back(finding("other_cell", "the job is made for cell " + std::to_string(job.cell_id) +
+                                                   ", and the cell file describes cell " + std::to_string(cell.id)));
+    }
+    for (std::size_t d = 0; d < job.setup_in_cell.size(); ++d) {
+        const Pose frame = setup_in_cell(cell, job.setup.spoil, job.setup.placement, d);
+        if (!is_near(frame, job.setup_in_cell[d])) {
+            faults.push_back(finding("other_frame",
+                                     "setup_in_cell of the manifest is not what its placement and the "
+                                     "cell file give"));
+        }
+    }
+    if (!job.envelope.fits() || !job.holds_poses) {
+        faults.push_back(finding("does_not_fit", "the job states that its piece does not fit the cell"));
+    }
+    return faults;
+}
+
+std::map<std::string, std::string> texts_of(const ReadJob& job) {
+    std::map<std::string, std::string> texts;
+    for (const std::string& name : job.program->files) {
+        const Bytes& bytes = job.files.at(name);
+        texts[name] = {bytes.begin(), bytes.end()};
+    }
+    return texts;
+}
+
+void add_proof(const ReadJob& job, const std::string& job_file, const Cell& cell, JobVerdict& verdict,
+               const Context& context) {
+    const TriangleMesh mesh = job_mesh(job.files.at("piece.stl"), job_file + ": piece.stl");
+    const std::map<std::string, std::string> texts = texts_of(job);
+    JobProof proof = prove({cell, job.setup, job.setup_in_cell, mesh, *job.program, texts}, context);
+    verdict.figures = std::move(proof.figures);
+    verdict.findings.insert(verdict.findings.end(), proof.findings.begin(), proof.findings.end());
+    verdict.findings_left_out = proof.findings_left_out;
+}
+
+// Lists at most most_listed_findings of them.
+void shorten(JobVerdict& verdict) {
+    if (verdict.findings.size() <= most_listed_findings) return;
+    verdict.findings_left_out += verdict.findings.size() - most_listed_findings;
+    verdict.findings.resize(most_listed_findings);
+}
+
+JobVerdict without_findings(const ReadJob& job, const std::string& job_file, const CellFile& cell,
+                            const std::string& program_version) {
+    JobVerdict verdict;
+    verdict.piece = job.piece;
+    verdict.job = fs::path(job_file).filename().string();
+    verdict.job_sha256 = job.file_sha256;
+    verdict.cell = cell.cell.name;
+    verdict.cell_sha256 = cell.sha256;
+    verdict.program_version = program_version;
+    return verdict;
+}
+
+// Rotation alone is not asked: the piece of the project is laid as the job says, by a pose of determinant +1, and has
+// to be the job's mesh triangle for triangle.
+std::optional<VerdictFinding> fault_against_piece(const ReadJob& job, const std::string& job_file, const Piece& piece) {
+    constexpr double tolerance = 1e-3;  // mm; piece.stl is single precision
+    const TriangleMesh expected = apply(job.setup.piece_in_setup, *piece.mesh);
+    const TriangleMesh found = job_mesh(job.files.at("piece.stl"), job_file + ": piece.stl");
+    const std::string text = "the mesh of the job is not that of piece " + piece.name;
+    if (found.triangles.size() != expected.triangles.size()) {
+        return finding("other_piece", text + ": " + std::to_string(found.triangles.size()) + " faces instead of " +
+                                          std::to_string(expected.triangles.size()));
+    }
+    for (std::size_t t = 0; t < expected.triangles.size(); ++t) {
+        const std::array<Vec3, 3> a = corners_of(expected, t);
+        const std::array<Vec3, 3> b = corners_of(found, t);
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (!(norm(a[i] - b[i]) <= tolerance)) return finding("other_piece", text);
+        }
+    }
+    return std::nullopt;
+}
+
+VerifiedJob written(const fs::path& file, JobVerdict verdict) {
+    verdict.is_positive = verdict.findings.empty();
+    write_verdict(file, verdict);
+    return {file, std::move(verdict)};
+}
+
+}  // namespace
+
+CellFile read_cell_file(const fs::path& path) {
+    return {read_cell(path), sha256(read_file(path, settings_limit))};
+}
+
+JobVerdict judge_job(const ReadJob& job, const std::string& job_file, const CellFile& cell,
+                     const std::string& program_version, const Context& context) {
+    JobVerdict verdict = without_findings(job, job_file, cell, program_version);
+    verdict.findings = faults_against_cell(job, cell.cell);
+    if (!job.program) {
+        verdict.findings.push_back(finding("no_program", "the job holds no robot program: " + job.no_program_because));
+    } else if (verdict.findings.empty()) {
+        add_proof(job, job_file, cell.cell, verdict, context);
+    }
+    shorten(verdict);
+    verdict.is_positive = verdict.findings.empty();
+    return verdict;
+}
+
+VerifiedJob verify_job(const fs::path& job, const std::optional<fs::path>& cell_file,
+                       const std::string& program_version, const Context& context) {
+    const ReadJob read = parse_job(read_job(job), job.string());
+    fs::path cell = cell_file.value_or(fs::absolute(job).parent_path().parent_path() / "cell.toml");
+    std::error_code error;
+    if (!cell_file && !fs::exists(cell, error)) {
+        throw InputError(InputFault::use, "no cell file is known for " + job.string(), "pass --cell FILE");
+    }
+    return written(job, judge_job(read, job.string(), read_cell_file(cell), program_version, context));
+}
+
+VerifyAnswer verify_project(const fs::path& folder, const std::optional<std::string>& piece,
+                            const std::string& program_version, const ProjectContext& context) {
+    const ProjectJobs ordered = jobs_of(folder, piece, context);
+    const CellFile cell = read_cell_file(folder / "cell.toml");
+    OpenProject project(folder, context);
+    const Segmentation& segmentation = project.segmentation();
+    const StageTimer stage(context, "jobs verified");
+    VerifyAnswer verified;
+    for (const PieceJob& job : ordered.jobs) {
+        context.progress("jobs verified", verified.size(), ordered.jobs.size());
+        const fs::path file = folder / "jobs" / job_file_name(job.piece, job.part);
+        const ReadJob read = parse_job(job.file, file.string());
+        JobVerdict verdict = judge_job(read, file.string(), cell, program_version, context);
+        const auto index = piece_named(segmentation, job.piece);
+        const auto fault = index ? fault_against_piece(read, file.string(), segmentation.pieces[*index])
+                                 : finding("other_piece", "the project has no piece " + job.piece);
+        if (fault) verdict.findings.insert(verdict.findings.begin(), *fault);
+        shorten(verdict);
+        verified.push_back(written(file, std::move(verdict)));
+    }
+    return verified;
+}
+
+}  // namespace qchopper

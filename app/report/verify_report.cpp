@@ -1,0 +1,84 @@
+// Text and JSON from values.
+
+#include "app/report/verify_report.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/project/value_json.h"
+#include "app/report/columns.h"
+#include "base/text.h"
+
+namespace qchopper {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_shown = 5;  // findings of a job, for people
+
+std::string figure_word(const ProofFigure& figure) {
+    return figure.name + " " + fixed(figure.value, figure.decimals) + (figure.unit.empty() ? "" : " " + figure.unit);
+}
+
+Json json_of_job(const VerifiedJob& job) {
+    const JobVerdict& v = job.verdict;
+    Json figures = Json::object();
+    for (const ProofFigure& figure : v.figures) figures[figure.key] = figure.value;
+    Json findings = Json::array();
+    for (const VerdictFinding& finding : v.findings) {
+        findings.push_back(
+            {{"kind", finding.kind}, {"file", finding.file}, {"line", finding.line}, {"text", finding.text}});
+    }
+    return {{"piece", v.piece},
+            {"job", job.file.string()},
+            {"sha256", to_hex(v.job_sha256)},
+            {"cell", v.cell},
+            {"cell_sha256", to_hex(v.cell_sha256)},
+            {"positive", v.is_positive},
+            {"figures", figures},
+            {"findings", findings},
+            {"findings_left_out", v.findings_left_out},
+            {"verdict", verdict_file(job.file).string()}};
+}
+
+void add_findings(const JobVerdict& verdict, std::vector<std::string>& text) {
+    const std::size_t shown = std::min(most_shown, verdict.findings.size());
+    for (std::size_t i = 0; i < shown; ++i) text.push_back("  " + describe(verdict.findings[i]));
+    const std::size_t more = verdict.findings.size() - shown + verdict.findings_left_out;
+    if (more > 0) text.push_back("  and " + counted(more, "more finding"));
+}
+
+}  // namespace
+
+bool is_all_positive(const VerifyAnswer& answer) {
+    return std::all_of(answer.begin(), answer.end(), [](const VerifiedJob& job) { return job.verdict.is_positive; });
+}
+
+std::string figures_word(const JobVerdict& verdict) {
+    std::string words;
+    for (const ProofFigure& figure : verdict.figures) words += (words.empty() ? "" : ", ") + figure_word(figure);
+    return words;
+}
+
+std::vector<std::string> lines(const VerifyAnswer& answer) {
+    std::vector<std::string> text;
+    for (const VerifiedJob& job : answer) {
+        text.push_back("piece " + job.verdict.piece + " (" + job.verdict.job +
+                       "): " + (job.verdict.is_positive ? "verified" : "REFUSED"));
+        if (!job.verdict.figures.empty()) text.push_back("  " + figures_word(job.verdict));
+        add_findings(job.verdict, text);
+    }
+    const auto positive = static_cast<std::size_t>(
+        std::count_if(answer.begin(), answer.end(), [](const VerifiedJob& job) { return job.verdict.is_positive; }));
+    text.push_back(std::to_string(positive) + " of " + counted(answer.size(), "job") +
+                   " verified; the verdict of each is written beside it.");
+    return text;
+}
+
+std::string document(const VerifyAnswer& answer) {
+    Json jobs = Json::array();
+    for (const VerifiedJob& job : answer) jobs.push_back(json_of_job(job));
+    return text_of({{"schema", "qchopper-verify-1"}, {"all_positive", is_all_positive(answer)}, {"jobs", jobs}});
+}
+
+}  // namespace qchopper

@@ -1,0 +1,64 @@
+// Writes a program in KRL, the language of KUKA's controllers, as docs/programs.md states it.
+//
+// A piece is one main program and chunks, each below the lines of ProgramSettings::lines_per_chunk and half of its
+// memory_bytes as long as one run is; a chunk ends only between runs, and with its direction, hold or tool. What does
+// not fit into the controller's memory at once becomes several parts for one clamping, each with a main program of its
+// own. The same program gives the same bytes (tests/cam/post/krl_test.cpp).
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "cam/cell/cell.h"
+#include "cam/program/program.h"
+
+namespace qchopper {
+
+struct ProgramText {
+    std::string name;  // "qc_7_001.src"
+    std::string text;
+    bool operator==(const ProgramText&) const = default;
+};
+
+// What the manifest lists of a chunk besides its figures as they are read back.
+struct PostedChunk {
+    std::string name;               // of its file
+    std::size_t order = 0;          // from 0 over all parts
+    std::size_t section = 0;        // index in Program::sections
+    std::size_t tool = 0;           // index in CellMachine::tools
+    std::uint16_t tool_number = 0;  // CarvingTool::number
+    std::size_t direction = 0;      // index in SurfaceReach::directions
+    std::size_t first_run = 0;      // of the section
+    std::size_t runs = 0;
+    bool operator==(const PostedChunk&) const = default;
+};
+
+struct ProgramPart {
+    std::string entry;                // name of the main program's .src
+    std::vector<ProgramText> files;   // .src and .dat of the main program, then the chunks in their order
+    std::vector<PostedChunk> chunks;  // in their order
+    bool operator==(const ProgramPart&) const = default;
+};
+
+struct ProgramName {
+    std::uint32_t piece = 1;  // number of the piece: names are qc_<piece>, qc_<piece>_p<part>, qc_<piece>_<chunk>
+};
+
+// Thrown for a cell whose controller has a language that no post writes yet.
+class NoPostYet : public InputError {
+ public:
+    explicit NoPostYet(Dialect dialect)
+        : InputError(InputFault::config, std::string("no program: dialect ") + to_word(dialect) + " is not there yet") {
+    }
+};
+
+// At least one part. Preconditions: the cell has a machine, and the program is of it. Throws NoPostYet; InputError
+// (config) if the cell file lacks a signal, or one chunk does not fit into the memory; InputError (use) if a value is
+// not finite or out of range. O(moves).
+std::vector<ProgramPart> post_krl(const Program& program, const Cell& cell, const ProgramName& name);
+
+}  // namespace qchopper

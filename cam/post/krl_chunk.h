@@ -1,0 +1,54 @@
+// The lines of one chunk of a KRL program: header, settings, moves of some runs of a section.
+
+#pragma once
+
+#include <cstddef>
+
+#include "cam/cell/cell.h"
+#include "cam/post/krl_text.h"
+#include "cam/program/program.h"
+
+namespace qchopper {
+
+// Runs of one section.
+struct RunRange {
+    std::size_t section = 0;
+    std::size_t first = 0;
+    std::size_t count = 0;
+};
+
+class KrlChunks {
+ public:
+    // Both outlive this object. Precondition: check_signals() holds.
+    KrlChunks(const Program& program, const Cell& cell) : program_(program), machine_(*cell.machine) {}
+
+    // The whole text of a chunk. `order` counts from 0 over all parts; `total` is their number.
+    KrlText chunk(const RunRange& range, const std::string& name, std::size_t order, std::size_t total) const;
+
+    // The moves of one run, from its start. `speed` is that which is set before, and after it.
+    KrlText run(const ProgramSection& section, const ProgramRun& run, bool is_first, double& speed) const;
+
+    // Load and tool of a section.
+    void add_tool(std::size_t tool, KrlText& text) const;
+    // A joint move; angle of the table in radians.
+    void add_joint_move(const Joints& joints, double table_angle, KrlText& text) const;
+    // Speeds and accelerations of the axes.
+    static void add_axis_speeds(KrlText& text);
+
+ private:
+    void add_base(KrlText& text) const;
+    void add_settings(const ProgramSection& section, KrlText& text) const;
+    void add_description(const RunRange& range, std::size_t order, std::size_t total, KrlText& text) const;
+    std::string full_pose(const ProgramSection& section, Vec3 tip) const;
+
+    const Program& program_;
+    const CellMachine& machine_;
+};
+
+// Sets a speed if it is another one: a line $VEL.CP.
+void set_speed(double speed_mm_s, double& current, KrlText& text);
+
+// &ACCESS to DEF. Throws InputError (use) if the name is longer than 24 characters.
+void begin_program(const std::string& name, KrlText& text);
+
+}  // namespace qchopper

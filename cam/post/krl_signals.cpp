@@ -1,0 +1,74 @@
+// One or two lines a signal.
+
+#include "cam/post/krl_signals.h"
+
+#include <optional>
+#include <string>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace qchopper {
+namespace {
+
+constexpr double most_analogue = 1.000001;  // of $ANOUT
+constexpr double most_argument = 1e6;
+
+[[noreturn]] void refuse(const std::string& key, const std::string& what) {
+    throw InputError(InputFault::config, "the cell file names no signal " + key + ": " + what,
+                     "add " + key + " to the cell file");
+}
+
+void switch_signal(const std::optional<Signal>& signal, bool is_on, KrlText& text) {
+    if (!signal) return;
+    if (signal->kind == SignalKind::call) return text.line(signal->target + "( )");
+    text.line("$OUT[" + signal->target + "] = " + (is_on ? "TRUE" : "FALSE"));
+}
+
+}  // namespace
+
+void check_signals(const CellMachine& machine) {
+    const Spindle& spindle = machine.spindle;
+    if (!spindle.on) refuse("spindle.on", "no program can start the spindle");
+    if (!spindle.at_speed) refuse("spindle.at_speed", "no program can wait for the speed of the spindle");
+    if (!spindle.off && spindle.on->kind == SignalKind::call) refuse("spindle.off", "no program can stop the spindle");
+}
+
+void start_spindle(const CellMachine& machine, double rpm, KrlText& text) {
+    const Spindle& spindle = machine.spindle;
+    if (spindle.speed) {
+        const double value = rpm * spindle.speed->scale;
+        if (spindle.speed->kind == SignalKind::call) {
+            text.line(spindle.speed->target + "(" + krl::number("speed of the spindle", value, 1, most_argument) + ")");
+        } else {
+            const std::string volts = krl::number("speed of the spindle", value, 5, most_analogue);
+            text.line("$ANOUT[" + spindle.speed->target + "] = " + volts);
+        }
+    }
+    switch_signal(spindle.on, true, text);
+    if (spindle.at_speed->kind == SignalKind::call) return text.line(spindle.at_speed->target + "( )");
+    text.line("WAIT FOR $IN[" + spindle.at_speed->target + "]");
+}
+
+void stop_spindle(const CellMachine& machine, KrlText& text) {
+    switch_signal(machine.spindle.off ? machine.spindle.off : machine.spindle.on, false, text);
+}
+
+void start_extraction(const CellMachine& machine, KrlText& text) {
+    if (machine.extraction) switch_signal(machine.extraction->on, true, text);
+}
+
+void stop_extraction(const CellMachine& machine, KrlText& text) {
+    if (machine.extraction) switch_signal(machine.extraction->off, false, text);
+}
+
+void ask_for_tool(const CellMachine& machine, const CarvingTool& tool, KrlText& text) {
+    if (machine.program.tool_change_call) {
+        return text.line(*machine.program.tool_change_call + "(" + std::to_string(tool.number) + ")");
+    }
+    text.comment("ASK tool " + std::to_string(tool.number) + " (" + tool.name + ") is in the spindle, " +
+                 fixed(gauge_length(tool), 2) + " mm from the nose to the tip: check its length");
+    text.line("HALT");
+}
+
+}  // namespace qchopper

@@ -1,0 +1,88 @@
+// Digits by fixed() of base/text.h, which no locale changes.
+
+#include "cam/post/krl_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "cam/cell/kuka_angles.h"
+
+namespace qchopper {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+constexpr double farthest = 5000;  // mm
+constexpr double most_degrees = 3600;
+
+// An angle of A, B, C in degrees; -180 and 180 are the same, and 180 is written.
+std::string angle(const char* name, double value, int decimals) {
+    const std::string text = krl::number(name, degrees * value, decimals, most_degrees);
+    return text == "-180." + std::string(static_cast<std::size_t>(decimals), '0') ? text.substr(1) : text;
+}
+
+}  // namespace
+
+void KrlText::line(std::string_view text) {
+    bytes_ += text;
+    bytes_ += "\r\n";
+    ++lines_;
+}
+
+void KrlText::comment(std::string_view text) {
+    std::string ascii = ";" + std::string(text);
+    std::replace_if(
+        ascii.begin(), ascii.end(), [](char c) { return c < ' ' || c > '~'; }, '_');
+    line(ascii);
+}
+
+void KrlText::append(const KrlText& other) {
+    bytes_ += other.bytes_;
+    lines_ += other.lines_;
+}
+
+namespace krl {
+
+std::string number(std::string_view what, double value, int decimals, double largest) {
+    if (!(std::abs(value) < largest)) {
+        throw InputError(InputFault::use, std::string(what) + " = " + significant(value, 6) +
+                                              " cannot be written into a program: not below " +
+                                              significant(largest, 6) + " in size");
+    }
+    return fixed(value, decimals);
+}
+
+std::string position(Vec3 point, int decimals) {
+    return "X " + number("X", point.x, decimals, farthest) + ",Y " + number("Y", point.y, decimals, farthest) + ",Z " +
+           number("Z", point.z, decimals, farthest);
+}
+
+std::string angles(const Pose& pose, int decimals) {
+    const KukaAngles abc = kuka_angles(pose);
+    return ",A " + angle("A", abc.a, decimals) + ",B " + angle("B", abc.b, decimals) + ",C " +
+           angle("C", abc.c, decimals);
+}
+
+std::string frame(const Pose& pose) {
+    return "{" + position(pose.shift, 3) + angles(pose, 4) + "}";
+}
+
+std::string joints(const Joints& joints) {
+    std::string text;
+    for (std::size_t i = 0; i < axes_of_arm; ++i) {
+        const std::string name = "A" + std::to_string(i + 1);
+        text += (i > 0 ? "," : "") + name + " " + number(name, degrees * joints[i], 3, most_degrees);
+    }
+    return text;
+}
+
+std::string external(int axis, double angle) {
+    const std::string name = "E" + std::to_string(axis);
+    return name + " " + number(name, degrees * angle, 3, most_degrees);
+}
+
+}  // namespace krl
+
+}  // namespace qchopper

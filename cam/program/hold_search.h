@@ -1,0 +1,76 @@
+// Finds the branch of the arm and the turn about the tool axis by which it holds runs of a toolpath.
+//
+// mm, radians, in setup coordinates. Every end of a move and poses between are judged by PoseJudge: joint and cable
+// limits, singularities, steps of the axes, distances of arm, spindle and holder, each with the margin of
+// work_envelope.h, the arm against the whole block. A speed that a joint cannot follow does not refuse a hold unless
+// a cut would become slower than the tool allows. Not for several threads at once.
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cam/cell/cell.h"
+#include "cam/program/program.h"
+#include "cam/program/sampled_path.h"
+#include "cam/setup/pose_judge.h"
+#include "cam/setup/setup.h"
+#include "cam/setup/work_envelope.h"
+
+namespace qchopper {
+
+// How far one hold carries runs.
+struct HeldPath {
+    RegionHold hold;
+    std::size_t runs = 0;        // carried, from the first on
+    std::size_t poses = 0;       // held, from the first on; also those of a run that is not carried
+    std::vector<Joints> joints;  // of the poses of the runs carried; none of a gantry
+};
+
+class HoldSearch {
+ public:
+    // For one operation; everything outlives this object. Precondition: the cell has a machine.
+    HoldSearch(const Setup& setup, const WorkEnvelope& envelope, const Cell& cell, const Operation& operation);
+    HoldSearch(const HoldSearch&) = delete;
+    HoldSearch& operator=(const HoldSearch&) = delete;
+
+    // By the hold that carries most runs from the first on: the first one that carries all of them, beginning with
+    // those of the envelope. The path is that of the runs.
+    HeldPath longest(std::span<const PathRun> runs, const SampledPath& path);
+
+    // What refuses the pose behind those that the last longest() held: check, pair, margin and pose.
+    const std::string& refusal() const { return refusal_; }
+
+    // The runs carried, with their joints and with lower speeds where a joint would be too fast.
+    ProgramSection section(std::span<const PathRun> runs, const SampledPath& path, const HeldPath& held) const;
+
+    Vec3 out() const { return out_; }
+
+ private:
+    // The number of poses that a hold keeps, and their joints in judge_.
+    std::size_t held_poses(const PoseRegion& region, RegionHold& hold);
+    std::size_t within_turns(const RegionHold& hold, std::size_t poses) const;
+    // The number of poses before the first cut that is too slow.
+    std::size_t fast_poses(std::span<const PathRun> runs, const SampledPath& path, std::size_t poses) const;
+    HeldPath final_path(std::span<const PathRun> runs, const SampledPath& path, HeldPath held);
+    void describe_refusal(const MarginTally& tally, const PoseRegion& region);
+    double speed_of(MoveKind kind) const;
+    double allowed_speed(const Joints& from, const Joints& to, double length) const;
+
+    const Cell& cell_;
+    const Operation& operation_;
+    CarvingTool slow_tool_;  // whose feed no joint is too slow for
+    PoseJudge judge_;
+    StandingBlock standing_;
+    Vec3 out_;
+    std::vector<RegionHold> candidates_;
+    std::string refusal_;
+};
+
+// The way the tool comes out, a unit vector in setup coordinates.
+Vec3 out_in_setup(const Setup& setup, std::size_t direction);
+
+}  // namespace qchopper

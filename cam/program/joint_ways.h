@@ -1,0 +1,59 @@
+// Joint moves through the air: from home to where a section begins, and from its end home.
+//
+// mm, radians. All axes move linearly together; every pose at most 2 degrees of an axis farther than the one before is
+// judged with the margins of work_envelope.h: limits, arm, tool, holder and spindle against the whole block, table,
+// floor, obstacles and the arm itself. Not for several threads at once.
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cam/cell/cell.h"
+#include "cam/program/program.h"
+#include "cam/setup/pose_judge.h"
+#include "cam/setup/setup.h"
+
+namespace qchopper {
+
+// Where a section begins or ends.
+struct SectionEnd {
+    Vec3 tip;  // in setup coordinates
+    Joints joints{};
+    const ProgramSection* section = nullptr;
+};
+
+class JointWays {
+ public:
+    // With one tool of the cell. Precondition: the cell has a robot; everything outlives this object.
+    JointWays(const Setup& setup, const Cell& cell, std::size_t tool);
+    JointWays(const JointWays&) = delete;
+    JointWays& operator=(const JointWays&) = delete;
+
+    // Between home and an end: the raise, and the targets on the way from home, the raised pose last and home left out.
+    // Nothing if none is clear.
+    std::optional<JointWay> from_home(const SectionEnd& end);
+
+    // Whether home is clear while the table turns from one angle to another.
+    bool turns_clear(double from_angle, double to_angle);
+
+    // What was too near on the way that was refused last.
+    const std::string& refusal() const { return refusal_; }
+
+ private:
+    StandingBlock standing_at(double table_angle) const;
+    bool is_clear(const StandingBlock& block, const Joints& from, const Joints& to);
+    bool is_clear(const StandingBlock& block, const Joints& joints);
+    // The joints at the raised pose, come to on a straight line.
+    std::optional<Joints> raised(const SectionEnd& end, double raise);
+
+    const Setup& setup_;
+    const Cell& cell_;
+    CarvingTool slow_tool_;
+    PoseJudge judge_;
+    Joints home_;
+    std::string refusal_;
+};
+
+}  // namespace qchopper

@@ -1,0 +1,104 @@
+// The program of a setup before it has a language: what the machine does, in which order, and how it is held.
+//
+// Values only. mm, mm/s, radians, seconds, kg; tips in setup coordinates (cam/setup/setup.h), joints as the controller
+// shows them. Of a gantry all joints are zero and ways hold nothing. Made by make_program.h, written as text by
+// cam/post; signals and calls are those of the cell file. tests/cam/program/make_program_test.cpp holds that every tip
+// follows from its joints.
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "base/pose.h"
+#include "cam/cell/arm.h"
+#include "cam/cell/carving_tool.h"
+#include "cam/cell/robot.h"
+#include "cam/toolpath/toolpath.h"
+
+namespace qchopper {
+
+// Of tips on straight moves, in every program: $ACC.CP of KRL.
+inline constexpr double path_acceleration = 2000;  // mm/s2
+// Of the largest speed and acceleration of each axis, in joint moves.
+inline constexpr double joint_move_percent = 50;
+
+// What the flange carries, as the controller's dynamics want it.
+struct LoadData {
+    double mass_kg = 0;
+    Pose centre_in_flange;  // z along the tool axis
+    Vec3 inertia_kg_m2;     // about the centre, along the axes of that frame
+    bool operator==(const LoadData&) const = default;
+};
+
+// Estimated from the cell file: the spindle as a solid cylinder of its body's size, tool and holder as one from the
+// nose to the tip with the largest diameter of them, each of even density. Inertia by the theorem of parallel axes.
+LoadData load_data(const Spindle& spindle, const CarvingTool& tool);
+
+struct ProgramTool {
+    // The frame in which a program states orientations: the axes of the spindle's frame in the cell file (so that
+    // Spindle::tool_axis says which of them is the tool axis), its origin at the tip.
+    Pose tool_in_flange;
+    LoadData load;
+    bool operator==(const ProgramTool&) const = default;
+};
+
+struct ProgramMove {
+    Vec3 tip;  // where it ends
+    MoveKind kind = MoveKind::cut;
+    bool is_rounded = false;  // as PathMove::is_rounded
+    double speed = 0;         // of the operation, or less where a joint would be too fast
+    bool operator==(const ProgramMove&) const = default;
+};
+
+// As PathRun. Within a section the tip goes straight from the end of one run to the start of the next.
+struct ProgramRun {
+    Vec3 start;
+    Joints start_joints{};
+    Joints end_joints{};
+    std::vector<ProgramMove> moves;
+    bool operator==(const ProgramRun&) const = default;
+};
+
+// Joint moves between home and a section.
+struct JointWay {
+    // Distance along the section's out between its first start or last end and the pose where joint moves end or begin.
+    double raise = 0;
+    std::vector<Joints> targets;
+    bool operator==(const JointWay&) const = default;
+};
+
+// What is carved by one tool from one direction in one hold of the arm. Between sections the arm is at home, where the
+// table turns and tools are changed.
+struct ProgramSection {
+    std::size_t operation = 0;  // index in Toolpath::operations
+    std::size_t tool = 0;       // index in CellMachine::tools
+    std::size_t direction = 0;  // index in SurfaceReach::directions
+    Vec3 out;                   // unit, in setup coordinates
+    ArmBranch branch;
+    double tool_turn = 0;    // about the tool axis, of tip_frame() (work_envelope.h)
+    Pose tool_in_setup;      // orientation of the program's tool frame; its shift is 0
+    double table_angle = 0;  // -pi..pi, of a rotary table; held while the section is carved
+    double rpm = 0;
+    double rounding = 0;            // see PathMove::is_rounded
+    double link_feed = 0;           // from run to run, and on raises
+    JointWay entry;                 // from home; the last target is the raised start
+    JointWay exit;                  // from the raised end; the last target is home
+    std::vector<ProgramRun> runs;   // at least one
+    std::size_t lowered_moves = 0;  // slower than the operation asks for
+    bool operator==(const ProgramSection&) const = default;
+};
+
+struct Program {
+    // The setup in the base of the robot; where there is an external axis, on its table.
+    Pose base;
+    std::optional<int> external_axis;  // of the rotary table, 1..6
+    bool has_arm = true;
+    Joints home{};
+    std::vector<ProgramTool> tools;  // in the order of CellMachine::tools
+    std::vector<ProgramSection> sections;
+    bool operator==(const Program&) const = default;
+};
+
+}  // namespace qchopper

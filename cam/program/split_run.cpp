@@ -1,0 +1,72 @@
+// One pass over the moves. O(moves).
+
+#include "cam/program/split_run.h"
+
+#include <cassert>
+#include <cstdint>
+
+namespace qchopper {
+namespace {
+
+constexpr double near_the_end = 0.9;  // of the lines of a part
+
+// Whether two kinds of moves have the same speed.
+bool is_same_speed(MoveKind a, MoveKind b) {
+    const auto is_link = [](MoveKind kind) { return kind == MoveKind::link || kind == MoveKind::retract; };
+    return a == b || (is_link(a) && is_link(b));
+}
+
+// How many moves go into the first part.
+std::size_t first_part(const PathRun& run, std::size_t lines) {
+    const std::size_t most = lines - 3;  // less the retract, and the speeds at both ends
+    std::size_t used = 1;
+    std::size_t at_link = 0;
+    for (std::size_t i = 0; i < run.moves.size(); ++i) {
+        used += i > 0 && !is_same_speed(run.moves[i].kind, run.moves[i - 1].kind) ? 2 : 1;
+        if (used > most) return at_link > 0 ? at_link : i;
+        const bool is_late = static_cast<double>(used) > near_the_end * static_cast<double>(most);
+        if (is_late && i > 0 && run.moves[i].kind == MoveKind::link) at_link = i;
+    }
+    return run.moves.size();
+}
+
+}  // namespace
+
+std::pair<PathRun, PathRun> split_run(const PathRun& run, std::size_t count, Vec3 out, double retract) {
+    assert(count > 0 && count < run.moves.size());
+    const auto middle = run.moves.begin() + static_cast<std::ptrdiff_t>(count);
+    PathRun head{run.start, {run.moves.begin(), middle}};
+    head.moves.back().is_rounded = false;
+    const Vec3 tip = head.moves.back().tip;
+    const Vec3 above = tip + (retract - dot(out, tip)) * out;
+    head.moves.push_back({above, MoveKind::retract, false});
+    PathRun tail{above, {{tip, MoveKind::approach, false}}};
+    tail.moves.insert(tail.moves.end(), middle, run.moves.end());
+    return {std::move(head), std::move(tail)};
+}
+
+std::size_t lines_of(const PathRun& run) {
+    std::size_t lines = run.moves.size() + 1;
+    for (std::size_t i = 1; i < run.moves.size(); ++i) {
+        if (!is_same_speed(run.moves[i].kind, run.moves[i - 1].kind)) ++lines;
+    }
+    return lines;
+}
+
+std::vector<PathRun> split_long_runs(const std::vector<PathRun>& runs, std::size_t lines, Vec3 out, double retract) {
+    assert(lines >= 8);
+    std::vector<PathRun> parts;
+    for (const PathRun& run : runs) {
+        PathRun rest = run;
+        while (lines_of(rest) > lines) {
+            const std::size_t count = first_part(rest, lines);
+            auto [head, tail] = split_run(rest, count, out, retract);
+            parts.push_back(std::move(head));
+            rest = std::move(tail);
+        }
+        parts.push_back(std::move(rest));
+    }
+    return parts;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,191 @@
+// Which cells the tip has to visit follows from where the tool touches: a ball over a tip surface touches its radius
+// away from its middle, against the normal of the tip surface. At a crease, where it touches on both sides, the slopes
+// to both sides are taken. O(cells).
+
+#include "cam/toolpath/finishing.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "cam/toolpath/level_passes.h"
+#include "cam/toolpath/raster_passes.h"
+#include "cam/toolpath/scallop.h"
+
+namespace qchopper {
+namespace {
+
+void check(const CarvingTool& tool, const FinishingOptions& options) {
+    const auto refuse = [](const std::string& what) {
+        throw InputError(InputFault::use, "finishing: " + what, "give another value");
+    };
+    if (!(options.scallop > 0) || !std::isfinite(options.scallop)) refuse("scallop is not a height above zero");
+    if (!(options.path_tolerance > 0) || !std::isfinite(options.path_tolerance)) {
+        refuse("path_tolerance is not a length above zero");
+    }
+    if (!(options.rounding >= 0) || !std::isfinite(options.rounding)) refuse("rounding is not a length from zero on");
+    if (!(options.steep_deg > 0 && options.steep_deg < 90)) refuse("steep_deg is not between 0 and 90");
+    if (tool.shape != ToolShape::ball) refuse("tool " + std::to_string(tool.number) + " is no ball");
+    if (!(options.scallop <= 0.5 * tool.diameter)) refuse("scallop is above the radius of the tool");
+}
+
+// Slopes of the tip surface to both sides of a cell.
+struct SideSlopes {
+    std::array<double, 2> x{};
+    std::array<double, 2> y{};
+
+    SideSlopes(const HeightMap& tip, std::size_t column, std::size_t row) {
+        const auto z = [&](std::size_t c, std::size_t r) { return static_cast<double>(tip.at(c, r)); };
+        const std::size_t west = column > 0 ? column - 1 : column;
+        const std::size_t east = std::min(column + 1, tip.columns - 1);
+        const std::size_t south = row > 0 ? row - 1 : row;
+        const std::size_t north = std::min(row + 1, tip.rows - 1);
+        const double own = z(column, row);
+        x = {(own - z(west, row)) / tip.cell, (z(east, row) - own) / tip.cell};
+        y = {(own - z(column, south)) / tip.cell, (z(column, north) - own) / tip.cell};
+    }
+    double mean_x() const { return 0.5 * (x[0] + x[1]); }
+    double mean_y() const { return 0.5 * (y[0] + y[1]); }
+};
+
+// Whether the tool touches what belongs to the region.
+bool touches(const HeightMap& tip, const FinishingRegion& region, double radius, std::size_t column, std::size_t row) {
+    const SideSlopes slopes(tip, column, row);
+    const auto cell_at = [&](double x, std::size_t count) {
+        return static_cast<std::size_t>(std::clamp(std::floor(x), 0.0, static_cast<double>(count - 1)));
+    };
+    for (const double x : slopes.x) {
+        for (const double y : slopes.y) {
+            const double upright = 1 / std::sqrt(1 + x * x + y * y);
+            const double away = radius / tip.cell * upright;
+            const std::size_t c = cell_at(static_cast<double>(column) + 0.5 + away * x, tip.columns);
+            const std::size_t r = cell_at(static_cast<double>(row) + 0.5 + away * y, tip.rows);
+            const double height = static_cast<double>(tip.at(column, row)) + radius * (1 - upright);
+            // On a slope the point may be as much lower as it is off by a cell.
+            const double rise = std::min(radius, tip.cell * std::hypot(x, y));
+            if (height + rise + tip.cell >= static_cast<double>(region[r * tip.columns + c])) return true;
+        }
+    }
+    return false;
+}
+
+struct FinishingMasks {
+    CellMask flat;
+    CellMask steep;
+};
+
+// The cells at which the tool touches the region, by how steep the tip surface is there.
+FinishingMasks masks_of(const HeightMap& tip, const FinishingRegion& region, double radius, double least_slope) {
+    FinishingMasks masks;
+    masks.flat.assign(tip.height.size(), 0);
+    masks.steep.assign(tip.height.size(), 0);
+    parallel_for(0, tip.rows, [&](std::size_t row) {
+        for (std::size_t column = 0; column < tip.columns; ++column) {
+            if (!touches(tip, region, radius, column, row)) continue;
+            const SideSlopes slopes(tip, column, row);
+            const bool is_steep = std::hypot(slopes.mean_x(), slopes.mean_y()) > least_slope;
+            CellMask& mask = is_steep ? masks.steep : masks.flat;
+            mask[row * tip.columns + column] = 1;
+        }
+    });
+    return masks;
+}
+
+CellMask both(CellMask a, const CellMask& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) a[i] = a[i] != 0 && b[i] != 0 ? 1 : 0;
+    return a;
+}
+
+CellMask either(CellMask a, const CellMask& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) a[i] = a[i] != 0 || b[i] != 0 ? 1 : 0;
+    return a;
+}
+
+// Cells that hang together, and how far apart their heights are.
+class SteepPatches {
+ public:
+    SteepPatches(const HeightMap& tip, FinishingMasks& masks) : tip_(tip), masks_(masks), rest_(masks.steep) {}
+
+    // Patches lower than a height belong to the flat cells: rows go over them.
+    void give_low_ones_to_flat(double height) {
+        for (std::size_t i = 0; i < rest_.size(); ++i) {
+            if (rest_[i] == 0 || collect(i) >= height) continue;
+            for (const std::size_t cell : patch_) {
+                masks_.steep[cell] = 0;
+                masks_.flat[cell] = 1;
+            }
+        }
+    }
+
+ private:
+    double collect(std::size_t first) {
+        patch_.assign(1, first);
+        rest_[first] = 0;
+        float low = tip_.height[first];
+        float high = low;
+        for (std::size_t k = 0; k < patch_.size(); ++k) {
+            const std::size_t cell = patch_[k];
+            low = std::min(low, tip_.height[cell]);
+            high = std::max(high, tip_.height[cell]);
+            const std::size_t column = cell % tip_.columns;
+            if (column > 0) visit(cell - 1);
+            if (column + 1 < tip_.columns) visit(cell + 1);
+            if (cell >= tip_.columns) visit(cell - tip_.columns);
+            if (cell + tip_.columns < tip_.height.size()) visit(cell + tip_.columns);
+        }
+        return static_cast<double>(high) - static_cast<double>(low);
+    }
+    void visit(std::size_t cell) {
+        if (rest_[cell] == 0) return;
+        rest_[cell] = 0;
+        patch_.push_back(cell);
+    }
+
+    const HeightMap& tip_;
+    FinishingMasks& masks_;
+    CellMask rest_;  // cells that are of no patch yet
+    std::vector<std::size_t> patch_;
+};
+
+}  // namespace
+
+double finishing_step(const CarvingTool& tool, const FinishingOptions& options) {
+    check(tool, options);
+    return chord_for_scallop(0.5 * tool.diameter, options.scallop);
+}
+
+std::vector<Pass> finishing_passes(const HeightMap& tip, const CarvingTool& tool, const FinishingRegion& region,
+                                   const FinishingOptions& options, const Context& context) {
+    const double step = finishing_step(tool, options);
+    assert(region.size() == tip.height.size());
+    const double radius = 0.5 * tool.diameter;
+    const double least_slope = std::tan(options.steep_deg * std::numbers::pi / 180);
+    FinishingMasks masks = masks_of(tip, region, radius, least_slope);
+    context.check_cancelled();
+    SteepPatches(tip, masks).give_low_ones_to_flat(0.5 * step);
+    // Passes go on beyond the cells, but not over an edge down to where there is nothing to finish.
+    const auto by = static_cast<std::size_t>(std::ceil(0.5 * step / tip.cell));
+    const FinishingRegion wide_region = grown(region, tip.columns, tip.rows, by);
+    CellMask visited;
+    {
+        const FinishingMasks wide = masks_of(tip, wide_region, radius, least_slope);
+        visited = either(wide.flat, wide.steep);
+    }
+    const RasterOptions common{radius, options.scallop, options.path_tolerance, 0.5 * step, options.rounding};
+    const CellMask steep = grown(masks.steep, tip.columns, tip.rows, by);
+    std::vector<Pass> passes = level_passes(tip, {masks.steep, steep}, wide_region, least_slope, common, context);
+    context.check_cancelled();
+    const CellMask flat = both(grown(masks.flat, tip.columns, tip.rows, 2 * by), visited);
+    std::vector<Pass> rows = raster_passes(tip, {masks.flat, flat}, common, context);
+    std::move(rows.begin(), rows.end(), std::back_inserter(passes));
+    return passes;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,182 @@
+// A point is free at a distance if the point so far along its normal lies above what remains in its cell. The points of
+// a triangle are the middles of the upright ones of the small triangles into which it is divided evenly.
+// O(points * directions).
+
+#include "cam/toolpath/finishing_region.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cassert>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "cam/toolpath/tip_view.h"
+#include "segment/mesh/measure.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::uint8_t all = 255;        // more foam than is examined, or not seen at all
+constexpr std::uint8_t most_twice = 4;   // foam is examined up to near * 2^(most_twice - 1)
+constexpr double lowest_facing = -0.01;  // sine of half a degree: a vertical wall is not left out by rounding
+constexpr std::size_t triangles_at_once = 1024;
+
+// The least of the `width` values from each one on, in place; the last ones have fewer.
+void least_ahead(float* first, std::size_t count, std::size_t width) {
+    std::size_t done = 1;
+    while (done < width) {
+        const std::size_t by = std::min(done, width - done);
+        for (std::size_t i = 0; i + by < count; ++i) first[i] = std::min(first[i], first[i + by]);
+        done += by;
+    }
+}
+
+// A line of cells, `stride` apart, each as low as the lowest within `by`.
+void grow_line(float* first, std::size_t count, std::size_t stride, std::size_t by, std::vector<float>& line) {
+    line.assign(count + by, not_finished);
+    for (std::size_t i = 0; i < count; ++i) line[i + by] = first[i * stride];
+    least_ahead(line.data(), line.size(), 2 * by + 1);
+    for (std::size_t i = 0; i < count; ++i) first[i * stride] = line[i];
+}
+
+void lower_cell(float& cell, float to) {
+    const std::atomic_ref<float> shared(cell);
+    float before = shared.load(std::memory_order_relaxed);
+    while (to < before && !shared.compare_exchange_weak(before, to, std::memory_order_relaxed)) {
+    }
+}
+
+// The cell under a point of the map; nothing beside the map.
+std::optional<std::size_t> cell_under(const HeightMap& map, Vec3 p) {
+    const double column = std::floor(p.x / map.cell);
+    const double row = std::floor(p.y / map.cell);
+    if (column < 0 || row < 0 || column >= static_cast<double>(map.columns) || row >= static_cast<double>(map.rows)) {
+        return std::nullopt;
+    }
+    return static_cast<std::size_t>(row) * map.columns + static_cast<std::size_t>(column);
+}
+
+// k for at most near * 2^k of foam over a point of the map.
+std::uint8_t foam_class(const HeightMap& remaining, Vec3 at, Vec3 normal, double near) {
+    double far = near;
+    for (std::uint8_t k = 0; k < most_twice; ++k, far *= 2) {
+        const Vec3 p = at + far * normal;
+        const auto cell = cell_under(remaining, p);
+        if (!cell || static_cast<double>(remaining.height[*cell]) <= p.z) return k;
+    }
+    return all;
+}
+
+std::uint8_t class_of(double foam, double near) {
+    std::uint8_t k = 0;
+    for (double far = near; far < foam && k < most_twice; far *= 2) ++k;
+    return k;
+}
+
+}  // namespace
+
+FinishingRegion grown(const FinishingRegion& region, std::size_t columns, std::size_t rows, std::size_t by) {
+    FinishingRegion result = region;
+    if (by == 0) return result;
+    parallel_ranges(0, rows, 16, [&](std::size_t first, std::size_t end) {
+        std::vector<float> line;
+        for (std::size_t r = first; r < end; ++r) grow_line(&result[r * columns], columns, 1, by, line);
+    });
+    parallel_ranges(0, columns, 64, [&](std::size_t first, std::size_t end) {
+        std::vector<float> line;
+        for (std::size_t c = first; c < end; ++c) grow_line(&result[c], rows, columns, by, line);
+    });
+    return result;
+}
+
+SurfaceLeft::SurfaceLeft(const TriangleMesh& mesh, std::optional<std::int32_t> base, double spacing)
+    : mesh_(&mesh), spacing_(spacing), first_point_(mesh.triangles.size() + 1, 0) {
+    assert(is_consistent(mesh) && spacing > 0);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const bool is_base = base && cap_of(mesh, t) == *base;
+        const bool is_ignored = !mesh.ignored.empty() && mesh.ignored[t] != 0;
+        std::size_t points = 0;
+        if (!is_base && !is_ignored) {
+            const auto& corner = mesh.triangles[t];
+            double longest = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                longest = std::max(longest, norm(mesh.points[corner[k]] - mesh.points[corner[(k + 1) % 3]]));
+            }
+            const auto n = static_cast<std::size_t>(std::max(1.0, std::ceil(longest / spacing)));
+            points = n * (n + 1) / 2;
+        }
+        first_point_[t + 1] = first_point_[t] + points;
+    }
+    left_.assign(first_point_.back(), all);
+}
+
+template <class Visit>
+void SurfaceLeft::for_each_point(std::size_t triangle, const Visit& visit) const {
+    const std::size_t points = first_point_[triangle + 1] - first_point_[triangle];
+    const auto n = static_cast<std::size_t>(std::lround(0.5 * (std::sqrt(8.0 * static_cast<double>(points) + 1) - 1)));
+    const auto& corner = mesh_->triangles[triangle];
+    const Vec3 a = mesh_->points[corner[0]];
+    const Vec3 u = (1.0 / static_cast<double>(std::max<std::size_t>(n, 1))) * (mesh_->points[corner[1]] - a);
+    const Vec3 v = (1.0 / static_cast<double>(std::max<std::size_t>(n, 1))) * (mesh_->points[corner[2]] - a);
+    std::size_t index = first_point_[triangle];
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; i + j < n; ++j) {
+            visit(index++, a + (static_cast<double>(i) + 1.0 / 3) * u + (static_cast<double>(j) + 1.0 / 3) * v);
+        }
+    }
+}
+
+FinishingRegion SurfaceLeft::take(const HeightMap& remaining, double near, double overlap, double worth) {
+    assert(near > 0 && overlap >= 0);
+    FinishingRegion region(remaining.height.size(), not_finished);
+    const std::uint8_t least_before = worth > 0 ? class_of(worth, near) : 0;
+    parallel_ranges(0, mesh_->triangles.size(), triangles_at_once, [&](std::size_t first, std::size_t end) {
+        for (std::size_t t = first; t < end; ++t) {
+            const Vec3 normal = normalized(rotate(remaining.piece_in_map, area_vector(*mesh_, t)));
+            if (!(normal.z > lowest_facing)) continue;
+            for_each_point(t, [&](std::size_t index, Vec3 p) {
+                if (left_[index] <= least_before && (left_[index] == 0 || worth > 0)) return;
+                const Vec3 at = apply(remaining.piece_in_map, p);
+                const std::uint8_t k = foam_class(remaining, at, normal, near);
+                if (k >= left_[index]) return;
+                left_[index] = k;
+                const auto cell = cell_under(remaining, at);
+                if (cell) lower_cell(region[*cell], static_cast<float>(at.z));
+            });
+        }
+    });
+    const double beside = std::max(overlap, spacing_);
+    return grown(region, remaining.columns, remaining.rows,
+                 static_cast<std::size_t>(std::ceil(beside / remaining.cell)));
+}
+
+double SurfaceLeft::share_within(std::size_t k) const {
+    double within = 0;
+    double sum = 0;
+    for (std::size_t t = 0; t < mesh_->triangles.size(); ++t) {
+        const std::size_t points = first_point_[t + 1] - first_point_[t];
+        if (points == 0) continue;
+        const double area = norm(area_vector(*mesh_, t)) / static_cast<double>(points);
+        for (std::size_t i = first_point_[t]; i < first_point_[t + 1]; ++i) {
+            sum += area;
+            if (left_[i] <= k) within += area;
+        }
+    }
+    return sum > 0 ? within / sum : 1;
+}
+
+void add_floor_band(FinishingRegion& region, const HeightMap& target, double width) {
+    assert(region.size() == target.height.size());
+    if (target.height.empty()) return;
+    const float floor = *std::min_element(target.height.begin(), target.height.end());
+    CellMask piece(region.size(), 0);
+    for (std::size_t i = 0; i < piece.size(); ++i) piece[i] = target.height[i] > floor + 1e-3F ? 1 : 0;
+    const auto by = static_cast<std::size_t>(std::ceil(width / target.cell));
+    const CellMask band = grown(piece, target.columns, target.rows, by);
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+        if (band[i] != 0 && piece[i] == 0) region[i] = std::min(region[i], target.height[i]);
+    }
+}
+
+}  // namespace qchopper

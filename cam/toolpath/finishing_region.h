@@ -1,0 +1,57 @@
+// What one direction finishes of a piece: the surface that it reaches better than the directions before.
+//
+// mm. Points on the triangles are compared with the surface that remains where a tool has been everywhere it can go
+// (remaining_surface of tip_surface.h): how far along the normal of the point is what is free.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "cam/setup/height_map.h"
+#include "segment/mesh/triangle_mesh.h"
+
+namespace qchopper {
+
+// Per cell of a map the lowest height of surface that is to be finished; `not_finished` where there is none.
+using FinishingRegion = std::vector<float>;
+constexpr float not_finished = std::numeric_limits<float>::infinity();
+
+// Every cell as low as the lowest at most so many rows and columns from it.
+FinishingRegion grown(const FinishingRegion& region, std::size_t columns, std::size_t rows, std::size_t by);
+
+// What the directions and tools so far have left over the surface of a piece.
+class SurfaceLeft {
+ public:
+    // The base, a cap of that number, is left out, and so are triangles that are ignored. Points are at most `spacing`
+    // apart on a triangle. The mesh must outlive it. Preconditions: the mesh is consistent, spacing > 0.
+    SurfaceLeft(const TriangleMesh& mesh, std::optional<std::int32_t> base, double spacing = 1);
+
+    // The region that is to be finished with a tool from the direction of a map that holds what remains at best then:
+    // the points over which it leaves less foam than has been left so far, and what lies at most `overlap` beside them.
+    // Foam up to `near` is as good as none, and differences count by factors of two from there. With `worth`, only
+    // points that have more foam than that so far. Afterwards the points have what is left now. The result does not
+    // depend on the number of threads. O(points + cells).
+    FinishingRegion take(const HeightMap& remaining, double near, double overlap, double worth = 0);
+
+    // Share of the area over which at most `near` times 2^k is left, of the last `near`.
+    double share_within(std::size_t k) const;
+
+ private:
+    template <class Visit>
+    void for_each_point(std::size_t triangle, const Visit& visit) const;
+
+    const TriangleMesh* mesh_;
+    double spacing_;
+    std::vector<std::size_t> first_point_;  // per triangle, and the end
+    std::vector<std::uint8_t> left_;        // per point: k, or `all`
+};
+
+// Adds the floor within a distance of the projection of the piece: of a map along the base's up, in which the floor is
+// what is lowest.
+void add_floor_band(FinishingRegion& region, const HeightMap& target, double width);
+
+}  // namespace qchopper

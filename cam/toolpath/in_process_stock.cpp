@@ -1,0 +1,193 @@
+// A ray goes down through each cell in steps of a cell. Between two steps and within the cell every point of foam lies
+// within less than a cell of a step, seen from any direction: so each step is compared with the highest of 3 x 3 cells
+// of every other direction's map and one cell above it, and the answer is the step before. Along its own direction the
+// map of that direction tells where the ray begins, exactly. O(cells * steps * directions).
+
+#include "cam/toolpath/in_process_stock.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/box.h"
+#include "base/parallel.h"
+#include "cam/toolpath/disc_max.h"
+#include "cam/toolpath/tip_surface.h"
+
+namespace qchopper {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
+
+Box block_of(const Setup& setup) {
+    const Vec3 half{0.5 * setup.block.size.x, 0.5 * setup.block.size.y, 0};
+    return {-half - Vec3{0, 0, setup.spoil}, half + Vec3{0, 0, setup.block.size.z - setup.spoil}};
+}
+
+// Where a line enters and leaves a box: from the higher parameter to the lower.
+struct Span {
+    double high = infinite;
+    double low = -infinite;
+    bool is_empty() const { return !(high > low); }
+};
+
+Span span_in(const Box& box, Vec3 point, Vec3 along) {
+    Span span;
+    for (int i = 0; i < 3; ++i) {
+        if (std::abs(along[i]) < 1e-12) {
+            if (point[i] < box.min[i] || point[i] > box.max[i]) return {0, 0};
+            continue;
+        }
+        const double a = (box.min[i] - point[i]) / along[i];
+        const double b = (box.max[i] - point[i]) / along[i];
+        span.high = std::min(span.high, std::max(a, b));
+        span.low = std::max(span.low, std::min(a, b));
+    }
+    return span;
+}
+
+// Whether a point of a map's frame lies above the map.
+bool is_above(const HeightMap& map, Vec3 p) {
+    const double column = p.x / map.cell;
+    const double row = p.y / map.cell;
+    if (!(column >= 0 && row >= 0)) return false;
+    const auto c = static_cast<std::size_t>(column);
+    const auto r = static_cast<std::size_t>(row);
+    return c < map.columns && r < map.rows && p.z > static_cast<double>(map.at(c, r));
+}
+
+// What another direction removed, raised so that a sample speaks for all that is less than a cell away.
+struct Raised {
+    HeightMap down_to;
+    Pose ray_in_map;  // from the map that is asked for
+};
+
+class Rays {
+ public:
+    Rays(const Setup& setup, const HeightMap& frame, std::vector<Raised> others) : others_(std::move(others)) {
+        const Pose map_in_setup = setup.piece_in_setup * inverse(frame.piece_in_map);
+        setup_in_map_ = map_in_setup;
+        out_ = rotate(map_in_setup, {0, 0, 1});
+        const double across = std::hypot(out_.x, out_.y);
+        box_ = block_of(setup);
+        const Vec3 more = frame.cell * Vec3{1, 1, across};
+        box_.min = box_.min - more;
+        box_.max = box_.max + more;
+    }
+
+    // The highest foam over a cell whose own direction removed all above `top`.
+    float highest(double x, double y, double top, double step) const {
+        const Span span = span_in(box_, apply(setup_in_map_, {x, y, 0}), out_);
+        if (span.is_empty()) return HeightMap::nothing;
+        const double begin = std::min(span.high, top);
+        std::size_t last = 0;  // what removed the step before is asked first
+        for (double z = begin; z > span.low; z -= step) {
+            if (!is_removed({x, y, z}, last)) return static_cast<float>(std::min(begin, z + step));
+        }
+        return HeightMap::nothing;
+    }
+
+ private:
+    bool is_removed(Vec3 in_map, std::size_t& last) const {
+        if (others_.empty()) return false;
+        for (std::size_t k = 0; k < others_.size(); ++k) {
+            const std::size_t i = (last + k) % others_.size();
+            if (!is_above(others_[i].down_to, apply(others_[i].ray_in_map, in_map))) continue;
+            last = i;
+            return true;
+        }
+        return false;
+    }
+
+    std::vector<Raised> others_;
+    Pose setup_in_map_;  // takes map coordinates to those of the setup
+    Vec3 out_;
+    Box box_;
+};
+
+void sweep_at(HeightMap& map, const CarvingTool& tool, Vec3 tip, double slack) {
+    const double outer = 0.5 * tool.diameter - slack - half_diagonal * map.cell;
+    const auto first = [&](double at) {
+        return static_cast<std::ptrdiff_t>(std::max(0.0, std::ceil((at - outer) / map.cell - 0.5)));
+    };
+    const auto end = [&](double at, std::size_t count) {
+        return std::min(static_cast<std::ptrdiff_t>(count),
+                        static_cast<std::ptrdiff_t>(std::floor((at + outer) / map.cell - 0.5)) + 1);
+    };
+    for (std::ptrdiff_t row = first(tip.y); row < end(tip.y, map.rows); ++row) {
+        for (std::ptrdiff_t column = first(tip.x); column < end(tip.x, map.columns); ++column) {
+            const double r = std::hypot(map.cell * (static_cast<double>(column) + 0.5) - tip.x,
+                                        map.cell * (static_cast<double>(row) + 0.5) - tip.y);
+            if (r > outer) continue;
+            const double above = tool_profile(tool, r + half_diagonal * map.cell + slack);
+            float& own = map.height[static_cast<std::size_t>(row) * map.columns + static_cast<std::size_t>(column)];
+            own = std::min(own, static_cast<float>(tip.z + above + slack));
+        }
+    }
+}
+
+}  // namespace
+
+void sweep(HeightMap& map, const CarvingTool& tool, Vec3 from, Vec3 to, double slack) {
+    const double length = std::hypot(to.x - from.x, to.y - from.y);
+    const auto parts = static_cast<std::size_t>(std::ceil(length / (0.5 * map.cell))) + 1;
+    for (std::size_t i = 0; i <= parts; ++i) {
+        sweep_at(map, tool, from + (static_cast<double>(i) / static_cast<double>(parts)) * (to - from), slack);
+    }
+}
+
+InProcessStock::InProcessStock(const Setup& setup) : setup_(&setup) {}
+
+HeightMap InProcessStock::highest(std::size_t direction, const HeightMap& frame) const {
+    std::vector<Raised> others;
+    const HeightMap* own = nullptr;
+    for (const Removed& removed : removed_) {
+        if (removed.direction == direction) {
+            own = &removed.down_to;
+            continue;
+        }
+        assert(removed.down_to.cell == frame.cell);
+        HeightMap raised = disc_max(removed.down_to, std::numbers::sqrt2 * (frame.cell + 1e-6));
+        for (float& height : raised.height) height += static_cast<float>(frame.cell);
+        others.push_back({std::move(raised), removed.down_to.piece_in_map * inverse(frame.piece_in_map)});
+    }
+    assert(own == nullptr || own->height.size() == frame.height.size());
+    const Rays rays(*setup_, frame, std::move(others));
+    HeightMap highest = frame;
+    parallel_for(0, frame.rows, [&](std::size_t row) {
+        for (std::size_t column = 0; column < frame.columns; ++column) {
+            const double x = frame.cell * (static_cast<double>(column) + 0.5);
+            const double y = frame.cell * (static_cast<double>(row) + 0.5);
+            const double top = own != nullptr ? static_cast<double>(own->at(column, row)) : infinite;
+            highest.height[row * frame.columns + column] = rays.highest(x, y, top, frame.cell);
+        }
+    });
+    return highest;
+}
+
+void InProcessStock::remove_above(std::size_t direction, const HeightMap& map) {
+    for (Removed& removed : removed_) {
+        if (removed.direction != direction) continue;
+        assert(removed.down_to.height.size() == map.height.size());
+        for (std::size_t i = 0; i < map.height.size(); ++i) {
+            removed.down_to.height[i] = std::min(removed.down_to.height[i], map.height[i]);
+        }
+        return;
+    }
+    removed_.push_back({direction, map});
+}
+
+bool InProcessStock::may_be_foam(Vec3 point) const {
+    const Box block = block_of(*setup_);
+    for (int i = 0; i < 3; ++i) {
+        if (point[i] < block.min[i] || point[i] > block.max[i]) return false;
+    }
+    return std::none_of(removed_.begin(), removed_.end(), [&](const Removed& removed) {
+        return is_above(removed.down_to, setup_to_map(*setup_, removed.down_to, point));
+    });
+}
+
+}  // namespace qchopper

@@ -1,0 +1,42 @@
+// Lines of constant height of a tip surface.
+//
+// mm, in the map. The surface is linear between neighbouring middles of cells, but where it falls so far that an edge
+// may lie between them, all of the fall is at the lower one. On the left of a line the surface is not above it.
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "cam/toolpath/tip_view.h"
+#include "segment/mesh/polygon.h"
+
+namespace qchopper {
+
+struct LevelPoint {
+    Point2 at;
+    bool is_at_edge = false;  // all of the fall is here, up to a cell's width beside where the edge is
+    bool operator==(const LevelPoint&) const = default;
+};
+
+struct LevelLine {
+    std::size_t level = 0;
+    // At least two, no two neighbours the same; of a closed line the first is not repeated.
+    std::vector<LevelPoint> points;
+    bool is_closed = false;
+};
+
+// Levels begin at a height and are `step` apart.
+struct Levels {
+    double first = 0;
+    double step = 1;
+    double height(std::size_t level) const { return first + step * static_cast<double>(level); }
+};
+
+// The lines of all levels whose number is `remainder` modulo `divisor`, where a square of four middles begins at a cell
+// of the mask; by level, and otherwise in an order that depends on the map alone. Preconditions: no level of the
+// surface in the mask is below the first one, step > 0, divisor > remainder. O(squares + crossings * log(crossings)).
+std::vector<LevelLine> level_lines(const HeightMap& tip, const CellMask& mask, const Levels& levels,
+                                   std::size_t divisor, std::size_t remainder, double jump);
+
+}  // namespace qchopper

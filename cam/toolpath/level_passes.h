@@ -1,0 +1,22 @@
+// Finishing along levels of a tip surface, where it is steep.
+
+#pragma once
+
+#include <vector>
+
+#include "base/context.h"
+#include "cam/toolpath/finishing_region.h"
+#include "cam/toolpath/pass.h"
+#include "cam/toolpath/raster_passes.h"
+#include "cam/toolpath/tip_view.h"
+
+namespace qchopper {
+
+// Levels over the cells that are allowed, where the tool touches the region. Their distance keeps the scallop height
+// wherever the surface is steeper than `least_slope` (rise over run); between two levels further ones are laid where it
+// curves inwards or is flatter over wanted cells. The lowest level is that of the lowest cell. Preconditions as of
+// raster_passes; the region has the size of the map too.
+std::vector<Pass> level_passes(const HeightMap& tip, const PassCells& cells, const FinishingRegion& region,
+                               double least_slope, const RasterOptions& options, const Context& context = {});
+
+}  // namespace qchopper

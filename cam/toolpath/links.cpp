@@ -1,0 +1,351 @@
+// Ways are looked at in samples half a cell of the foam's map apart, or a cell of the tip limit. Each run lowers the
+// foam as it goes, so that what was carved a moment ago is free. O(samples * (radius / cell)^2).
+
+#include "cam/toolpath/links.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "cam/toolpath/disc_max.h"
+#include "cam/toolpath/in_process_stock.h"
+#include "cam/toolpath/pass_order.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::size_t many_moves = 250;  // a run ends at the next link that goes high
+constexpr std::size_t most_moves = 900;  // a run ends in the middle of a pass
+constexpr double ramp_slope = 0.364;     // tangent of 20 degrees
+constexpr double highest_lift = 5;       // over a ridge between two passes, at the feed of cuts
+constexpr double rounding_share = 0.36;  // of the rounding, how far it passes beside a right-angled corner
+constexpr double holder_clearance = 1;   // mm
+constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
+constexpr double ramp_penalty = 60;                          // mm of way that an entry beside the foam is worth
+
+double least_height(const HeightMap& map, double x, double y) {
+    const double column = std::floor(x / map.cell);
+    const double row = std::floor(y / map.cell);
+    if (column < 0 || row < 0 || column >= static_cast<double>(map.columns) || row >= static_cast<double>(map.rows)) {
+        return -std::numeric_limits<double>::infinity();
+    }
+    return static_cast<double>(map.at(static_cast<std::size_t>(column), static_cast<std::size_t>(row)));
+}
+
+// Linear between the middles of four cells.
+double height_between(const HeightMap& map, double x, double y) {
+    const auto place = [](double at, double cell, std::size_t count, double& part) {
+        const double cells = std::clamp(at / cell - 0.5, 0.0, static_cast<double>(count - 1));
+        const auto first = std::min(static_cast<std::size_t>(cells), count < 2 ? 0 : count - 2);
+        part = cells - static_cast<double>(first);
+        return first;
+    };
+    double u = 0;
+    double v = 0;
+    const std::size_t c = place(x, map.cell, map.columns, u);
+    const std::size_t r = place(y, map.cell, map.rows, v);
+    const auto at = [&](std::size_t i, std::size_t k) {
+        return static_cast<double>(map.at(std::min(c + i, map.columns - 1), std::min(r + k, map.rows - 1)));
+    };
+    return (1 - v) * ((1 - u) * at(0, 0) + u * at(1, 0)) + v * ((1 - u) * at(0, 1) + u * at(1, 1));
+}
+
+Vec3 raised(Vec3 point, double z) {
+    return {point.x, point.y, z};
+}
+
+double length_of(const Pass& pass) {
+    double length = 0;
+    for (std::size_t i = 1; i < pass.points.size(); ++i) length += norm(pass.points[i].tip - pass.points[i - 1].tip);
+    return length;
+}
+
+// The first part of a pass, of a length.
+std::vector<Vec3> beginning_of(const Pass& pass, double length) {
+    std::vector<Vec3> part{pass.points[0].tip};
+    for (std::size_t i = 1; i < pass.points.size() && length > 0; ++i) {
+        const Vec3 next = pass.points[i].tip;
+        const double leg = norm(next - part.back());
+        if (leg <= 0) continue;
+        part.push_back(leg <= length ? next : part.back() + (length / leg) * (next - part.back()));
+        length -= leg;
+    }
+    return part;
+}
+
+}  // namespace
+
+HeightMap holder_limit_over(const HeightMap& foam, const ToolBody& body) {
+    HeightMap limit = foam;
+    std::fill(limit.height.begin(), limit.height.end(), HeightMap::nothing);
+    double above = body.stick_out;
+    for (const HolderStep& step : body.steps) {
+        // Wide steps on cells four times as wide: foam may lie anywhere in its cell, and the tip in its own.
+        const double factor = step.diameter > 80 * foam.cell ? 4 : 1;
+        const HeightMap wide = factor > 1 ? coarser(foam, factor) : foam;
+        const double radius = 0.5 * step.diameter + holder_clearance + 2 * half_diagonal * wide.cell;
+        const HeightMap top = disc_max(wide, radius);
+        const auto drop = static_cast<float>(above - holder_clearance);
+        for (std::size_t row = 0; row < limit.rows; ++row) {
+            const std::size_t under =
+                std::min(static_cast<std::size_t>((static_cast<double>(row) + 0.5) / factor), top.rows - 1);
+            for (std::size_t c = 0; c < limit.columns; ++c) {
+                const std::size_t at =
+                    std::min(static_cast<std::size_t>((static_cast<double>(c) + 0.5) / factor), top.columns - 1);
+                float& own = limit.height[row * limit.columns + c];
+                own = std::max(own, top.at(at, under) - drop);
+            }
+        }
+        above += step.length;
+    }
+    return limit;
+}
+
+// What is on a straight way from the tip to another place.
+struct RunBuilder::Way {
+    double length = 0;
+    double foam = -std::numeric_limits<double>::infinity();  // highest that the tool may touch
+    double limit = foam;                                     // of the tip
+    double holder = foam;
+    double over_limit = foam;  // most by which the limit is above the way
+    double over_holder = foam;
+    double over_foam = foam;
+    double over_flute = foam;  // most by which foam under the tool is above the flute
+};
+
+RunBuilder::RunBuilder(CarvingSpace& space, const CarvingTool& tool, const Operation& operation, LinkOptions options)
+    : space_(&space), tool_(&tool), operation_(&operation), options_(options) {
+    const double radius = 0.5 * tool.diameter;
+    const double cell = space.foam.cell;
+    outer_ = radius + (half_diagonal + 0.25) * cell + rounding_share * operation.rounding;
+    inner_ = std::max(0.0, radius - 2 * half_diagonal * cell);
+}
+
+double RunBuilder::foam_near(Vec3 at, double radius) const {
+    return static_cast<double>(disc_max_at(space_->foam, at.x, at.y, radius));
+}
+
+double RunBuilder::limit_at(double x, double y) const {
+    return space_->is_limit_between ? height_between(*space_->tip_limit, x, y) : least_height(*space_->tip_limit, x, y);
+}
+
+double RunBuilder::holder_at(double x, double y) const {
+    return least_height(space_->holder_limit, x, y);
+}
+
+bool RunBuilder::needs_ramp(Vec3 at) const {
+    return foam_near(at, inner_) > at.z + 0.1;
+}
+
+RunBuilder::Way RunBuilder::way_to(Vec3 to) const {
+    Way way;
+    const Vec3 line = to - at_;
+    way.length = norm(line);
+    const double across = std::hypot(line.x, line.y);
+    const double fine = space_->is_limit_between ? space_->tip_limit->cell : 0.5 * space_->tip_limit->cell;
+    const auto samples = static_cast<std::size_t>(across / fine) + 1;
+    const auto every = std::max<std::size_t>(1, static_cast<std::size_t>(0.5 * space_->foam.cell / fine));
+    for (std::size_t i = 0; i <= samples; ++i) {
+        const Vec3 p = at_ + (static_cast<double>(i) / static_cast<double>(samples)) * line;
+        const double limit = limit_at(p.x, p.y);
+        way.limit = std::max(way.limit, limit);
+        way.over_limit = std::max(way.over_limit, limit - p.z);
+        if (i % every != 0 && i != samples) continue;
+        const double foam = foam_near(p, outer_);
+        const double holder = holder_at(p.x, p.y);
+        way.foam = std::max(way.foam, foam);
+        way.over_foam = std::max(way.over_foam, foam - p.z);
+        way.holder = std::max(way.holder, holder);
+        way.over_holder = std::max(way.over_holder, holder - p.z);
+        way.over_flute = std::max(way.over_flute, foam_near(p, inner_) - p.z - tool_->flute_length);
+    }
+    return way;
+}
+
+void RunBuilder::move(Vec3 tip, MoveKind kind, bool is_rounded) {
+    if (kind == MoveKind::cut || kind == MoveKind::approach) {
+        const double slack = rounding_share * operation_->rounding;
+        sweep(space_->foam, *tool_, at_, tip, slack);
+        sweep(space_->removed, *tool_, at_, tip, slack);
+    }
+    if (norm(tip - at_) > 1e-6) run_.moves.push_back({tip, kind, is_rounded});
+    at_ = tip;
+}
+
+void RunBuilder::begin_run(Vec3 at) {
+    run_ = {};
+    at_ = raised(at, space_->retract);
+    run_.start = at_;
+}
+
+void RunBuilder::end_run() {
+    if (run_.moves.empty()) return;
+    move(raised(at_, space_->retract), MoveKind::retract);
+    runs_.push_back(std::move(run_));
+    run_ = {};
+}
+
+void RunBuilder::hop_to(Vec3 to, double height) {
+    move(raised(at_, height), MoveKind::retract, true);
+    move(raised(to, height), MoveKind::link, true);
+}
+
+void RunBuilder::ramp(const Pass& pass, double top) {
+    const double down = top - pass.points[0].tip.z;
+    const double whole = down / ramp_slope;
+    std::vector<Vec3> part = beginning_of(pass, std::min(0.5 * whole, length_of(pass)));
+    double length = 0;
+    for (std::size_t i = 1; i < part.size(); ++i) length += norm(part[i] - part[i - 1]);
+    const auto pairs = static_cast<std::size_t>(std::ceil(whole / (2 * length) - 1e-9));
+    const double slope = down / (2 * length * static_cast<double>(pairs));
+    double z = top;
+    for (std::size_t traverse = 0; traverse < 2 * pairs; ++traverse) {
+        for (std::size_t i = 1; i < part.size(); ++i) {
+            z -= slope * norm(part[i] - part[i - 1]);
+            move(raised(part[i], std::max(z, part[i].z)), MoveKind::cut, i + 1 < part.size());
+        }
+        std::reverse(part.begin(), part.end());
+    }
+    move(pass.points[0].tip, MoveKind::cut);
+}
+
+// From above the first point.
+void RunBuilder::enter(const Pass& pass) {
+    const Vec3 first = pass.points[0].tip;
+    const double clear = std::max(first.z, foam_near(first, outer_)) + options_.gap;
+    if (clear < at_.z) move(raised(first, clear), MoveKind::link);
+    const bool is_ramped = options_.has_ramps && length_of(pass) >= least_ramp && needs_ramp(first);
+    double top = std::max(first.z, foam_near(first, inner_));
+    if (is_ramped) {
+        for (const Vec3& p : beginning_of(pass, (top - first.z) / ramp_slope))
+            top = std::max(top, foam_near(p, inner_));
+    }
+    if (top + options_.gap < at_.z) move(raised(first, top + options_.gap), MoveKind::cut);
+    if (!is_ramped) return move(first, MoveKind::approach);
+    if (top < at_.z) move(raised(first, top), MoveKind::approach);
+    ramp(pass, std::min(top, at_.z));
+}
+
+void RunBuilder::go_to(const Pass& pass) {
+    const Vec3 to = pass.points[0].tip;
+    if (run_.moves.empty()) {
+        begin_run(to);
+        return enter(pass);
+    }
+    if (std::hypot(to.x - at_.x, to.y - at_.y) > options_.stay_down) {
+        end_run();
+        begin_run(to);
+        return enter(pass);
+    }
+    const Way way = way_to(to);
+    const bool is_free = way.over_limit <= 1e-3 && way.over_holder <= 0;
+    if (is_free && way.over_foam <= 0) return move(to, MoveKind::link);
+    const double height = std::max({way.foam, way.limit, way.holder, at_.z, to.z}) + options_.clearance;
+    const double hop_s = (2 * height - at_.z - to.z + way.length) / operation_->link_feed + 0.3 +
+                         2 * options_.gap / std::max(1.0, operation_->approach_feed);
+    const bool is_cut_shorter = way.length / operation_->feed <= hop_s;
+    if (is_cut_shorter && way.over_flute <= 0 && way.over_holder <= 0) {
+        if (is_free) return move(to, MoveKind::cut);
+        if (space_->is_limit_between && way.over_limit < highest_lift) {
+            const double lift = way.over_limit + 0.01;
+            const Vec3 end = to;
+            move(raised(at_, at_.z + lift), MoveKind::cut);
+            move(raised(end, end.z + lift), MoveKind::cut);
+            return move(end, MoveKind::cut);
+        }
+    }
+    if (height >= space_->retract - options_.clearance || run_.moves.size() >= many_moves) {
+        end_run();
+        begin_run(to);
+    } else {
+        hop_to(to, height);
+    }
+    enter(pass);
+}
+
+void RunBuilder::add_pass(const Pass& pass) {
+    assert(pass.points.size() >= 2);
+    go_to(pass);
+    for (std::size_t i = 1; i < pass.points.size(); ++i) {
+        const bool is_last = i + 1 == pass.points.size();
+        if (run_.moves.size() >= most_moves) {
+            Pass rest;
+            rest.points.assign(pass.points.begin() + static_cast<std::ptrdiff_t>(i) - 1, pass.points.end());
+            end_run();
+            begin_run(rest.points[0].tip);
+            enter(rest);
+        }
+        move(pass.points[i].tip, MoveKind::cut, pass.points[i].is_rounded && !is_last);
+    }
+}
+
+void RunBuilder::add(const std::vector<Pass>& passes) {
+    PassOrder order(passes);
+    while (const std::optional<PassEntry> entry = order.take_nearest(at_)) {
+        Pass pass = begun_at(passes[entry->pass], entry->point);
+        // An open pass is rather begun beside the foam.
+        if (options_.has_ramps && !pass.is_closed && needs_ramp(pass.points[0].tip)) {
+            const Vec3 other = pass.points.back().tip;
+            const double more = norm(other - at_) - norm(pass.points[0].tip - at_);
+            if (more < ramp_penalty && !needs_ramp(other)) std::reverse(pass.points.begin(), pass.points.end());
+        }
+        add_pass(pass);
+    }
+}
+
+std::vector<PathRun> RunBuilder::finish() {
+    end_run();
+    return std::move(runs_);
+}
+
+std::vector<Pass> clipped(const std::vector<Pass>& passes, const CarvingSpace& space, const CarvingTool& tool) {
+    const double inner = std::max(0.0, 0.5 * tool.diameter - 2 * half_diagonal * space.foam.cell);
+    const auto is_allowed = [&](Vec3 p) {
+        return least_height(space.holder_limit, p.x, p.y) <= p.z &&
+               static_cast<double>(disc_max_at(space.foam, p.x, p.y, inner)) <= p.z + tool.flute_length;
+    };
+    std::vector<Pass> parts;
+    for (const Pass& pass : passes) {
+        Pass part;
+        bool is_whole = true;
+        const auto end_part = [&] {
+            is_whole = false;
+            if (part.points.size() >= 2) parts.push_back(part);
+            part = {};
+        };
+        for (std::size_t i = 0; i < pass.points.size(); ++i) {
+            const PassPoint& point = pass.points[i];
+            if (i > 0) {
+                const Vec3 from = pass.points[i - 1].tip;
+                const auto samples = static_cast<std::size_t>(norm(point.tip - from) / (0.5 * space.foam.cell)) + 1;
+                Vec3 before = from;
+                for (std::size_t k = 1; k < samples; ++k) {
+                    const Vec3 p = from + (static_cast<double>(k) / static_cast<double>(samples)) * (point.tip - from);
+                    const bool is_in = is_allowed(p);
+                    if (is_in && part.points.empty()) part.points.push_back({p, false});
+                    if (!is_in && !part.points.empty()) {
+                        if (norm(before - part.points.back().tip) > 0) part.points.push_back({before, false});
+                        end_part();
+                    }
+                    before = p;
+                }
+                if (!is_allowed(point.tip) && !part.points.empty()) {
+                    if (norm(before - part.points.back().tip) > 0) part.points.push_back({before, false});
+                    end_part();
+                }
+            }
+            if (is_allowed(point.tip))
+                part.points.push_back(point);
+            else
+                is_whole = false;
+        }
+        part.is_closed = is_whole && pass.is_closed;
+        if (part.points.size() >= 2) parts.push_back(part);
+    }
+    return parts;
+}
+
+}  // namespace qchopper

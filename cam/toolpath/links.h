@@ -1,0 +1,92 @@
+// Joins passes to runs: which pass comes next, and how the tool comes to it.
+//
+// mm, in the frame of the height maps of one direction. A link at its own feed touches no foam: the whole tool must be
+// clear of all that may be foam. Where that is not known, the way is driven at the feed of cuts
+// (tests/cam/toolpath/links_test.cpp).
+//
+// The tool comes to a pass straight, where the way is clear or may be cut; else over what stands between; else through
+// the retract plane. It comes down at the feed of links to just above the foam. A pass of roughing is entered on a ramp
+// along itself, unless it begins beside the foam. Plunges, at the feed of approaches: in finishing, through what
+// roughing left, and in roughing where a pass is shorter than least_ramp.
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "cam/cell/carving_tool.h"
+#include "cam/setup/height_map.h"
+#include "cam/setup/holder_limit.h"
+#include "cam/toolpath/pass.h"
+#include "cam/toolpath/toolpath.h"
+
+namespace qchopper {
+
+constexpr double least_ramp = 3;  // mm
+
+// What is around the tool in one direction. All maps have the frame of the passes; those of foam and holder have the
+// same cells.
+struct CarvingSpace {
+    const HeightMap* tip_limit = nullptr;  // least height of the tip
+    bool is_limit_between = true;          // the limit holds between middles of cells too; else each cell has its own
+    HeightMap foam;                        // highest foam; runs lower it
+    HeightMap removed;                     // down to where runs removed everything, infinite elsewhere; runs lower it
+    HeightMap holder_limit;                // least height of the tip over what the foam is, or was
+    double retract = 0;                    // height of the retract plane
+};
+
+// The least height of the tip at which holder and spindle stay clear of foam, for each cell of its map.
+// O(cells * widest radius / cell).
+HeightMap holder_limit_over(const HeightMap& foam, const ToolBody& body);
+
+struct LinkOptions {
+    bool has_ramps = false;  // of roughing
+    double stay_down = 300;  // longest straight way to the next pass that is looked at
+    double gap = 2;          // above foam, where an approach begins
+    double clearance = 3;    // above what a link goes over
+};
+
+class RunBuilder {
+ public:
+    // The space, the tool and the operation, whose feeds and rounding are looked at, must outlive it.
+    RunBuilder(CarvingSpace& space, const CarvingTool& tool, const Operation& operation, LinkOptions options);
+
+    // Adds passes, nearest first. O(passes + length of the links / cell * (radius / cell)^2).
+    void add(const std::vector<Pass>& passes);
+
+    // The runs in map coordinates, at most about 300 moves each where a link goes high anyway, never more than 1000.
+    std::vector<PathRun> finish();
+
+ private:
+    struct Way;
+    void add_pass(const Pass& pass);
+    void begin_run(Vec3 at);
+    void end_run();
+    void go_to(const Pass& pass);
+    void hop_to(Vec3 to, double height);
+    void enter(const Pass& pass);
+    void ramp(const Pass& pass, double top);
+    void move(Vec3 tip, MoveKind kind, bool is_rounded = false);
+    Way way_to(Vec3 to) const;
+
+    double foam_near(Vec3 at, double radius) const;
+    double limit_at(double x, double y) const;
+    double holder_at(double x, double y) const;
+    bool needs_ramp(Vec3 at) const;
+
+    CarvingSpace* space_;
+    const CarvingTool* tool_;
+    const Operation* operation_;
+    LinkOptions options_;
+    double outer_ = 0;  // radius within which a cell may hold foam that the tool touches
+    double inner_ = 0;  // radius within which all of a cell lies under the tool
+    Vec3 at_;
+    PathRun run_;
+    std::vector<PathRun> runs_;
+};
+
+// The parts of passes along which the tip stays above the holder's limit and removes nothing above its flute.
+// O(length / cell * (radius / cell)^2).
+std::vector<Pass> clipped(const std::vector<Pass>& passes, const CarvingSpace& space, const CarvingTool& tool);
+
+}  // namespace qchopper

@@ -1,0 +1,214 @@
+// One operation at a time: maps of its direction, passes, runs; then the stock learns what the runs removed. The maps
+// of finishing are let go before the next operation.
+
+#include "cam/toolpath/make_toolpath.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "cam/setup/holder_limit.h"
+#include "cam/toolpath/finishing.h"
+#include "cam/toolpath/finishing_region.h"
+#include "cam/toolpath/in_process_stock.h"
+#include "cam/toolpath/links.h"
+#include "cam/toolpath/roughing.h"
+#include "cam/toolpath/tip_surface.h"
+
+namespace qchopper {
+namespace {
+
+constexpr double cells_per_radius = 6;  // of the tool of the roughing, in the maps of foam
+constexpr double border_cells = 6;
+constexpr double surface_spacing = 1;  // mm, between points that are asked what is left over them
+constexpr double clear_of_table = 2;   // mm
+constexpr double skin_cells = 2.5;     // by which foam may be known as more than it is
+
+// Height along a direction, in setup coordinates, in which the tool comes and goes (carving_poses.h).
+double retract_height(const Setup& setup, Vec3 out, double clearance) {
+    const Vec3 half{0.5 * setup.block.size.x, 0.5 * setup.block.size.y, 0};
+    const double top = std::max(0.0, out.z) * (setup.block.size.z - setup.spoil);
+    return std::abs(out.x) * half.x + std::abs(out.y) * half.y + top + clearance;
+}
+
+class ToolpathMaker {
+ public:
+    ToolpathMaker(const Setup& setup, const TriangleMesh& mesh, const Cell& cell, const ToolpathSettings& settings,
+                  const Context& context)
+        : setup_(setup),
+          mesh_(mesh),
+          cell_(cell),
+          machine_(*cell.machine),
+          settings_(settings),
+          context_(context),
+          tools_(choose_tools(machine_, settings)),
+          stock_(setup),
+          left_(mesh, setup.base, surface_spacing) {
+        check_settings(settings, machine_, tools_);
+        coarse_cell_ = 0.5 * machine_.tools[tools_.roughing].diameter / cells_per_radius;
+        double widest = 0;
+        for (const CarvingTool& tool : machine_.tools) widest = std::max(widest, 0.5 * tool.diameter);
+        border_ = widest + border_cells * coarse_cell_;
+    }
+
+    Toolpath make() {
+        const std::size_t directions = setup_.reach.directions.size();
+        total_ = (tools_.fine ? 4 : 3) * directions;
+        for (std::size_t d = 0; d < directions; ++d) rough_along(d, tools_.roughing);
+        for (std::size_t d = 0; d < directions; ++d) rough_along(d, tools_.finishing);
+        for (std::size_t d = 0; d < directions; ++d) finish_along(d, tools_.finishing, OperationKind::finishing);
+        for (std::size_t d = 0; d < directions && tools_.fine; ++d) {
+            finish_along(d, *tools_.fine, OperationKind::fine_finishing);
+        }
+        report();
+        if (toolpath_.operations.empty()) {
+            throw InputError(InputFault::use, "the toolpath is empty: no tool has anything to cut",
+                             "check the block, the tools and the base of the piece");
+        }
+        toolpath_.cell = settings_.cell;
+        toolpath_.path_tolerance = settings_.path_tolerance;
+        return std::move(toolpath_);
+    }
+
+ private:
+    void report() {
+        context_.check_cancelled();
+        context_.progress("operations of the toolpath", done_++, total_);
+    }
+
+    Vec3 out_of(std::size_t direction) const {
+        return rotate(setup_.piece_in_setup, setup_.reach.directions[direction].out);
+    }
+
+    HeightMap target(std::size_t direction, double cell, double floor_z) const {
+        return target_map(setup_, mesh_, direction, {cell, floor_z, border_});
+    }
+
+    ToolBody body_of(std::size_t tool) const { return tool_body(machine_.tools[tool], machine_.spindle); }
+
+    // Fills what is the same for all kinds of operation.
+    CarvingSpace space_of(const HeightMap& coarse, const Operation& operation) const {
+        CarvingSpace space;
+        space.foam = stock_.highest(operation.direction, coarse);
+        space.removed = coarse;
+        std::fill(space.removed.height.begin(), space.removed.height.end(), std::numeric_limits<float>::infinity());
+        space.retract = operation.retract + setup_to_map(setup_, coarse, {}).z;
+        return space;
+    }
+
+    void rough_along(std::size_t direction, std::size_t tool_index) {
+        report();
+        const CarvingTool& tool = machine_.tools[tool_index];
+        const bool is_first = direction == 0 && tool_index == tools_.roughing;
+        const bool is_large = tool_index == tools_.roughing;
+        Operation operation = new_operation(direction, tool_index, OperationKind::roughing);
+        operation.step = settings_.step_share * tool.diameter;
+        operation.step_down = step_down_of(tool, settings_);
+        operation.allowance = is_large ? settings_.allowance : settings_.fine_allowance;
+        operation.rounding = std::min(settings_.roughing_rounding, operation.allowance / 1.5);
+        const HeightMap piece = target(direction, coarse_cell_, 0);
+        HeightMap tip = tip_surface(piece, tool, operation.allowance);
+        raise_to_holder(tip, piece, body_of(tool_index), setup_.piece_in_setup);
+        CarvingSpace space = space_of(piece, operation);
+        space.tip_limit = &tip;
+        space.is_limit_between = false;
+        RoughingOptions options;
+        if (!is_first) {
+            options = {operation.step_down, settings_.allowance + skin_cells * coarse_cell_};
+        }
+        std::vector<PathRun> runs = rough(space, tool, body_of(tool_index), operation, options, context_);
+        add(std::move(operation), space, std::move(runs));
+    }
+
+    void finish_along(std::size_t direction, std::size_t tool_index, OperationKind kind) {
+        report();
+        const CarvingTool& tool = machine_.tools[tool_index];
+        FinishingOptions options;
+        options.scallop = kind == OperationKind::finishing ? settings_.scallop : settings_.fine_scallop;
+        options.path_tolerance = settings_.path_tolerance;
+        options.rounding = settings_.rounding;
+        Operation operation = new_operation(direction, tool_index, kind);
+        operation.step = finishing_step(tool, options);
+        operation.scallop = options.scallop;
+        operation.rounding = settings_.rounding;
+        // The ball goes below the base, so that it carves the sides down to it, but not into the table.
+        const double floor_z = std::max(-0.5 * tool.diameter, clear_of_table - setup_.spoil);
+        HeightMap tip;
+        const FinishingRegion region = finishing_region(operation, floor_z, tip);
+        const bool is_empty = std::all_of(region.begin(), region.end(), [](float low) { return low == not_finished; });
+        if (is_empty) return;
+        const HeightMap coarse = target(direction, coarse_cell_, 0);
+        CarvingSpace space = space_of(coarse, operation);
+        space.tip_limit = &tip;
+        space.holder_limit = holder_limit_over(space.foam, body_of(tool_index));
+        std::vector<Pass> passes = finishing_passes(tip, tool, region, options, context_);
+        RunBuilder runs(space, tool, operation, {});
+        runs.add(clipped(passes, space, tool));
+        std::vector<PathRun> joined = runs.finish();
+        add(std::move(operation), space, std::move(joined));
+    }
+
+    // What the operation finishes; leaves the tip surface in `tip`.
+    FinishingRegion finishing_region(const Operation& operation, double floor_z, HeightMap& tip) {
+        const CarvingTool& tool = machine_.tools[operation.tool];
+        const HeightMap piece = target(operation.direction, settings_.cell, floor_z);
+        tip = tip_surface(piece, tool);
+        raise_to_holder(tip, piece, body_of(operation.tool), setup_.piece_in_setup);
+        const bool is_fine = operation.kind == OperationKind::fine_finishing;
+        const double near = operation.scallop + settings_.cell;
+        FinishingRegion region = left_.take(remaining_surface(tip, tool), near, operation.step, is_fine ? near : 0);
+        if (operation.direction == 0 && !is_fine) add_floor_band(region, piece, tool.diameter);
+        return region;
+    }
+
+    Operation new_operation(std::size_t direction, std::size_t tool, OperationKind kind) const {
+        Operation operation = operation_of(machine_, tool, kind, direction);
+        operation.retract = retract_height(setup_, out_of(direction), cell_.clearance);
+        return operation;
+    }
+
+    // An operation without runs is left out.
+    void add(Operation operation, const CarvingSpace& space, std::vector<PathRun> runs) {
+        if (runs.empty()) return;
+        for (PathRun& run : runs) {
+            run.start = map_to_setup(setup_, space.foam, run.start);
+            for (PathMove& move : run.moves) move.tip = map_to_setup(setup_, space.foam, move.tip);
+        }
+        operation.runs = std::move(runs);
+        stock_.remove_above(operation.direction, space.removed);
+        toolpath_.operations.push_back(std::move(operation));
+    }
+
+    const Setup& setup_;
+    const TriangleMesh& mesh_;
+    const Cell& cell_;
+    const CellMachine& machine_;
+    const ToolpathSettings& settings_;
+    const Context& context_;
+    ToolChoice tools_;
+    InProcessStock stock_;
+    SurfaceLeft left_;
+    double coarse_cell_ = 1;
+    double border_ = 0;
+    std::size_t done_ = 0;
+    std::size_t total_ = 0;
+    Toolpath toolpath_;
+};
+
+}  // namespace
+
+Toolpath make_toolpath(const Setup& setup, const TriangleMesh& mesh, const Cell& cell, const ToolpathSettings& settings,
+                       const Context& context) {
+    assert(!setup.reach.directions.empty());
+    if (!cell.machine) {
+        throw InputError(InputFault::config, "the cell file tells no tools: it is of version 1",
+                         "give a cell file of version 2");
+    }
+    return ToolpathMaker(setup, mesh, cell, settings, context).make();
+}
+
+}  // namespace qchopper

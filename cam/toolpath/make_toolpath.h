@@ -1,0 +1,25 @@
+// The toolpath of a setup with the tools of a cell (toolpath.h).
+//
+// mm. Roughing of all directions comes first, then finishing of all, then fine finishing, so that each tool is taken
+// once; within a tool directions come in the order of the setup. Before finishing, its tool clears where the tool of
+// the roughing was too thick. All is judged against the foam that stands at that time (in_process_stock.h). The result
+// does not depend on the number of threads (tests/cam/toolpath/make_toolpath_test.cpp).
+
+#pragma once
+
+#include "base/context.h"
+#include "cam/cell/cell.h"
+#include "cam/setup/setup.h"
+#include "cam/toolpath/toolpath.h"
+#include "cam/toolpath/toolpath_settings.h"
+#include "segment/mesh/triangle_mesh.h"
+
+namespace qchopper {
+
+// At least one operation. Reports operations done; can be cancelled. Preconditions: the mesh is that of the piece, and
+// setup.reach.directions is not empty. Throws InputError: config if the cell has no machine (version 1) or no tool for
+// it, use if a setting is not valid, if maps would have too many cells, or if no operation has anything to cut.
+Toolpath make_toolpath(const Setup& setup, const TriangleMesh& mesh, const Cell& cell,
+                       const ToolpathSettings& settings = {}, const Context& context = {});
+
+}  // namespace qchopper

@@ -1,0 +1,33 @@
+// Roughing along one direction: level by level, from the top of the foam down to the allowance above the piece.
+//
+// mm, in the frame of the maps of that direction.
+
+#pragma once
+
+#include <vector>
+
+#include "base/context.h"
+#include "cam/cell/carving_tool.h"
+#include "cam/setup/height_map.h"
+#include "cam/setup/holder_limit.h"
+#include "cam/toolpath/links.h"
+#include "cam/toolpath/toolpath.h"
+
+namespace qchopper {
+
+struct RoughingOptions {
+    // Foam that another direction or a larger tool left on its surface is left to finishing: what is not higher than
+    // `skin_height`, or lies at most `skin_width` inside the rim of the tool. Both 0 in the first direction.
+    double skin_height = 0;
+    double skin_width = 0;
+};
+
+// Runs in map coordinates that leave no foam higher than a level's height above the tip limit where the tool comes to
+// it; none where there is nothing to do. The space is that of the direction: its tip limit has the cells of the foam
+// and includes the allowance, foam and removed are lowered. The step, step_down and the feeds are the operation's. No
+// cut removes foam above the flute, and holder and spindle stay clear of foam at every level: what they keep from is
+// left. Checks for cancellation at each level. O(levels * cells * widest radius / cell).
+std::vector<PathRun> rough(CarvingSpace& space, const CarvingTool& tool, const ToolBody& body,
+                           const Operation& operation, const RoughingOptions& options, const Context& context);
+
+}  // namespace qchopper

@@ -1,0 +1,40 @@
+// The passes that clear a region of one level of roughing: along the rim of where the tip may go, and in rows.
+//
+// mm, in the frame of the map. Every point of a pass, and every cell under the line to the next one, is in the region
+// (tests/cam/toolpath/roughing_passes_test.cpp).
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "cam/toolpath/pass.h"
+
+namespace qchopper {
+
+// Per cell of a map, row by row.
+struct LevelRegion {
+    double cell = 1;  // mm
+    std::size_t columns = 0;
+    std::size_t rows = 0;
+    std::vector<std::uint8_t> is_allowed;  // the tip may be there
+    std::vector<std::uint8_t> is_wanted;   // it has something to do there; looked at where it is allowed
+
+    bool allowed(std::ptrdiff_t column, std::ptrdiff_t row) const { return is_in(is_allowed, column, row); }
+    bool wanted(std::ptrdiff_t column, std::ptrdiff_t row) const {
+        return allowed(column, row) && is_in(is_wanted, column, row);
+    }
+
+ private:
+    bool is_in(const std::vector<std::uint8_t>& cells, std::ptrdiff_t column, std::ptrdiff_t row) const {
+        return column >= 0 && row >= 0 && static_cast<std::size_t>(column) < columns &&
+               static_cast<std::size_t>(row) < rows &&
+               cells[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)] != 0;
+    }
+};
+
+// At a height, with rows at most `step` apart. O(cells + points * length of the lines).
+std::vector<Pass> roughing_passes(const LevelRegion& region, double height, double step);
+
+}  // namespace qchopper

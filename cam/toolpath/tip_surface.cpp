@@ -1,0 +1,205 @@
+// Drop-cutter on a height map: dilation by the tool (K. Suresh and D. C. H. Yang, "Constant scallop-height machining of
+// free-form surfaces", 1994, for the offset; J. Serra, "Image analysis and mathematical morphology", 1982, for the
+// dilation). The tool is round, so the two rows at one distance from its axis share their terms: the larger of the two
+// is taken first, and of two columns likewise. A chunk of a row is done at a time; rows and columns whose highest cell
+// could not raise the lowest of the chunk are left out, which changes no result.
+// O(cells * (radius / cell)^2 / 4) at most.
+
+#include "cam/toolpath/tip_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "base/parallel.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::size_t chunk = 64;        // cells of a row
+constexpr std::size_t block = 32;        // cells of a row of which the highest is known
+constexpr std::size_t rows_at_once = 8;  // of a map
+
+// A tool of any of the shapes, and the points within a distance of it.
+struct RoundProfile {
+    double radius = 0;
+    double corner = 0;      // radius of the tip or of the rounded edge
+    double half_angle = 0;  // of a cone; 0: the edge ends in the shank
+
+    double height(double r) const {
+        if (r > radius) return std::numeric_limits<double>::infinity();
+        if (half_angle > 0) {
+            const double tangent = corner * std::cos(half_angle);
+            if (r > tangent) return corner * (1 - std::sin(half_angle)) + (r - tangent) / std::tan(half_angle);
+            return corner - std::sqrt(corner * corner - r * r);
+        }
+        const double over = r - (radius - corner);
+        return over <= 0 ? 0 : corner - std::sqrt(std::max(0.0, corner * corner - over * over));
+    }
+};
+
+RoundProfile profile_of(const CarvingTool& tool, double allowance) {
+    const double radius = 0.5 * tool.diameter + allowance;
+    if (tool.shape == ToolShape::cone) return {radius, tool.corner_radius + allowance, 0.5 * tool.tip_angle};
+    if (tool.shape == ToolShape::ball) return {radius, radius, 0};
+    return {radius, (tool.shape == ToolShape::flat ? 0 : tool.corner_radius) + allowance, 0};
+}
+
+// The distance of the nearest point of a cell from the middle of one that lies so many cells beside.
+double nearest(std::size_t columns, std::size_t rows, double cell) {
+    const auto past = [cell](std::size_t n) { return n == 0 ? 0 : cell * (static_cast<double>(n) - 0.5); };
+    return std::hypot(past(columns), past(rows));
+}
+
+void check_allowance(double allowance) {
+    if (allowance >= 0 && std::isfinite(allowance)) return;
+    throw InputError(InputFault::use, "allowance is not a length from zero on", "give another value");
+}
+
+}  // namespace
+
+double tool_profile(const CarvingTool& tool, double r) {
+    assert(r >= 0);
+    return profile_of(tool, 0).height(r);
+}
+
+TipDilation::TipDilation(const HeightMap& target, const CarvingTool& tool, double allowance) {
+    check_allowance(allowance);
+    const RoundProfile profile = profile_of(tool, allowance);
+    for (std::size_t row = 0; nearest(0, row, target.cell) <= profile.radius; ++row) {
+        std::vector<float> drops;
+        for (std::size_t column = 0; nearest(column, row, target.cell) <= profile.radius; ++column) {
+            const double above = profile.height(nearest(column, row, target.cell));
+            drops.push_back(static_cast<float>(allowance - above));
+        }
+        drop_.push_back(drops);
+    }
+    take(target);
+}
+
+TipDilation TipDilation::of_negative_tips(const HeightMap& negative_tip, const CarvingTool& tool) {
+    TipDilation dilation;
+    const RoundProfile profile = profile_of(tool, 0);
+    const auto distance = [&](std::size_t columns, std::size_t rows) {
+        return negative_tip.cell * std::hypot(static_cast<double>(columns), static_cast<double>(rows));
+    };
+    for (std::size_t row = 0; distance(0, row) <= profile.radius; ++row) {
+        std::vector<float> drops;
+        for (std::size_t column = 0; distance(column, row) <= profile.radius; ++column) {
+            drops.push_back(static_cast<float>(-profile.height(distance(column, row))));
+        }
+        dilation.drop_.push_back(drops);
+    }
+    dilation.take(negative_tip);
+    return dilation;
+}
+
+void TipDilation::take(const HeightMap& target) {
+    target_ = &target;
+    blocks_ = (target.columns + block - 1) / block;
+    block_top_.resize(blocks_ * target.rows);
+    parallel_for(0, target.rows, [&](std::size_t row) {
+        const float* own = &target.height[row * target.columns];
+        for (std::size_t b = 0; b < blocks_; ++b) {
+            block_top_[row * blocks_ + b] =
+                *std::max_element(own + b * block, own + std::min(target.columns, (b + 1) * block));
+        }
+    });
+}
+
+float TipDilation::highest(std::size_t row, std::size_t first, std::size_t end) const {
+    const float* tops = &block_top_[row * blocks_];
+    return *std::max_element(tops + first / block, tops + (end - 1) / block + 1);
+}
+
+void TipDilation::fill_chunk(std::size_t row, std::size_t first, std::size_t count, float* tip, float* pair) const {
+    const HeightMap& map = *target_;
+    std::array<float, chunk> own;
+    own.fill(HeightMap::nothing);
+    for (std::size_t dy = 0; dy < drop_.size(); ++dy) {
+        const std::vector<float>& drops = drop_[dy];
+        const std::size_t reach = drops.size() - 1;
+        // The cells from which the chunk is reached, and of those the ones in the map.
+        const std::size_t from = first > reach ? first - reach : 0;
+        const std::size_t end = std::min(map.columns, first + count + reach);
+        const bool has_below = row >= dy;
+        const bool has_above = row + dy < map.rows;
+        if (!has_below && !has_above) break;
+        float top = has_below ? highest(row - dy, from, end) : HeightMap::nothing;
+        if (has_above) top = std::max(top, highest(row + dy, from, end));
+        const float lowest = *std::min_element(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(count));
+        if (top + drops[0] <= lowest) continue;
+        std::fill_n(pair, chunk + 2 * reach, HeightMap::nothing);
+        float* in_map = pair + (from + reach - first);
+        const float* below = &map.height[(has_below ? row - dy : row + dy) * map.columns];
+        const float* above = &map.height[(has_above ? row + dy : row - dy) * map.columns];
+        for (std::size_t c = from; c < end; ++c) in_map[c - from] = std::max(below[c], above[c]);
+        for (std::size_t dx = 0; dx <= reach && top + drops[dx] > lowest; ++dx) {
+            const float* left = pair + (reach - dx);
+            const float* right = pair + (reach + dx);
+            const float drop = drops[dx];
+            for (std::size_t c = 0; c < chunk; ++c) own[c] = std::max(own[c], std::max(left[c], right[c]) + drop);
+        }
+    }
+    std::copy_n(own.begin(), count, tip);
+}
+
+void TipDilation::fill(std::size_t row, std::size_t first, std::size_t end, float* tip) const {
+    assert(row < target_->rows && end <= target_->columns);
+    std::vector<float> pair(chunk + 2 * drop_[0].size());
+    for (std::size_t c = first; c < end; c += chunk) {
+        fill_chunk(row, c, std::min(chunk, end - c), tip + (c - first), pair.data());
+    }
+}
+
+namespace {
+
+HeightMap filled(const HeightMap& map, const TipDilation& dilation) {
+    HeightMap result = map;
+    parallel_ranges(0, map.rows, rows_at_once, [&](std::size_t first, std::size_t end) {
+        for (std::size_t row = first; row < end; ++row) {
+            dilation.fill(row, 0, map.columns, &result.height[row * map.columns]);
+        }
+    });
+    return result;
+}
+
+}  // namespace
+
+HeightMap tip_surface(const HeightMap& target, const CarvingTool& tool, double allowance) {
+    return filled(target, TipDilation(target, tool, allowance));
+}
+
+HeightMap remaining_surface(const HeightMap& tip, const CarvingTool& tool) {
+    HeightMap negative = tip;
+    for (float& z : negative.height) z = -z;
+    HeightMap remaining = filled(negative, TipDilation::of_negative_tips(negative, tool));
+    for (float& z : remaining.height) z = -z;
+    return remaining;
+}
+
+bool raise_to_holder(HeightMap& tip, const HeightMap& target, const ToolBody& body, const Pose& piece_in_setup) {
+    assert(tip.columns == target.columns && tip.rows == target.rows);
+    if (body.steps.empty()) return false;
+    double narrowest = body.steps.front().diameter;
+    for (const HolderStep& step : body.steps) narrowest = std::min(narrowest, step.diameter);
+    // Both the tip and the obstacle may lie anywhere in their cells, sqrt(2) of them farther apart or nearer. The cells
+    // are wider for the wider steps: (12 + 1.725) / 12 = 1.144, and 1.144 * sqrt(2) < 1.725.
+    const double wide = std::max(2 * target.cell, 0.5 * narrowest / 12);
+    ToolBody grown = body;
+    for (HolderStep& step : grown.steps) step.diameter += 2 * 1.725 * wide;
+    HeightMap limit = target;
+    raise_to_holder_limit(limit, grown, piece_in_setup);
+    bool is_raised = false;
+    for (std::size_t i = 0; i < tip.height.size(); ++i) {
+        if (!(limit.height[i] > tip.height[i])) continue;
+        tip.height[i] = limit.height[i];
+        is_raised = true;
+    }
+    return is_raised;
+}
+
+}  // namespace qchopper

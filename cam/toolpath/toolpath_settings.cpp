@@ -1,0 +1,143 @@
+// One pass over the tools per choice. O(tools).
+
+#include "cam/toolpath/toolpath_settings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+
+namespace qchopper {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what, const std::string& to_do = "give another value") {
+    throw InputError(InputFault::use, what, to_do);
+}
+
+using IsBetter = std::function<bool(const CarvingTool&, const CarvingTool&)>;
+using IsMeant = std::function<bool(const CarvingTool&)>;
+
+// The best of the tools that are meant, the first of equal ones.
+std::optional<std::size_t> best(const std::vector<CarvingTool>& tools, const IsMeant& is_meant,
+                                const IsBetter& is_better) {
+    std::optional<std::size_t> found;
+    for (std::size_t i = 0; i < tools.size(); ++i) {
+        if (is_meant(tools[i]) && (!found || is_better(tools[i], tools[*found]))) found = i;
+    }
+    return found;
+}
+
+bool is_ball(const CarvingTool& tool) {
+    return tool.shape == ToolShape::ball;
+}
+
+bool is_larger(const CarvingTool& a, const CarvingTool& b) {
+    return a.diameter > b.diameter;
+}
+
+std::size_t given(const CellMachine& machine, std::size_t tool, const std::string& name, bool must_be_ball) {
+    if (tool >= machine.tools.size()) refuse(name + ": the cell has no tool at place " + std::to_string(tool + 1));
+    if (must_be_ball && !is_ball(machine.tools[tool])) {
+        refuse(name + ": tool " + std::to_string(machine.tools[tool].number) + " is not ball-ended");
+    }
+    return tool;
+}
+
+std::size_t roughing_tool(const std::vector<CarvingTool>& tools) {
+    const auto found = best(
+        tools, [](const CarvingTool& t) { return is_ball(t) || t.shape == ToolShape::flat; },
+        [](const CarvingTool& a, const CarvingTool& b) {
+            return std::pair(a.diameter, a.shape == ToolShape::flat) >
+                   std::pair(b.diameter, b.shape == ToolShape::flat);
+        });
+    if (!found)
+        throw InputError(InputFault::config, "the cell has no flat or ball-ended tool", "add one to the cell file");
+    return *found;
+}
+
+std::size_t finishing_tool(const std::vector<CarvingTool>& tools, double roughing_diameter) {
+    const IsMeant is_smaller = [&](const CarvingTool& t) { return is_ball(t) && t.diameter < roughing_diameter; };
+    auto found = best(tools, is_smaller, is_larger);
+    if (!found) found = best(tools, is_ball, is_larger);
+    if (!found) throw InputError(InputFault::config, "the cell has no ball-ended tool", "add one to the cell file");
+    return *found;
+}
+
+std::optional<std::size_t> fine_tool(const std::vector<CarvingTool>& tools, double finishing_diameter) {
+    return best(
+        tools, [&](const CarvingTool& t) { return is_ball(t) && t.diameter < finishing_diameter; },
+        [](const CarvingTool& a, const CarvingTool& b) { return a.diameter < b.diameter; });
+}
+
+void check_scallop(double scallop, const CarvingTool& tool, const std::string& name) {
+    if (!(scallop < 0.5 * tool.diameter))
+        refuse(name + " is not less than the radius of tool " + std::to_string(tool.number));
+}
+
+}  // namespace
+
+ToolChoice choose_tools(const CellMachine& machine, const ToolpathSettings& settings) {
+    const std::vector<CarvingTool>& tools = machine.tools;
+    ToolChoice choice;
+    choice.roughing =
+        settings.roughing_tool ? given(machine, *settings.roughing_tool, "roughing_tool", false) : roughing_tool(tools);
+    choice.finishing = settings.finishing_tool ? given(machine, *settings.finishing_tool, "finishing_tool", true)
+                                               : finishing_tool(tools, tools[choice.roughing].diameter);
+    if (!settings.has_fine_finishing) return choice;
+    choice.fine = settings.fine_tool ? given(machine, *settings.fine_tool, "fine_tool", true)
+                                     : fine_tool(tools, tools[choice.finishing].diameter);
+    if (choice.fine && tools[*choice.fine].diameter >= tools[choice.finishing].diameter) {
+        refuse("fine_tool is not smaller than the tool of the finishing");
+    }
+    return choice;
+}
+
+double step_down_of(const CarvingTool& tool, const ToolpathSettings& settings) {
+    if (settings.step_down > tool.flute_length) {
+        refuse("step_down is deeper than the flute of tool " + std::to_string(tool.number) + " is long",
+               "give at most " + std::to_string(std::lround(std::floor(tool.flute_length))) + " mm");
+    }
+    return std::min(settings.step_down, 0.75 * tool.diameter);
+}
+
+void check_settings(const ToolpathSettings& settings, const CellMachine& machine, const ToolChoice& tools) {
+    const std::vector<std::pair<const char*, double>> positive{
+        {"scallop", settings.scallop},     {"fine_scallop", settings.fine_scallop},
+        {"cell", settings.cell},           {"path_tolerance", settings.path_tolerance},
+        {"step_down", settings.step_down}, {"step_share", settings.step_share}};
+    for (const auto& [name, value] : positive) {
+        if (!(value > 0) || !std::isfinite(value)) refuse(std::string(name) + " of the toolpath is not above zero");
+    }
+    const std::vector<std::pair<const char*, double>> not_negative{{"allowance", settings.allowance},
+                                                                   {"fine_allowance", settings.fine_allowance},
+                                                                   {"rounding", settings.rounding},
+                                                                   {"roughing_rounding", settings.roughing_rounding}};
+    for (const auto& [name, value] : not_negative) {
+        if (!(value >= 0) || !std::isfinite(value)) refuse(std::string(name) + " of the toolpath is below zero");
+    }
+    if (settings.step_share >= 1) refuse("step_share of the toolpath is not less than 1");
+    if (settings.fine_allowance > settings.allowance) refuse("fine_allowance is more than allowance");
+    step_down_of(machine.tools[tools.roughing], settings);
+    step_down_of(machine.tools[tools.finishing], settings);
+    check_scallop(settings.scallop, machine.tools[tools.finishing], "scallop");
+    if (tools.fine) check_scallop(settings.fine_scallop, machine.tools[*tools.fine], "fine_scallop");
+}
+
+Operation operation_of(const CellMachine& machine, std::size_t tool, OperationKind kind, std::size_t direction) {
+    const CarvingTool& used = machine.tools[tool];
+    Operation operation;
+    operation.kind = kind;
+    operation.tool = tool;
+    operation.direction = direction;
+    operation.feed = used.feed_max_mm_per_s;
+    operation.approach_feed = std::max(used.feed_min_mm_per_s, 0.5 * used.feed_max_mm_per_s);
+    operation.link_feed = std::max(machine.program.link_feed_mm_per_s, operation.feed);
+    operation.rpm = used.rpm_max;
+    return operation;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,56 @@
+// What a toolpath is asked for, and with which tools of a cell it is made. Lengths in mm, speeds in mm/s.
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "cam/cell/cell.h"
+#include "cam/toolpath/toolpath.h"
+
+namespace qchopper {
+
+struct ToolpathSettings {
+    double scallop = 0.25;       // height of the ridges that finishing leaves at most where the tool fits
+    double fine_scallop = 0.25;  // the same of fine finishing
+    double path_tolerance = 0.1;
+    double cell = 0.25;                        // of the maps for finishing
+    double allowance = 1.5;                    // that roughing leaves
+    double fine_allowance = 0.5;               // that roughing with the tool of the finishing leaves
+    double step_down = 15;                     // largest height of a level of roughing
+    double step_share = 0.6;                   // largest distance between passes of roughing, of the tool's diameter
+    double rounding = 1;                       // see PathMove::is_rounded: of finishing
+    double roughing_rounding = 1;              // the same of roughing; at most two thirds of the allowance
+    std::optional<std::size_t> roughing_tool;  // index in CellMachine::tools; nothing: chosen by choose_tools()
+    std::optional<std::size_t> finishing_tool;
+    std::optional<std::size_t> fine_tool;  // only if the finishing tool is given too
+    bool has_fine_finishing = true;        // where there is a tool for it
+};
+
+// Indices in CellMachine::tools.
+struct ToolChoice {
+    std::size_t roughing = 0;
+    std::size_t finishing = 0;
+    std::optional<std::size_t> fine;  // smaller than the tool of the finishing
+};
+
+// Roughing: the largest flat or ball-ended tool, of equal ones a flat one, then the first. Finishing: the largest ball
+// that is smaller than that; else the largest. Fine finishing: the smallest ball, if it is smaller than that of
+// finishing. Throws InputError: config if the cell has no ball-ended tool, use if a tool of the settings is not in the
+// cell or finishing is asked of one that is not ball-ended.
+ToolChoice choose_tools(const CellMachine& machine, const ToolpathSettings& settings);
+
+// Height of the levels of roughing with a tool: at most that of the settings and three quarters of its diameter. Throws
+// InputError (use) if that of the settings is more than the length of the tool's flute.
+double step_down_of(const CarvingTool& tool, const ToolpathSettings& settings);
+
+// Throws InputError (use), which names the setting, if one is not finite or not above zero (allowances may be zero),
+// if the distance between passes is not less than the diameter, or the scallop height not less than the radius of the
+// tool of the finishing.
+void check_settings(const ToolpathSettings& settings, const CellMachine& machine, const ToolChoice& tools);
+
+// Feeds and speed of a tool, in an operation without runs. A cut has the largest feed of the tool's window, an approach
+// half of that but at least the least one, links the cell's.
+Operation operation_of(const CellMachine& machine, std::size_t tool, OperationKind kind, std::size_t direction);
+
+}  // namespace qchopper

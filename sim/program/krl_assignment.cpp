@@ -1,0 +1,126 @@
+// A chain of names; each knows the range of its value.
+
+#include "sim/program/krl_assignment.h"
+
+#include <numbers>
+
+#include "sim/program/krl_aggregate.h"
+
+namespace qchopper {
+namespace {
+
+constexpr double radian = std::numbers::pi / 180;
+constexpr double per_metre = 1000;           // mm
+constexpr double largest_speed = 3;          // m/s
+constexpr double largest_acceleration = 20;  // m/s2
+constexpr double largest_turn = 3600;        // degrees/s
+
+// The value of NAME = value.
+double value_of(KrlLine& line, double least, double largest) {
+    line.need('=');
+    return line.number(least, largest);
+}
+
+double above_zero(KrlLine& line, double largest) {
+    const double value = value_of(line, 0, largest);
+    if (value <= 0) line.refuse("the value must be above 0");
+    return value;
+}
+
+// [i] = percent
+void read_axis(KrlLine& line, std::array<double, 6>& shares) {
+    line.need('[');
+    const std::uint32_t axis = line.integer(1, 6);
+    line.need(']');
+    shares[axis - 1] = above_zero(line, 100) / 100;
+}
+
+// EK(MACHINE_DEF[n].ROOT,MACHINE_DEF[n].MECH_TYPE,{...})
+void read_chained_base(KrlLine& line, ModalState& state) {
+    const auto machine = [&](std::string_view member) {
+        line.need_word("machine_def");
+        line.need('[');
+        const std::uint32_t n = line.integer(2, 7);
+        line.need(']');
+        line.need('.');
+        line.need_word(member);
+        line.need(',');
+        return n;
+    };
+    line.need('(');
+    const std::uint32_t root = machine("root");
+    const std::uint32_t type = machine("mech_type");
+    if (root != type) line.refuse("the base is chained to two machines");
+    state.base = read_frame(line);
+    line.need(')');
+    state.base_machine = root;
+}
+
+void read_base(KrlLine& line, ModalState& state) {
+    line.need('=');
+    if (line.takes_word("ek")) return read_chained_base(line, state);
+    state.base = read_frame(line);
+    state.base_machine = 0;
+}
+
+void read_speed(KrlLine& line, ModalState& state, StatedHere& stated) {
+    line.need('.');
+    const std::string which = line.word();
+    if (which == "cp") {
+        state.feed = per_metre * above_zero(line, largest_speed);
+        stated.feed = true;
+    } else if (which == "ori1" || which == "ori2") {
+        state.turn_speed[which == "ori1" ? 0 : 1] = radian * above_zero(line, largest_turn);
+    } else {
+        line.refuse("$VEL." + which + " is not known");
+    }
+}
+
+void read_acceleration(KrlLine& line, ModalState& state, StatedHere& stated) {
+    line.need('.');
+    line.need_word("cp");
+    state.acceleration = per_metre * above_zero(line, largest_acceleration);
+    stated.acceleration = true;
+}
+
+void read_rounding(KrlLine& line, ModalState& state) {
+    line.need('.');
+    line.need_word("cdis");
+    state.rounding = value_of(line, 0, per_metre);
+}
+
+}  // namespace
+
+bool read_assignment(const std::string& name, KrlLine& line, ModalState& state, StatedHere& stated) {
+    if (name == "$advance") {
+        state.look_ahead = static_cast<int>((line.need('='), line.integer(0, 5)));
+    } else if (name == "$apo") {
+        read_rounding(line, state);
+    } else if (name == "$vel") {
+        read_speed(line, state, stated);
+    } else if (name == "$acc") {
+        read_acceleration(line, state, stated);
+    } else if (name == "$vel_axis") {
+        read_axis(line, state.axis_speed);
+    } else if (name == "$acc_axis") {
+        read_axis(line, state.axis_acceleration);
+    } else if (name == "$load") {
+        line.need('=');
+        state.load = read_load(line);
+    } else if (name == "$tool") {
+        line.need('=');
+        state.tool = read_frame(line);
+        stated.tool = true;
+        stated.pose = false;
+    } else if (name == "$base") {
+        read_base(line, state);
+        stated.base = true;
+        stated.pose = false;
+    } else {
+        return false;
+    }
+    line.need_end();
+    return true;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,107 @@
+// Character by character; numbers by std::from_chars, which knows no locale.
+
+#include "sim/program/krl_line.h"
+
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace qchopper {
+namespace {
+
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+bool is_of_word(char c) {
+    return is_digit(c) || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' || c == '$';
+}
+
+char lower(char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+}  // namespace
+
+void refuse_line(const std::string& file, std::size_t line, const std::string& why) {
+    throw InputError(InputFault::mesh, "program " + file + ", line " + std::to_string(line) + ": " + why,
+                     "Make the job again; the program was not written by this version, or it was changed.");
+}
+
+void KrlLine::pass_space() {
+    while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t')) rest_.remove_prefix(1);
+}
+
+std::string KrlLine::word() {
+    pass_space();
+    std::string found;
+    if (!rest_.empty() && is_digit(rest_.front())) return found;
+    while (!rest_.empty() && is_of_word(rest_.front())) {
+        found += lower(rest_.front());
+        rest_.remove_prefix(1);
+    }
+    return found;
+}
+
+bool KrlLine::takes_word(std::string_view wanted) {
+    const std::string_view before = rest_;
+    if (word() == wanted) return true;
+    rest_ = before;
+    return false;
+}
+
+bool KrlLine::takes(char c) {
+    pass_space();
+    if (rest_.empty() || rest_.front() != c) return false;
+    rest_.remove_prefix(1);
+    return true;
+}
+
+void KrlLine::need(char c) {
+    if (!takes(c)) refuse(std::string("\"") + c + "\" is missing");
+}
+
+void KrlLine::need_word(std::string_view wanted) {
+    if (!takes_word(wanted)) refuse("\"" + std::string(wanted) + "\" is missing");
+}
+
+double KrlLine::number(double least, double largest) {
+    pass_space();
+    std::size_t length = 0;
+    std::size_t digits = 0;
+    std::size_t points = 0;
+    if (length < rest_.size() && rest_[length] == '-') ++length;
+    for (; length < rest_.size() && (is_digit(rest_[length]) || rest_[length] == '.'); ++length) {
+        rest_[length] == '.' ? ++points : ++digits;
+    }
+    if (digits == 0 || points > 1 || digits > 15) refuse("a number is missing or has no valid form");
+    if (length < rest_.size() && is_of_word(rest_[length])) refuse("a number is followed by a letter");
+    double value = 0;
+    const auto result = std::from_chars(rest_.data(), rest_.data() + length, value, std::chars_format::fixed);
+    if (result.ec != std::errc() || result.ptr != rest_.data() + length) refuse("a number has no valid form");
+    rest_.remove_prefix(length);
+    if (!(value >= least && value <= largest)) {
+        refuse(significant(value, 10) + " is not between " + significant(least, 6) + " and " + significant(largest, 6));
+    }
+    return value;
+}
+
+std::uint32_t KrlLine::integer(std::uint32_t least, std::uint32_t largest) {
+    const double value = number(least, largest);
+    if (value != std::floor(value)) refuse("a whole number is needed");
+    return static_cast<std::uint32_t>(value);
+}
+
+bool KrlLine::at_end() {
+    pass_space();
+    return rest_.empty();
+}
+
+void KrlLine::need_end() {
+    if (!at_end()) refuse("\"" + std::string(rest_.substr(0, 20)) + "\" is not expected here");
+}
+
+}  // namespace qchopper

@@ -1,0 +1,47 @@
+// The words of one line of a KRL program, and the error for a line that cannot be interpreted.
+//
+// O(characters passed); nothing is kept but views into the text (tests/sim/program/krl_reader_test.cpp).
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace qchopper {
+
+// Throws InputError (mesh) with file and line.
+[[noreturn]] void refuse_line(const std::string& file, std::size_t line, const std::string& why);
+
+// Reads a line from left to right. What is asked for and does not stand there is refused by refuse_line().
+class KrlLine {
+ public:
+    // Both texts must outlive it.
+    KrlLine(std::string_view text, const std::string& file, std::size_t line)
+        : rest_(text), file_(&file), line_(line) {}
+
+    // The next word: letters, digits, _ and $, in lower case; empty if none begins here.
+    std::string word();
+    // Whether the next word is this one, in lower case, which is then passed.
+    bool takes_word(std::string_view lower);
+    // Whether the next character, white space passed, is this one, which is then passed.
+    bool takes(char c);
+    void need(char c);
+    void need_word(std::string_view lower);
+    // Digits with or without a point, and perhaps a minus, between these bounds. An exponent is refused.
+    double number(double least, double largest);
+    std::uint32_t integer(std::uint32_t least, std::uint32_t largest);
+    bool at_end();
+    void need_end();
+    [[noreturn]] void refuse(const std::string& why) const { refuse_line(*file_, line_, why); }
+
+ private:
+    void pass_space();
+
+    std::string_view rest_;
+    const std::string* file_;
+    std::size_t line_;
+};
+
+}  // namespace qchopper

@@ -1,0 +1,313 @@
+// The main program is executed line by line; a call of a chunk executes the chunk's lines at its place.
+
+#include "sim/program/krl_reader.h"
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "base/error.h"
+#include "sim/program/krl_aggregate.h"
+#include "sim/program/krl_assignment.h"
+#include "sim/program/krl_file.h"
+
+namespace qchopper {
+namespace {
+
+constexpr double radian = std::numbers::pi / 180;
+constexpr std::size_t most_files = 20'000;
+constexpr std::uint32_t most_outputs = 8192;
+constexpr int look_ahead_restored = 3;
+
+struct Source {
+    KrlFile file;
+    std::uint32_t number = 0;  // in ParsedProgram::files
+    bool is_executed = false;
+};
+
+class KrlExecution {
+ public:
+    KrlExecution(std::span<const ProgramFile> files, std::string_view main, const KrlOptions& options);
+    ParsedProgram run();
+
+ private:
+    void check_data(const KrlFile& file) const;
+    void execute(Source& source, bool is_main);
+    void execute_line(const Source& source, std::size_t at, bool is_main);
+    void read_ptp(KrlLine& line);
+    void read_lin(KrlLine& line);
+    bool read_signal(const std::string& name, KrlLine& line);
+    void read_wait(KrlLine& line);
+    void read_init(KrlLine& line, bool is_main);
+    void read_halt(const Source& source, std::size_t at, KrlLine& line);
+    void read_call(const std::string& name, KrlLine& line, bool is_main);
+    void check_before_lin(const KrlLine& line, const KrlAggregate& target) const;
+    void check_end() const;
+    void begin_chunk(bool is_main);
+    void end_chunk();
+    ProgramStep& add(StepKind kind);
+    std::uint32_t text(const std::string& words);
+
+    ParsedProgram program_;
+    std::map<std::string, Source> sources_;  // by stem
+    std::string main_;
+    std::vector<std::string> calls_;
+    ModalState state_;
+    StatedHere stated_;
+    SourcePlace place_;
+    std::array<double, 6> pose_{};
+    std::optional<double> e1_;
+    bool is_initialised_ = false;
+    bool has_moved_ = false;  // in the chunk that is executed
+    std::optional<SourcePlace> chained_, without_e1_, with_e1_;
+    std::map<std::string, std::uint32_t> text_numbers_;
+};
+
+KrlExecution::KrlExecution(std::span<const ProgramFile> files, std::string_view main, const KrlOptions& options)
+    : main_(lower_case(main)) {
+    if (files.size() > most_files) refuse_line(main_, 1, "there are more than 20,000 files");
+    for (const std::string& name : options.calls) calls_.push_back(lower_case(name));
+    std::vector<std::string> data;
+    for (const ProgramFile& file : files) {
+        const KrlFile read = read_krl_file(file);
+        if (!read.is_source) {
+            check_data(read);
+            data.push_back(read.stem);
+            continue;
+        }
+        const auto number = static_cast<std::uint32_t>(program_.files.size());
+        if (!sources_.insert({read.stem, {read, number, false}}).second)
+            refuse_line(file.name, 1, "the file is there twice");
+        program_.files.push_back(file.name);
+    }
+    std::sort(data.begin(), data.end());
+    for (std::size_t i = 0; i < data.size(); ++i) {
+        if (!sources_.contains(data[i])) refuse_line(data[i] + ".dat", 1, "it belongs to no program");
+        if (i > 0 && data[i] == data[i - 1]) refuse_line(data[i] + ".dat", 1, "the file is there twice");
+    }
+    if (!sources_.contains(main_)) refuse_line(main_ + ".src", 1, "the main program is missing");
+}
+
+void KrlExecution::check_data(const KrlFile& file) const {
+    for (std::size_t i = file.first; i < file.end; ++i) {
+        if (!is_krl_comment(file.lines[i])) refuse_line(*file.name, i + 1, "a .dat holds comments alone");
+    }
+}
+
+ParsedProgram KrlExecution::run() {
+    program_.states.push_back(state_);
+    execute(sources_.at(main_), true);
+    for (const auto& [stem, source] : sources_) {
+        if (!source.is_executed) refuse_line(*source.file.name, 1, "the program is never called");
+    }
+    check_end();
+    return std::move(program_);
+}
+
+void KrlExecution::begin_chunk(bool is_main) {
+    stated_ = {};
+    has_moved_ = false;
+    program_.chunks.push_back({place_.file, program_.steps.size(), program_.steps.size(), is_main});
+}
+
+void KrlExecution::end_chunk() {
+    program_.chunks.back().end = program_.steps.size();
+}
+
+void KrlExecution::execute(Source& source, bool is_main) {
+    source.is_executed = true;
+    place_ = {source.number, 0};
+    begin_chunk(is_main);
+    for (std::size_t i = source.file.first; i < source.file.end; ++i) {
+        place_ = {source.number, static_cast<std::uint32_t>(i + 1)};
+        if (!is_krl_comment(source.file.lines[i])) execute_line(source, i, is_main);
+    }
+    place_ = {source.number, static_cast<std::uint32_t>(source.file.end + 1)};
+    if (!is_main && !has_moved_) refuse_line(*source.file.name, place_.line, "the chunk has no move");
+    end_chunk();
+}
+
+void KrlExecution::execute_line(const Source& source, std::size_t at, bool is_main) {
+    KrlLine line(source.file.lines[at], *source.file.name, at + 1);
+    const std::string name = line.word();
+    if (name == "ptp") return read_ptp(line);
+    if (name == "lin") return read_lin(line);
+    if (name == "bas") return read_init(line, is_main);
+    if (name == "wait") return read_wait(line);
+    if (name == "halt") return read_halt(source, at, line);
+    if (read_assignment(name, line, state_, stated_)) {
+        if (name == "$base" && state_.base_machine != 0) chained_ = place_;
+        return;
+    }
+    if (read_signal(name, line)) return;
+    read_call(name, line, is_main);
+}
+
+ProgramStep& KrlExecution::add(StepKind kind) {
+    if (!(program_.states.back() == state_)) program_.states.push_back(state_);
+    ProgramStep step;
+    step.kind = kind;
+    step.place = place_;
+    step.state = static_cast<std::uint32_t>(program_.states.size() - 1);
+    program_.steps.push_back(step);
+    return program_.steps.back();
+}
+
+std::uint32_t KrlExecution::text(const std::string& words) {
+    const auto [found, is_new] = text_numbers_.insert({words, static_cast<std::uint32_t>(program_.texts.size())});
+    if (is_new) program_.texts.push_back(words);
+    return found->second;
+}
+
+void KrlExecution::read_ptp(KrlLine& line) {
+    const KrlAggregate target = read_aggregate(line);
+    line.need_end();
+    if ((target.given & ~krl_external) != krl_axes) line.refuse("PTP needs A1 to A6, and E1 on a rotary table");
+    if (!is_initialised_) line.refuse("BAS(#INITMOV,0) must stand before the first move");
+    for (std::size_t axis = 0; axis < 6; ++axis) {
+        if (state_.axis_speed[axis] <= 0 || state_.axis_acceleration[axis] <= 0) {
+            line.refuse("speed or acceleration of axis " + std::to_string(axis + 1) + " was not stated");
+        }
+    }
+    (target.has(KrlComponent::e1) ? with_e1_ : without_e1_) = place_;
+    ProgramStep& step = add(StepKind::joint_move);
+    for (std::size_t axis = 0; axis < 6; ++axis) step.values[axis] = radian * target.value[axis + 6];
+    if (target.has(KrlComponent::e1)) e1_ = radian * target[KrlComponent::e1];
+    step.e1 = e1_;
+    stated_.pose = false;
+    has_moved_ = true;
+}
+
+void KrlExecution::check_before_lin(const KrlLine& line, const KrlAggregate& target) const {
+    if (!has_moved_) line.refuse("the first move must be a PTP");
+    if (!stated_.tool || !stated_.base) line.refuse("$TOOL or $BASE was not stated in this file");
+    if (!stated_.feed || !stated_.acceleration) line.refuse("$VEL.CP or $ACC.CP was not stated in this file");
+    const std::uint32_t given = target.given & ~krl_external;
+    if (given != krl_frame && given != krl_position) line.refuse("LIN needs X, Y, Z, or these and A, B, C");
+    if (given == krl_position && target.has(KrlComponent::e1)) line.refuse("E1 stands with A, B, C only");
+    if (stated_.pose) return;
+    if (given != krl_frame) line.refuse("A, B, C must be stated here");
+    if (target.has(KrlComponent::e1) != (state_.base_machine != 0)) {
+        line.refuse("E1 must be stated here on a rotary table, and nowhere else");
+    }
+}
+
+void KrlExecution::read_lin(KrlLine& line) {
+    const KrlAggregate target = read_aggregate(line);
+    const bool is_rounded = line.takes_word("c_dis");
+    line.need_end();
+    check_before_lin(line, target);
+    const bool is_full = (target.given & krl_frame) == krl_frame;
+    for (std::size_t i = 0; i < 3; ++i) pose_[i] = target.value[i];
+    for (std::size_t i = 3; i < 6 && is_full; ++i) pose_[i] = radian * target.value[i];
+    if (target.has(KrlComponent::e1)) e1_ = radian * target[KrlComponent::e1];
+    ProgramStep& step = add(StepKind::linear_move);
+    step.values = pose_;
+    step.e1 = state_.base_machine != 0 ? e1_ : std::nullopt;
+    step.is_rounded = is_rounded;
+    stated_.pose = true;
+}
+
+bool KrlExecution::read_signal(const std::string& name, KrlLine& line) {
+    const bool is_analog = name == "$anout";
+    if (!is_analog && name != "$out") return false;
+    line.need('[');
+    const std::uint32_t number = line.integer(1, is_analog ? 32 : most_outputs);
+    line.need(']');
+    line.need('=');
+    double value = 0;
+    if (is_analog) {
+        value = line.number(-1, 1);
+    } else {
+        const std::string word = line.word();
+        if (word != "true" && word != "false") line.refuse("an output is TRUE or FALSE");
+        value = word == "true" ? 1 : 0;
+    }
+    line.need_end();
+    ProgramStep& step = add(is_analog ? StepKind::analog_output : StepKind::output);
+    step.number = number;
+    step.value = value;
+    return true;
+}
+
+void KrlExecution::read_wait(KrlLine& line) {
+    line.need_word("for");
+    line.need_word("$in");
+    line.need('[');
+    const std::uint32_t number = line.integer(1, most_outputs);
+    line.need(']');
+    line.need_end();
+    add(StepKind::wait_input).number = number;
+}
+
+void KrlExecution::read_init(KrlLine& line, bool is_main) {
+    line.need('(');
+    line.need('#');
+    line.need_word("initmov");
+    line.need(',');
+    line.integer(0, 0);
+    line.need(')');
+    line.need_end();
+    if (!is_main) line.refuse("BAS stands in the main program only");
+    if (is_initialised_) line.refuse("BAS stands twice");
+    is_initialised_ = true;
+}
+
+void KrlExecution::read_halt(const Source& source, std::size_t at, KrlLine& line) {
+    line.need_end();
+    const std::string_view before = at > source.file.first ? source.file.lines[at - 1] : std::string_view();
+    if (lower_case(before.substr(0, 5)) != ";ask " || before.size() < 6) {
+        line.refuse("what the operator is asked must stand on the line before, after ;ASK");
+    }
+    const std::uint32_t asked = text(std::string(before.substr(5)));
+    add(StepKind::halt).text = asked;
+}
+
+void KrlExecution::read_call(const std::string& name, KrlLine& line, bool is_main) {
+    if (name.empty() || name.front() == '$') line.refuse("this is no line of a program (docs/programs.md)");
+    if (!line.takes('(')) line.refuse("\"" + name + "\" is not known");
+    const bool has_argument = !line.takes(')');
+    const double argument = has_argument ? line.number(-1e6, 1e6) : 0;
+    if (has_argument) line.need(')');
+    line.need_end();
+    const auto found = sources_.find(name);
+    if (found == sources_.end()) {
+        if (std::find(calls_.begin(), calls_.end(), name) == calls_.end()) {
+            line.refuse("the program \"" + name + "\" is neither in the job nor named by the cell");
+        }
+        const std::uint32_t called = text(name);
+        ProgramStep& step = add(StepKind::call);
+        step.text = called;
+        step.has_argument = has_argument;
+        step.value = argument;
+        return;
+    }
+    if (!is_main || has_argument) line.refuse("only the main program calls chunks, and without arguments");
+    if (found->second.is_executed) line.refuse("the program \"" + name + "\" is called twice");
+    const SourcePlace back = place_;
+    end_chunk();
+    execute(found->second, false);
+    place_ = back;
+    begin_chunk(true);
+}
+
+void KrlExecution::check_end() const {
+    const Source& main = sources_.at(main_);
+    const auto refuse = [&](const std::string& why) { refuse_line(*main.file.name, main.file.end + 1, why); };
+    if (state_.look_ahead >= 0 && state_.look_ahead != look_ahead_restored) refuse("$ADVANCE is not restored to 3");
+    if (state_.rounding != 0) refuse("$APO.CDIS is not restored to 0");
+    if (chained_ && without_e1_) {
+        refuse_line(program_.files[without_e1_->file], without_e1_->line, "E1 is missing: the table turns");
+    }
+    if (with_e1_ && !chained_) {
+        refuse_line(program_.files[with_e1_->file], with_e1_->line, "E1 is stated, and no base is chained to a table");
+    }
+}
+
+}  // namespace
+
+ParsedProgram read_krl(std::span<const ProgramFile> files, std::string_view main, const KrlOptions& options) {
+    return KrlExecution(files, main, options).run();
+}
+
+}  // namespace qchopper

@@ -1,0 +1,109 @@
+// A robot program as its text says it, read back: what the arm would do, in the order in which it would do it.
+//
+// Values only; mm, radians, seconds, kg. What a step needs of the lines before it is in its modal state, so that a step
+// is complete without them. Nothing here is shared with what writes programs (docs/programs.md).
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/vec3.h"
+
+namespace qchopper {
+
+// A file of a job, by its name with ending.
+struct ProgramFile {
+    std::string name;
+    std::string text;
+};
+
+// Where a line stands: the number of the file in ParsedProgram::files, and the line from 1.
+struct SourcePlace {
+    std::uint32_t file = 0;
+    std::uint32_t line = 0;
+    bool operator==(const SourcePlace&) const = default;
+};
+
+// X, Y, Z and A, B, C: turns about z, y, x, so that R = Rz(a) Ry(b) Rx(c).
+struct ProgramFrame {
+    Vec3 shift;
+    Vec3 abc;  // radians
+    bool operator==(const ProgramFrame&) const = default;
+};
+
+// The load that the controller reckons with.
+struct ProgramLoad {
+    double mass_kg = 0;
+    ProgramFrame centre;
+    Vec3 inertia;  // kg m2
+    bool operator==(const ProgramLoad&) const = default;
+};
+
+// The values that hold until a line changes them.
+struct ModalState {
+    std::optional<ProgramFrame> tool;
+    std::optional<ProgramFrame> base;
+    std::uint32_t base_machine = 0;  // n of MACHINE_DEF[n] to which the base is chained; 0: it is constant
+    std::optional<ProgramLoad> load;
+    double feed = 0;                     // of the tip, mm/s; 0: not stated
+    double acceleration = 0;             // of the tip, mm/s2; 0: not stated
+    std::array<double, 2> turn_speed{};  // of the orientation, radians/s
+    std::array<double, 6> axis_speed{};  // share of the largest, 0..1; 0: not stated
+    std::array<double, 6> axis_acceleration{};
+    double rounding = 0;  // $APO.CDIS
+    int look_ahead = -1;  // $ADVANCE; -1: not stated
+    bool operator==(const ModalState&) const = default;
+};
+
+enum class StepKind : std::uint8_t {
+    joint_move,   // values: axes 1..6; e1 if the cell has a rotary table
+    linear_move,  // values: X, Y, Z in mm, A, B, C
+    output,       // number; value 1 or 0
+    analog_output,
+    wait_input,
+    halt,  // text: what the operator is asked
+    call   // text: name, in lower case, of a program of the cell; value if it has an argument
+};
+
+struct ProgramStep {
+    StepKind kind = StepKind::halt;
+    bool is_rounded = false;  // linear_move: the corner at its end may be rounded
+    bool has_argument = false;
+    std::uint32_t number = 0;  // of the input or output
+    SourcePlace place;
+    std::uint32_t state = 0;  // index in ParsedProgram::states
+    std::uint32_t text = 0;   // index in ParsedProgram::texts
+    std::array<double, 6> values{};
+    std::optional<double> e1;  // radians; of a linear_move the last one stated
+    double value = 0;
+};
+
+// The steps of one file in a row: of a chunk all of them, of the main program those between two calls.
+struct ProgramChunk {
+    std::uint32_t file = 0;
+    std::size_t first = 0;  // steps first..end-1
+    std::size_t end = 0;
+    bool is_main = false;
+};
+
+// In what a reader returns every index is valid, every number is finite, and every linear_move has a tool, a base and a
+// feed.
+struct ParsedProgram {
+    std::vector<std::string> files;
+    std::vector<std::string> texts;
+    std::vector<ModalState> states;
+    std::vector<ProgramStep> steps;    // in the order of execution
+    std::vector<ProgramChunk> chunks;  // in the order of execution; they cover the steps
+};
+
+// "qc_1_002.src:17"
+inline std::string describe_place(const ParsedProgram& program, SourcePlace place) {
+    return program.files[place.file] + ":" + std::to_string(place.line);
+}
+
+}  // namespace qchopper

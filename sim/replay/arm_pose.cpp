@@ -1,0 +1,134 @@
+// Distances of simple shapes (cam/cell/shape_distance.h); only overlapping is refused.
+
+#include "sim/replay/arm_pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/text.h"
+
+namespace qchopper {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double least_gap = 1e-6;  // mm
+constexpr ArmThresholds thresholds{};
+
+const char* word_of(BodyPart part) {
+    switch (part) {
+        case BodyPart::link:
+            return "link";
+        case BodyPart::spindle:
+            return "spindle";
+        case BodyPart::holder:
+            return "holder";
+        case BodyPart::tool:
+            break;
+    }
+    return "tool";
+}
+
+}  // namespace
+
+void ArmPoses::check_joints(const Joints& joints, SourcePlace place) {
+    const Robot& robot = *cell_.machine->robot;
+    const auto check = [&](FindingKind kind, std::size_t axis, double min, double max) {
+        const double beyond = std::max(min - joints[axis], joints[axis] - max) / degree;
+        if (beyond <= 1e-6) return;
+        log_.add(kind, place, beyond, beyond, [&] {
+            return "axis " + std::to_string(axis + 1) + " is " + fixed(beyond, 2) + " degrees beyond its range";
+        });
+    };
+    for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
+        check(FindingKind::joint_limit, axis, robot.ranges[axis].min, robot.ranges[axis].max);
+    }
+    if (!robot.cable) return;
+    check(FindingKind::cable, 3, robot.cable->axis_4.min, robot.cable->axis_4.max);
+    check(FindingKind::cable, 5, robot.cable->axis_6.min, robot.cable->axis_6.max);
+}
+
+void ArmPoses::check_singularity(const Joints& joints, SourcePlace place) {
+    const ArmSingularity at = singularity(cell_.machine->robot->geometry, joints);
+    const auto refuse = [&](const char* which, double value) {
+        log_.add(FindingKind::singularity, place, value, -value,
+                 [&] { return std::string("the arm is next to its ") + which + " singularity"; });
+    };
+    if (at.wrist < std::sin(thresholds.wrist_deg * degree)) refuse("wrist", at.wrist);
+    if (at.shoulder < thresholds.shoulder_mm) refuse("shoulder", at.shoulder);
+    if (at.elbow < thresholds.elbow) refuse("elbow", at.elbow);
+}
+
+std::optional<Joints> ArmPoses::follow(const Pose& flange, const Joints& now) const {
+    const ArmGeometry& arm = cell_.machine->robot->geometry;
+    const ArmBranch branch = branch_of(arm, now);
+    const ArmAnswers answers = inverse(arm, flange, now);
+    for (const ArmAnswer& answer : answers) {
+        if (!(answer.branch == branch)) continue;
+        Joints joints = answer.joints;
+        for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
+            joints[axis] = now[axis] + std::remainder(joints[axis] - now[axis], 2 * std::numbers::pi);
+        }
+        return joints;
+    }
+    return std::nullopt;
+}
+
+void ArmPoses::collide(const std::string& what, SourcePlace place) {
+    log_.add(FindingKind::collision, place, 0, 0, [&] { return what; });
+}
+
+void ArmPoses::check_bodies(const Joints& joints, const CarvingTool& tool, SourcePlace place) {
+    const MovingBodies bodies = bodies_at(cell_, tool, joints);
+    check_links(bodies, place);
+    for (const AxisBody& body : bodies.on_axis) check_axis_body(bodies, body, place);
+}
+
+void ArmPoses::check_links(const MovingBodies& bodies, SourcePlace place) {
+    for (std::size_t i = 0; i < bodies.links.size(); ++i) {
+        const LinkBody& link = bodies.links[i];
+        const std::string name = "link " + std::to_string(link.link);
+        for (std::size_t j = 0; j < i; ++j) {
+            const LinkBody& other = bodies.links[j];
+            if (may_touch(link.link, other.link) || distance(link.shape, other.shape) > least_gap) continue;
+            collide(name + " meets link " + std::to_string(other.link), place);
+        }
+        if (link.link == 0) continue;
+        if (link.link > 1 && lowest(link.shape) < standing_.floor_z) collide(name + " meets the floor", place);
+        if ((standing_.table && distance(link.shape, *standing_.table) <= least_gap) ||
+            (standing_.rotary && distance(link.shape, *standing_.rotary) <= least_gap)) {
+            collide(name + " meets the table", place);
+        }
+        for (const PlacedBox& box : standing_.obstacles) {
+            if (distance(link.shape, box) <= least_gap) collide(name + " meets an obstacle", place);
+        }
+    }
+}
+
+void ArmPoses::check_axis_body(const MovingBodies& bodies, const AxisBody& body, SourcePlace place) {
+    const std::string name = word_of(body.part);
+    const double low = lowest(body.shape);
+    if (low < standing_.floor_z) collide(name + " meets the floor", place);
+    const double table_top =
+        standing_.rotary ? standing_.rotary->from.z + standing_.rotary->radius * 0.02 : cell_.table.height;
+    if (low <= table_top + least_gap) {
+        if ((standing_.table && distance(body.shape, *standing_.table) <= least_gap) ||
+            (standing_.rotary && distance(body.shape, *standing_.rotary) <= least_gap)) {
+            collide(name + " meets the table", place);
+        }
+    }
+    for (const PlacedBox& box : standing_.obstacles) {
+        if (distance(around(body.shape), box) <= least_gap && distance(body.shape, box) <= least_gap) {
+            collide(name + " meets an obstacle", place);
+        }
+    }
+    const int own = body.part == BodyPart::spindle ? 6 : 7;
+    for (const LinkBody& link : bodies.links) {
+        if (may_touch(own, link.link) || distance(link.shape, around(body.shape)) > least_gap) continue;
+        if (distance(link.shape, body.shape) <= least_gap) {
+            collide(name + " meets link " + std::to_string(link.link), place);
+        }
+    }
+}
+
+}  // namespace qchopper

@@ -1,0 +1,261 @@
+// The rules are those of the facts about carving: a rapid is a joint move or a line faster than the tool's window, and
+// removes nothing; the window holds for lines that remove foam, from half its least feed on the way down.
+
+#include "sim/replay/carve_foam.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "cam/cell/machine_bodies.h"
+#include "sim/program/rounded_corner.h"
+
+namespace qchopper {
+namespace {
+
+constexpr double floor_gap = 2;     // mm of the spoil layer that no tool point enters
+constexpr double written = 0.011;   // mm: what rounding of coordinates may do to a bound
+constexpr int chords = 6;           // of a parabola
+constexpr double straight = 0.001;  // mm of deviation that needs no parabola
+constexpr double rim_step = 8;      // mm between points of a body that is sampled
+
+class Carving {
+ public:
+    Carving(Foam& foam, const ReplayScene& scene, FindingLog& log)
+        : foam_(foam), scene_(scene), machine_(*scene.cell->machine), log_(log) {
+        for (const CarvingTool& tool : machine_.tools) cutters_.push_back(cutter_of(tool));
+    }
+    void take_line(const TipLine& line, const std::vector<Vec3>& way);
+    void take_sweep(const JointSweep& sweep);
+    const CarveFigures& figures() const { return figures_; }
+
+ private:
+    void check_bounds(const TipLine& line, const CarvingTool& tool);
+    void check_cut(const TipLine& line, const CarvingTool& tool, const CutResult& cut);
+    void check_spindle(const TipLine& line, const CarvingTool& tool);
+    void check_feed(const TipLine& line, const CarvingTool& tool);
+    void check_holder(const TipLine& line, const CarvingTool& tool);
+    bool is_body_in_foam(const TipPose& pose, double from, double to, double radius) const;
+    Vec3 out_of(const TipLine& line) const { return scene_.directions[line.direction].out; }
+
+    Foam& foam_;
+    const ReplayScene& scene_;
+    const CellMachine& machine_;
+    FindingLog& log_;
+    std::vector<Cutter> cutters_;
+    CarveFigures figures_;
+};
+
+void Carving::take_line(const TipLine& line, const std::vector<Vec3>& way) {
+    const CarvingTool& tool = machine_.tools[line.tool];
+    check_bounds(line, tool);
+    if (!line.is_aligned) return;
+    CutResult all;
+    for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+        const CutResult cut = foam_.cut(line.direction, cutters_[line.tool], way[i], way[i + 1]);
+        all.touches |= cut.touches;
+        all.volume += cut.volume;
+        all.depth = std::max(all.depth, cut.depth);
+    }
+    const double length = norm(line.to - line.from);
+    const bool is_rapid = line.feed > 1.001 * tool.feed_max_mm_per_s;
+    figures_.removed_mm3 += all.volume;
+    if (is_rapid) ++figures_.rapids;
+    if (!is_rapid) figures_.feed_mm += length;
+    if (!is_rapid && !all.touches) figures_.air_mm += length;
+    if (all.touches) ++figures_.cuts;
+    if (all.touches && is_rapid) {
+        log_.add(FindingKind::rapid_in_foam, line.place, all.depth, all.volume, [&] {
+            return "a rapid of " + fixed(line.feed, 1) + " mm/s removes foam " + fixed(all.depth, 2) + " mm deep";
+        });
+    }
+    if (all.touches) check_cut(line, tool, all);
+    check_holder(line, tool);
+}
+
+void Carving::check_bounds(const TipLine& line, const CarvingTool& tool) {
+    const double low =
+        std::min(lowest_of_tool(tool, line.from, out_of(line)), lowest_of_tool(tool, line.to, out_of(line)));
+    const double least = -scene_.spoil + floor_gap;
+    const double beyond = least - low;
+    if (beyond > written) {
+        log_.add(FindingKind::below_floor, line.place, low, beyond,
+                 [&] { return "a tool point is at z " + fixed(low, 2) + ", the least is " + fixed(least, 2); });
+    }
+    const double link_feed = machine_.program.link_feed_mm_per_s;
+    if (line.feed > 1.001 * std::max(link_feed, tool.feed_max_mm_per_s)) {
+        log_.add(FindingKind::link_feed, line.place, line.feed, line.feed,
+                 [&] { return fixed(line.feed, 1) + " mm/s, links may go at " + fixed(link_feed, 1); });
+    }
+}
+
+void Carving::check_cut(const TipLine& line, const CarvingTool& tool, const CutResult& cut) {
+    check_spindle(line, tool);
+    check_feed(line, tool);
+    if (cut.depth > tool.flute_length + written) {
+        log_.add(FindingKind::deep_cut, line.place, cut.depth, cut.depth, [&] {
+            return fixed(cut.depth, 1) + " mm of foam are cut at once, the flute is " + fixed(tool.flute_length, 1) +
+                   " mm";
+        });
+    }
+    const Vec3 in_cell = apply(scene_.directions[line.direction].setup_in_cell, line.to);
+    const Box& reach = scene_.cell->reach;
+    double beyond = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        beyond = std::max({beyond, reach.min[axis] - in_cell[axis], in_cell[axis] - reach.max[axis]});
+    }
+    if (beyond <= 0.1) return;
+    log_.add(FindingKind::outside_reach, line.place, beyond, beyond,
+             [&] { return "foam is cut " + fixed(beyond, 1) + " mm outside of the reach box of the cell"; });
+}
+
+void Carving::check_spindle(const TipLine& line, const CarvingTool& tool) {
+    const Spindle& spindle = machine_.spindle;
+    if (spindle.on && (!line.spindle.is_on || !line.spindle.has_speed)) {
+        log_.add(FindingKind::spindle_off, line.place, 0, 0, [&] {
+            return line.spindle.is_on ? "foam is cut before the spindle was waited for"
+                                      : "foam is cut without the spindle";
+        });
+    }
+    const double rpm = line.spindle.rpm;
+    if (!spindle.speed || (rpm >= 0.995 * tool.rpm_min && rpm <= 1.005 * tool.rpm_max)) return;
+    log_.add(FindingKind::spindle_speed, line.place, rpm, std::abs(rpm - tool.rpm_min), [&] {
+        return "foam is cut at " + fixed(rpm, 0) + " revolutions/min, tool " + std::to_string(tool.number) +
+               " may do " + std::to_string(tool.rpm_min) + " to " + std::to_string(tool.rpm_max);
+    });
+}
+
+void Carving::check_feed(const TipLine& line, const CarvingTool& tool) {
+    const bool goes_down = dot(line.to - line.from, out_of(line)) < -1e-6;
+    const double least = (goes_down ? 0.5 : 1.0) * tool.feed_min_mm_per_s;
+    if (line.feed >= 0.999 * least) return;
+    log_.add(FindingKind::feed_window, line.place, line.feed, least - line.feed,
+             [&] { return "foam is cut at " + fixed(line.feed, 1) + " mm/s, the least is " + fixed(least, 1); });
+}
+
+void Carving::check_holder(const TipLine& line, const CarvingTool& tool) {
+    const auto check = [&](double radius, double above, const char* what) {
+        const double into = foam_.disc_contact(line.direction, radius, above, line.from, line.to);
+        if (into <= written) return;
+        log_.add(FindingKind::holder_contact, line.place, into, into,
+                 [&] { return std::string(what) + " comes " + fixed(into, 2) + " mm into the foam"; });
+    };
+    double above = tool.stick_out;
+    for (const HolderStep& step : tool.holder) {
+        check(0.5 * step.diameter, above, "the holder");
+        above += step.length;
+    }
+    const Spindle& spindle = machine_.spindle;
+    if (spindle.body_radius > 0) check(spindle.body_radius, above + spindle.body_offset, "the spindle");
+}
+
+bool Carving::is_body_in_foam(const TipPose& pose, double from, double to, double radius) const {
+    const Pose frame = direction_frame(pose.out);
+    const Box& block = foam_.block();
+    const Vec3 low = pose.tip + from * pose.out;
+    const Vec3 high = pose.tip + to * pose.out;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::max(low[axis], high[axis]) + radius <= block.min[axis]) return false;
+        if (std::min(low[axis], high[axis]) - radius >= block.max[axis]) return false;
+    }
+    const auto rings = static_cast<int>(std::ceil((to - from) / rim_step)) + 1;
+    const int around = std::max(8, static_cast<int>(6.3 * radius / rim_step));
+    for (int k = 0; k <= rings; ++k) {
+        const Vec3 middle = low + (static_cast<double>(k) / rings) * (high - low);
+        if (foam_.is_foam(middle)) return true;
+        for (int i = 0; i < around; ++i) {
+            const double angle = 6.283185307179586 * i / around;
+            if (foam_.is_foam(middle + rotate(frame, {radius * std::cos(angle), radius * std::sin(angle), 0})))
+                return true;
+        }
+    }
+    return false;
+}
+
+void Carving::take_sweep(const JointSweep& sweep) {
+    ++figures_.rapids;
+    const CarvingTool& tool = machine_.tools[sweep.tool];
+    const Cutter& cutter = cutters_[sweep.tool];
+    const std::vector<AxisBody> bodies = bodies_on_axis(tool, machine_.spindle);
+    for (const TipPose& pose : sweep.poses) {
+        // The body of the tool without its rounded end, 0.01 mm smaller, and the tip.
+        const double straight_from = cutter.shape == ToolShape::flat ? written : std::max(cutter.corner, written);
+        const bool is_in = foam_.is_foam(pose.tip + written * pose.out) ||
+                           is_body_in_foam(pose, straight_from, tool.stick_out, cutter.radius - written);
+        if (is_in) {
+            log_.add(FindingKind::rapid_in_foam, sweep.place, 0, 0, [] { return "a joint move leads through foam"; });
+            return;
+        }
+        for (const AxisBody& body : bodies) {
+            if (body.part == BodyPart::tool) continue;
+            if (!is_body_in_foam(pose, -body.shape.from.z, -body.shape.to.z, body.shape.radius)) continue;
+            log_.add(FindingKind::holder_contact, sweep.place, 0, 0,
+                     [] { return "holder or spindle comes into the foam on a joint move"; });
+            return;
+        }
+    }
+}
+
+const TipLine* neighbour(const ToolPath& path, std::size_t index, bool is_next) {
+    if (is_next) {
+        const bool goes_on = index + 1 < path.lines.size() && path.lines[index + 1].follows_line;
+        return goes_on ? &path.lines[index + 1] : nullptr;
+    }
+    return index > 0 && path.lines[index].follows_line ? &path.lines[index - 1] : nullptr;
+}
+
+}  // namespace
+
+double lowest_of_tool(const CarvingTool& tool, Vec3 tip, Vec3 out) {
+    const Cutter cutter = cutter_of(tool);
+    if (cutter.shape == ToolShape::cone) return tip.z;
+    const double sine = std::sqrt(std::max(0.0, 1 - out.z * out.z));
+    return tip.z + cutter.corner * out.z - cutter.corner - (cutter.radius - cutter.corner) * sine;
+}
+
+std::vector<Vec3> rounded_way(const TipLine* before, const TipLine& line, const TipLine* after) {
+    std::vector<Vec3> way;
+    const auto corner_of = [](const TipLine& a, const TipLine& b) {
+        return round_corner(a.from, a.to, b.to, a.rounding);
+    };
+    const RoundedCorner first = before != nullptr ? corner_of(*before, line) : RoundedCorner{};
+    way.push_back(before != nullptr && first.deviation > straight ? first.after : line.from);
+    if (after == nullptr || line.rounding <= 0) {
+        way.push_back(line.to);
+        return way;
+    }
+    const RoundedCorner last = corner_of(line, *after);
+    if (last.deviation <= straight) {
+        way.push_back(line.to);
+        return way;
+    }
+    for (int i = 0; i <= chords; ++i) way.push_back(last.at(static_cast<double>(i) / chords));
+    return way;
+}
+
+CarveFigures carve_foam(Foam& foam, const ToolPath& path, const ReplayScene& scene, bool is_worst, FindingLog& log,
+                        const Context& context) {
+    Carving carving(foam, scene, log);
+    std::size_t done = 0;
+    for (const PathPart& part : path.order) {
+        if (done++ % 256 == 0) {
+            context.check_cancelled();
+            context.progress("moves carved", done - 1, path.order.size());
+        }
+        if (!part.is_line) {
+            carving.take_sweep(path.sweeps[part.index]);
+            continue;
+        }
+        const TipLine& line = path.lines[part.index];
+        if (is_worst) {
+            carving.take_line(line,
+                              rounded_way(neighbour(path, part.index, false), line, neighbour(path, part.index, true)));
+        } else {
+            carving.take_line(line, {line.from, line.to});
+        }
+    }
+    context.progress("moves carved", done, path.order.size());
+    return carving.figures();
+}
+
+}  // namespace qchopper

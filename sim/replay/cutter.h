@@ -1,0 +1,62 @@
+// The shape of a tool of revolution, for what it removes and how deep a point lies in it.
+//
+// mm. The tip is the origin, the axis is z, from the tip into the spindle; the body goes on upwards without end. All
+// shapes are convex (ISO 14649-111: ball, flat, bull, cone). O(1); generic shapes minimise along a move by ternary
+// search (tests/sim/replay/cutter_test.cpp).
+
+#pragma once
+
+#include "base/vec3.h"
+#include "cam/cell/carving_tool.h"
+
+namespace qchopper {
+
+struct Cutter {
+    ToolShape shape = ToolShape::ball;
+    double radius = 0;
+    double corner = 0;    // of the edge or the tip; ball: radius
+    double sin_half = 0;  // of a cone's half angle
+    double cos_half = 1;
+    bool operator==(const Cutter&) const = default;
+};
+
+Cutter cutter_of(const CarvingTool& tool);
+
+// The same shape with its whole surface moved inwards by `inset`, below the radius; its tip stays where the surface is.
+// The tip of the result stands `inset` above that of the cutter.
+Cutter inset_cutter(const Cutter& cutter, double inset);
+
+// Height of the surface above the tip at a distance r from the axis, 0 <= r <= radius.
+double profile_height(const Cutter& cutter, double r);
+
+// A cutter whose tip goes straight from (0, 0, 0) along `move`, while its axis stays z.
+class SweptCutter {
+ public:
+    SweptCutter(const Cutter& cutter, Vec3 move);
+
+    // Where its surface is lowest over a point of the plane.
+    struct Height {
+        double z = 0;      // of the surface; infinite where the tool does not come
+        double tip_z = 0;  // of the tip at that moment
+    };
+    Height height(double x, double y) const;
+    // How far a point is outside: negative inside, where it is the distance from the surface. It changes by no more
+    // than the distance between two points; outside of flat, bull and cone it may be too small.
+    double distance(Vec3 point) const;
+    // Of a ball: the same with its gradient; the distance is a convex function of the point.
+    double ball_distance(Vec3 point, Vec3& gradient) const;
+    // The x of the points of a row that the tool can reach lie between these two.
+    void reach_of_row(double y, double& x_min, double& x_max) const;
+    const Cutter& cutter() const { return cutter_; }
+
+ private:
+    Cutter cutter_;
+    Vec3 move_;
+    double length_ = 0;  // along the plane
+    double slope_ = 0;
+    double ball_share_ = 0;  // slope / sqrt(1 + slope^2)
+    double unit_x_ = 0;
+    double unit_y_ = 0;
+};
+
+}  // namespace qchopper

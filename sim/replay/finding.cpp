@@ -1,0 +1,56 @@
+// A list per kind.
+
+#include "sim/replay/finding.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::size_t kept_per_kind = 5;
+constexpr std::array<const char*, finding_kinds> words{
+    "chunk_order",   "tool_frame",    "base_frame",   "load",        "table_angle",     "tool_axis",
+    "tool_change",   "reach",         "joint_limit",  "cable",       "branch",          "singularity",
+    "joint_speed",   "outside_reach", "collision",    "arm_in_foam", "holder_contact",  "rapid_in_foam",
+    "feed_window",   "link_feed",     "deep_cut",     "below_floor", "flat_below_base", "spindle_off",
+    "spindle_speed", "gouge",         "gouge_volume", "leftover",    "standing_foam",   "no_cut"};
+
+}  // namespace
+
+const char* to_word(FindingKind kind) {
+    return words[static_cast<std::size_t>(kind)];
+}
+
+bool FindingLog::wants(FindingKind kind, double worse) {
+    OfKind& of = kinds_[static_cast<std::size_t>(kind)];
+    ++of.count;
+    return of.first.size() < kept_per_kind || worse > of.worst;
+}
+
+void FindingLog::keep(FindingKind kind, SourcePlace place, double number, double worse, std::string text) {
+    OfKind& of = kinds_[static_cast<std::size_t>(kind)];
+    const std::string at = place.line == 0 ? "" : describe_place(*program_, place) + ": ";
+    const Finding finding{kind, place, number, at + text};
+    const bool is_worst = of.first.empty() || worse > of.worst;
+    if (is_worst) of.worst = worse;
+    if (of.first.size() < kept_per_kind) {
+        of.first.push_back(finding);
+    } else if (is_worst) {
+        of.worst_one = finding;
+    }
+}
+
+std::vector<Finding> FindingLog::findings() const {
+    std::vector<Finding> all;
+    for (const OfKind& of : kinds_) {
+        all.insert(all.end(), of.first.begin(), of.first.end());
+        if (!of.worst_one.text.empty()) all.push_back(of.worst_one);
+    }
+    return all;
+}
+
+std::array<std::size_t, finding_kinds> FindingLog::counts() const {
+    std::array<std::size_t, finding_kinds> counts{};
+    for (std::size_t i = 0; i < finding_kinds; ++i) counts[i] = kinds_[i].count;
+    return counts;
+}
+
+}  // namespace qchopper

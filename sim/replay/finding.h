@@ -1,0 +1,90 @@
+// What a replay finds against a program: its kind, where in the program, and how much.
+//
+// Kinds are named as in reports (to_word). Of each kind all are counted, and the first and the worst ones are kept with
+// their text.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sim/program/parsed_program.h"
+
+namespace qchopper {
+
+enum class FindingKind : std::uint8_t {
+    chunk_order,  // the chunks are not those of the job, in its order
+    tool_frame,   // $TOOL is not that of the cell file
+    base_frame,   // $BASE is not that of the job
+    load,         // the load data are not those of spindle and tool
+    table_angle,  // the rotary table does not stand as the job says, or moves while the arm follows a line
+    tool_axis,    // a line is not along the direction of its chunk
+    tool_change,  // another tool is needed, and nobody was asked to change it
+    reach,        // no joints hold a pose
+    joint_limit,
+    cable,
+    branch,  // the arm would have to change its branch, or an axis to jump
+    singularity,
+    joint_speed,
+    outside_reach,  // foam is cut outside of the cell's reach box
+    collision,      // of arm, spindle, holder or tool with what stands still, or with the arm
+    arm_in_foam,
+    holder_contact,  // holder or spindle in foam
+    rapid_in_foam,
+    feed_window,  // foam is cut slower or faster than the tool may
+    link_feed,
+    deep_cut,         // more foam at once than the flute is long
+    below_floor,      // a tool point below -spoil + 2 mm
+    flat_below_base,  // a flat tool below z = 0 within the piece's projection
+    spindle_off,
+    spindle_speed,
+    gouge,
+    gouge_volume,
+    leftover,       // too small a share of the reachable surface is within tolerance
+    standing_foam,  // foam beside the piece that the tools reach
+    no_cut          // the program removes nothing
+};
+constexpr std::size_t finding_kinds = 30;
+
+// "chunk_order", "rapid_in_foam"
+const char* to_word(FindingKind kind);
+
+struct Finding {
+    FindingKind kind = FindingKind::no_cut;
+    SourcePlace place;  // line 0: of no line
+    double number = 0;  // mm, degrees, mm/s or revolutions/min, as the text says
+    std::string text;   // "qc_1_001.src:17: ..."
+};
+
+// Collects findings: of each kind the first ones and the one with the largest number.
+class FindingLog {
+ public:
+    explicit FindingLog(const ParsedProgram& program) : program_(&program) {}
+    // `text` is called only if the finding is kept; `worse` is what is compared, larger is worse.
+    template <class Text>
+    void add(FindingKind kind, SourcePlace place, double number, double worse, const Text& text) {
+        if (wants(kind, worse)) keep(kind, place, number, worse, text());
+    }
+    std::size_t count(FindingKind kind) const { return kinds_[static_cast<std::size_t>(kind)].count; }
+    // By kind, then in the order in which they were found.
+    std::vector<Finding> findings() const;
+    std::array<std::size_t, finding_kinds> counts() const;
+
+ private:
+    struct OfKind {
+        std::size_t count = 0;
+        double worst = 0;
+        std::vector<Finding> first;
+        Finding worst_one;
+    };
+    bool wants(FindingKind kind, double worse);
+    void keep(FindingKind kind, SourcePlace place, double number, double worse, std::string text);
+
+    const ParsedProgram* program_;
+    std::array<OfKind, finding_kinds> kinds_;
+};
+
+}  // namespace qchopper

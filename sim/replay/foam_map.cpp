@@ -1,0 +1,168 @@
+// A line is followed through the cells of a map from border to border of tiles that do not exist, else of cells; in a
+// cell the height of the line is linear, so that where it leaves the removed part is solved, not sampled.
+
+#include "sim/replay/foam_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace qchopper {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double border = 1;  // cells around the projection of the block
+
+void subtract(std::vector<Interval>& intervals, double low, double high) {
+    if (!(low < high)) return;
+    std::vector<Interval> left;
+    left.reserve(intervals.size() + 1);
+    for (const Interval& i : intervals) {
+        if (i.low < low) left.push_back({i.low, std::min(i.high, low)});
+        if (i.high > high) left.push_back({std::max(i.low, high), i.high});
+        if (i.low < low && i.high > low) continue;
+    }
+    intervals.swap(left);
+}
+
+// The t at which from + t * along leaves the slab min..max in which it is; infinite if it does not move.
+double leaves(double from, double along, double min, double max) {
+    if (along > 0) return (max - from) / along;
+    if (along < 0) return (min - from) / along;
+    return infinite;
+}
+
+}  // namespace
+
+FoamMap::FoamMap(const Box& block_box, Vec3 out, double cell)
+    : frame_in_block(direction_frame(out)), block(block_box), cell_(cell) {
+    Box bounds;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 p{(corner & 1) != 0 ? block.max.x : block.min.x, (corner & 2) != 0 ? block.max.y : block.min.y,
+                     (corner & 4) != 0 ? block.max.z : block.min.z};
+        const Vec3 q = apply_inverse(frame_in_block, p);
+        if (corner == 0) bounds = {q, q};
+        extend(bounds, q);
+    }
+    top = bounds.max.z;
+    // Middles of cells lie on multiples of the cell plus a half, whatever the block is.
+    x_min_ = (std::floor(bounds.min.x / cell) - border) * cell;
+    y_min_ = (std::floor(bounds.min.y / cell) - border) * cell;
+    const auto tiles = [&](double min, double max) {
+        return static_cast<std::int32_t>(std::ceil((max - min) / cell + border)) / FoamTile::side + 1;
+    };
+    tiles_x_ = tiles(x_min_, bounds.max.x);
+    tiles_y_ = tiles(y_min_, bounds.max.y);
+    tiles_.resize(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_));
+}
+
+CellRange FoamMap::range(double x_min, double x_max, double y_min, double y_max) const {
+    const auto first = [&](double at, double begin, std::int32_t tiles) {
+        const double i = std::ceil((at - begin) / cell_ - 0.5);
+        return static_cast<std::int32_t>(std::clamp(i, 0.0, static_cast<double>(tiles) * FoamTile::side));
+    };
+    CellRange cells{first(x_min, x_min_, tiles_x_), first(x_max, x_min_, tiles_x_) + 1, first(y_min, y_min_, tiles_y_),
+                    first(y_max, y_min_, tiles_y_) + 1};
+    cells.x_end = std::min(cells.x_end, tiles_x_ * FoamTile::side);
+    cells.y_end = std::min(cells.y_end, tiles_y_ * FoamTile::side);
+    return cells;
+}
+
+FoamTile& FoamMap::made_tile(std::int32_t tx, std::int32_t ty) {
+    std::unique_ptr<FoamTile>& tile = tiles_[index(tx, ty)];
+    if (!tile) tile = std::make_unique<FoamTile>();
+    return *tile;
+}
+
+float FoamMap::cut_at(double x, double y) const {
+    const double i = std::floor((x - x_min_) / cell_);
+    const double j = std::floor((y - y_min_) / cell_);
+    constexpr auto side = FoamTile::side;
+    if (!(i >= 0 && j >= 0 && i < double(tiles_x_) * side && j < double(tiles_y_) * side)) return infinite;
+    const auto ci = static_cast<std::int32_t>(i);
+    const auto cj = static_cast<std::int32_t>(j);
+    const FoamTile* tile = this->tile(ci / side, cj / side);
+    if (tile == nullptr) return std::numeric_limits<float>::infinity();
+    return tile->cut[static_cast<std::size_t>(cj % side) * side + static_cast<std::size_t>(ci % side)];
+}
+
+Interval FoamMap::block_on(Vec3 from, Vec3 along) const {
+    const Vec3 p = apply(frame_in_block, from);
+    const Vec3 d = rotate(frame_in_block, along);
+    Interval inside{-infinite, infinite};
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::abs(d[axis]) < 1e-12) {
+            if (p[axis] < block.min[axis] || p[axis] > block.max[axis]) return {0, 0};
+            continue;
+        }
+        const double a = (block.min[axis] - p[axis]) / d[axis];
+        const double b = (block.max[axis] - p[axis]) / d[axis];
+        inside.low = std::max(inside.low, std::min(a, b));
+        inside.high = std::min(inside.high, std::max(a, b));
+    }
+    return inside.low < inside.high ? inside : Interval{0, 0};
+}
+
+void FoamMap::remove_from(std::vector<Interval>& intervals, Vec3 from, Vec3 along) const {
+    if (intervals.empty()) return;
+    constexpr auto side = FoamTile::side;
+    const double end = intervals.back().high;
+    const double nudge = 1e-9 * cell_;
+    double t = intervals.front().low;
+    while (t < end) {
+        const double middle = t + nudge;
+        const double x = from.x + middle * along.x;
+        const double y = from.y + middle * along.y;
+        const double i = std::floor((x - x_min_) / cell_);
+        const double j = std::floor((y - y_min_) / cell_);
+        if (!(i >= 0 && j >= 0 && i < double(tiles_x_) * side && j < double(tiles_y_) * side)) return;
+        const auto ci = static_cast<std::int32_t>(i);
+        const auto cj = static_cast<std::int32_t>(j);
+        const FoamTile* here = tile(ci / side, cj / side);
+        const double z = from.z + t * along.z;
+        const bool is_far = here == nullptr || (here->least_cut > z && here->least_cut > from.z + end * along.z);
+        const std::int32_t step = is_far ? side : 1;
+        const double x0 = x_min_ + (ci / step) * step * cell_;
+        const double y0 = y_min_ + (cj / step) * step * cell_;
+        double next =
+            std::min(leaves(from.x, along.x, x0, x0 + step * cell_), leaves(from.y, along.y, y0, y0 + step * cell_));
+        next = std::min(std::max(next, middle), end);
+        if (!is_far) {
+            const double cut =
+                here->cut[static_cast<std::size_t>(cj % side) * side + static_cast<std::size_t>(ci % side)];
+            const double crossing = along.z != 0 ? (cut - from.z) / along.z : infinite;
+            if (along.z > 0) subtract(intervals, std::max(t, crossing), next);
+            if (along.z < 0) subtract(intervals, t, std::min(next, crossing));
+            if (along.z == 0 && z > cut) subtract(intervals, t, next);
+        }
+        t = next;
+    }
+}
+
+double FoamMap::distance_to_removed(Vec3 point, double most) const {
+    constexpr auto side = FoamTile::side;
+    double best = most;
+    const auto ring_of = [&](double distance) { return static_cast<std::int32_t>(distance / cell_ + 1); };
+    const auto i0 = static_cast<std::int32_t>(std::floor((point.x - x_min_) / cell_));
+    const auto j0 = static_cast<std::int32_t>(std::floor((point.y - y_min_) / cell_));
+    const auto look = [&](std::int32_t i, std::int32_t j) {
+        if (i < 0 || j < 0 || i >= tiles_x_ * side || j >= tiles_y_ * side) return;
+        const FoamTile* here = tile(i / side, j / side);
+        if (here == nullptr) return;
+        const float cut = here->cut[static_cast<std::size_t>(j % side) * side + static_cast<std::size_t>(i % side)];
+        if (std::isinf(cut)) return;
+        const double dx = middle_x(i) - point.x;
+        const double dy = middle_y(j) - point.y;
+        const double dz = std::max(0.0, cut - point.z);
+        best = std::min(best, std::sqrt(dx * dx + dy * dy + dz * dz));
+    };
+    for (std::int32_t ring = 0; ring <= ring_of(best); ++ring) {
+        for (std::int32_t k = -ring; k <= ring; ++k) {
+            look(i0 + k, j0 - ring);
+            if (ring > 0) look(i0 + k, j0 + ring);
+            if (k > -ring && k < ring) look(i0 - ring, j0 + k), look(i0 + ring, j0 + k);
+        }
+    }
+    return best;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,182 @@
+// Per direction the target is turned into the direction's frame, where a tree gives the triangles in the box of a move,
+// which reaches up to the top of the target: the shank is swept too. Moves are shared out in fixed lots, whose results
+// are merged in their order.
+
+#include "sim/replay/gouge.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+
+#include "base/parallel.h"
+#include "segment/mesh/triangle_tree.h"
+#include "sim/replay/carve_foam.h"
+#include "sim/replay/foam.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::size_t lot = 512;  // lines
+
+struct Part {
+    std::array<Vec3, 3> corner;
+    double bound = 0;  // the distance of all of its points is at least that
+};
+
+Vec3 middle_of(const std::array<Vec3, 3>& t) {
+    return (1.0 / 3) * (t[0] + t[1] + t[2]);
+}
+
+// Distance at the middle, and a lower bound for the whole part.
+double evaluate(const SweptCutter& swept, Part& part) {
+    const Vec3 middle = middle_of(part.corner);
+    Vec3 gradient;
+    const bool is_ball = swept.cutter().shape == ToolShape::ball;
+    const double distance = is_ball ? swept.ball_distance(middle, gradient) : swept.distance(middle);
+    double radius = 0;
+    double slope = 0;
+    for (const Vec3 corner : part.corner) {
+        radius = std::max(radius, norm(corner - middle));
+        slope = std::min(slope, dot(gradient, corner - middle));
+    }
+    part.bound = distance - (is_ball ? std::min(radius, -slope) : radius);
+    return distance;
+}
+
+struct Hit {
+    std::uint32_t triangle = 0;
+    float depth = 0;
+    std::uint32_t line = 0;
+};
+
+class DirectionGouges {
+ public:
+    DirectionGouges(const ReplayScene& scene, std::size_t direction)
+        : frame_(direction_frame(scene.directions[direction].out)),
+          turned_(in_frame(*scene.target, frame_)),
+          tree_(turned_) {
+        top_ = -1e9;
+        for (const Vec3 p : turned_.points) top_ = std::max(top_, p.z);
+    }
+    void test(const Cutter& cutter, Vec3 from, Vec3 to, double floor, std::uint32_t line,
+              std::unordered_map<std::uint32_t, Hit>& hits) const;
+
+ private:
+    static TriangleMesh in_frame(const TriangleMesh& mesh, const Pose& frame) {
+        TriangleMesh turned{mesh.points, mesh.triangles, {}, {}};
+        for (Vec3& p : turned.points) p = apply_inverse(frame, p);
+        return turned;
+    }
+    Pose frame_;
+    TriangleMesh turned_;
+    TriangleTree tree_;
+    double top_ = 0;
+};
+
+void DirectionGouges::test(const Cutter& cutter, Vec3 from, Vec3 to, double floor, std::uint32_t line,
+                           std::unordered_map<std::uint32_t, Hit>& hits) const {
+    const Vec3 a = apply_inverse(frame_, from);
+    const Vec3 move = apply_inverse(frame_, to) - a;
+    const double low = a.z + std::min(0.0, move.z);
+    if (low > top_) return;
+    const SweptCutter swept(cutter, move);
+    const double r = cutter.radius;
+    const Vec3 least{a.x + std::min(0.0, move.x) - r, a.y + std::min(0.0, move.y) - r, low};
+    const Vec3 most{a.x + std::max(0.0, move.x) + r, a.y + std::max(0.0, move.y) + r, top_};
+    const FloatBox box = tree_.box_of({least, most, least});
+    tree_.for_each_near(box, [&](std::uint32_t t) {
+        const auto known = hits.find(t);
+        const double enough = known == hits.end() ? floor : std::max<double>(floor, known->second.depth);
+        std::array<Vec3, 3> corners = corners_of(turned_, t);
+        for (Vec3& c : corners) c = c - a;
+        const double depth = deepest_in(swept, corners, enough);
+        if (depth > enough) hits[t] = {t, static_cast<float>(depth), line};
+    });
+}
+
+// The straight parts of a line that are tested: exact, and what rounding of its corner adds.
+std::vector<std::array<Vec3, 2>> parts_of(const ToolPath& path, std::size_t i) {
+    const TipLine& line = path.lines[i];
+    std::vector<std::array<Vec3, 2>> parts{{line.from, line.to}};
+    const bool goes_on = i + 1 < path.lines.size() && path.lines[i + 1].follows_line;
+    if (line.rounding <= 0 || !goes_on) return parts;
+    const std::vector<Vec3> way = rounded_way(nullptr, line, &path.lines[i + 1]);
+    for (std::size_t k = 1; k + 1 < way.size(); ++k) parts.push_back({way[k], way[k + 1]});
+    return parts;
+}
+
+}  // namespace
+
+double deepest_in(const SweptCutter& swept, const std::array<Vec3, 3>& triangle, double floor) {
+    double deepest = floor;
+    std::vector<Part> parts{{triangle, 0}};
+    deepest = std::max(deepest, -evaluate(swept, parts[0]));
+    // A triangle that runs parallel to the tool for a long way would be bisected without end.
+    std::size_t left = 200'000;
+    while (!parts.empty() && left-- > 0) {
+        const Part part = parts.back();
+        parts.pop_back();
+        if (-part.bound <= deepest + gouge_resolution) continue;
+        const std::array<Vec3, 3>& c = part.corner;
+        const Vec3 ab = 0.5 * (c[0] + c[1]);
+        const Vec3 bc = 0.5 * (c[1] + c[2]);
+        const Vec3 ca = 0.5 * (c[2] + c[0]);
+        for (const auto& corners :
+             {std::array{c[0], ab, ca}, std::array{ab, c[1], bc}, std::array{ca, bc, c[2]}, std::array{bc, ca, ab}}) {
+            Part next{corners, 0};
+            deepest = std::max(deepest, -evaluate(swept, next));
+            if (-next.bound > deepest + gouge_resolution) parts.push_back(next);
+        }
+    }
+    return deepest;
+}
+
+GougeFigures find_gouges(const ToolPath& path, const ReplayScene& scene, double floor, const Context& context) {
+    GougeFigures figures;
+    figures.depth.assign(scene.target->triangles.size(), 0);
+    std::vector<Cutter> cutters;
+    for (const CarvingTool& tool : scene.cell->machine->tools) cutters.push_back(cutter_of(tool));
+    std::size_t done = 0;
+    std::uint32_t worst = 0;
+    for (std::size_t direction = 0; direction < scene.directions.size(); ++direction) {
+        std::vector<std::uint32_t> lines;
+        for (std::size_t i = 0; i < path.lines.size(); ++i) {
+            if (path.lines[i].direction == direction && path.lines[i].is_aligned)
+                lines.push_back(static_cast<std::uint32_t>(i));
+        }
+        if (lines.empty()) continue;
+        const DirectionGouges gouges(scene, direction);
+        const std::size_t lots = (lines.size() + lot - 1) / lot;
+        constexpr std::size_t at_once = 64;
+        for (std::size_t first = 0; first < lots; first += at_once) {
+            context.check_cancelled();
+            context.progress("moves held against the piece", done, path.lines.size());
+            const std::size_t count = std::min(at_once, lots - first);
+            std::vector<std::unordered_map<std::uint32_t, Hit>> hits(count);
+            parallel_for(0, count, [&](std::size_t k) {
+                const std::size_t end = std::min(lines.size(), (first + k + 1) * lot);
+                for (std::size_t i = (first + k) * lot; i < end; ++i) {
+                    for (const auto& part : parts_of(path, lines[i])) {
+                        gouges.test(cutters[path.lines[lines[i]].tool], part[0], part[1], floor, lines[i], hits[k]);
+                    }
+                }
+            });
+            for (const auto& of_lot : hits) {
+                for (const auto& [triangle, hit] : of_lot) {
+                    figures.depth[triangle] = std::max(figures.depth[triangle], hit.depth);
+                    const bool is_first = hit.depth == figures.largest && hit.line < worst;
+                    if (hit.depth < figures.largest || (hit.depth == figures.largest && !is_first)) continue;
+                    figures.largest = hit.depth;
+                    worst = hit.line;
+                    figures.at = middle_of(corners_of(*scene.target, triangle));
+                }
+            }
+            done += count * lot;
+        }
+    }
+    if (figures.largest > 0) figures.place = path.lines[worst].place;
+    return figures;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,43 @@
+// What stays on the target, and beside it.
+//
+// mm. Distances from points of the target, weighted by triangle area, to the nearest removed point: cells count at
+// their middles, so that a distance is too large by at most 0.71 cells and never too small. A point is reachable if the
+// closing of the target by the finest tool of some direction comes within the scallop height + 0.75 cells of it. The
+// base is left out, other caps are in (tests/sim/replay/leftover_test.cpp).
+
+#pragma once
+
+#include <vector>
+
+#include "base/context.h"
+#include "sim/replay/finding.h"
+#include "sim/replay/foam.h"
+#include "sim/replay/scene.h"
+
+namespace qchopper {
+
+struct LeftoverOptions {
+    double reach_cell = 0.5;  // of the closing
+    double sample_mm = 2;     // largest side of the part of a triangle that a point stands for
+    double too_much = 0.5;    // mm above the scallop height
+    double too_deep = 0.25;   // gouge of the tolerance
+    double most = 30;         // farthest distance that is told from others
+};
+
+struct LeftoverFigures {
+    double area_mm2 = 0;  // of the target without its base
+    double reachable_mm2 = 0;
+    double within_mm2 = 0;     // of the reachable surface, within tolerance
+    double largest = 0;        // on the reachable surface
+    double percentile_99 = 0;  // of it, by area
+    double largest_unreachable = 0;
+    Vec3 at;                         // where the largest is
+    std::vector<float> distance;     // per triangle, the largest of its points; 0 of the base
+    std::vector<bool> is_reachable;  // per triangle: one of its points is
+};
+
+// `gouge` is GougeFigures::depth. Throws Cancelled.
+LeftoverFigures measure_leftover(const Foam& foam, const ReplayScene& scene, const std::vector<float>& gouge,
+                                 const LeftoverOptions& options, const Context& context);
+
+}  // namespace qchopper

@@ -1,0 +1,195 @@
+// Heights of triangles at the middles of cells by barycentric coordinates; dilation and erosion tap by tap, whole rows
+// at a time.
+
+#include "sim/replay/reachable.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+#include "sim/replay/cutter.h"
+#include "sim/replay/foam.h"
+
+namespace qchopper {
+namespace {
+
+constexpr float nothing = -1e30F;
+constexpr double floor_gap = 2;  // mm of the spoil layer that no tool point enters
+constexpr double holder_cell = 2;
+
+void raise(SurfaceMap& map, Vec3 p) {
+    const auto i = static_cast<std::int32_t>(std::floor((p.x - map.x_min) / map.cell));
+    const auto j = static_cast<std::int32_t>(std::floor((p.y - map.y_min) / map.cell));
+    if (i < 0 || j < 0 || i >= map.columns || j >= map.rows) return;
+    float& height = map.height[static_cast<std::size_t>(j) * map.columns + i];
+    height = std::max(height, static_cast<float>(p.z));
+}
+
+void rasterise(SurfaceMap& map, const std::array<Vec3, 3>& t) {
+    const double area = (t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[2].x - t[0].x) * (t[1].y - t[0].y);
+    if (std::abs(area) < 1e-12) return;
+    const auto cell_of = [&](double at, double min) { return (at - min) / map.cell - 0.5; };
+    const auto [x0, x1] = std::minmax({t[0].x, t[1].x, t[2].x});
+    const auto [y0, y1] = std::minmax({t[0].y, t[1].y, t[2].y});
+    const auto i_first = std::max(0, static_cast<std::int32_t>(std::ceil(cell_of(x0, map.x_min))));
+    const auto i_last = std::min(map.columns - 1, static_cast<std::int32_t>(std::floor(cell_of(x1, map.x_min))));
+    const auto j_first = std::max(0, static_cast<std::int32_t>(std::ceil(cell_of(y0, map.y_min))));
+    const auto j_last = std::min(map.rows - 1, static_cast<std::int32_t>(std::floor(cell_of(y1, map.y_min))));
+    for (std::int32_t j = j_first; j <= j_last; ++j) {
+        const double y = map.y_min + (j + 0.5) * map.cell;
+        for (std::int32_t i = i_first; i <= i_last; ++i) {
+            const double x = map.x_min + (i + 0.5) * map.cell;
+            const double b = ((x - t[0].x) * (t[2].y - t[0].y) - (t[2].x - t[0].x) * (y - t[0].y)) / area;
+            const double c = ((t[1].x - t[0].x) * (y - t[0].y) - (x - t[0].x) * (t[1].y - t[0].y)) / area;
+            if (b < -1e-9 || c < -1e-9 || b + c > 1 + 1e-9) continue;
+            const double z = t[0].z + b * (t[1].z - t[0].z) + c * (t[2].z - t[0].z);
+            float& height = map.height[static_cast<std::size_t>(j) * map.columns + i];
+            height = std::max(height, static_cast<float>(z));
+        }
+    }
+}
+
+// The map of the target and of the floor below it, `around` wider than the target.
+SurfaceMap target_surface(const ReplayScene& scene, std::size_t direction, double cell, double around) {
+    SurfaceMap map{direction_frame(scene.directions[direction].out), 0, 0, cell, 0, 0, {}};
+    std::vector<Vec3> points = scene.target->points;
+    for (Vec3& p : points) p = apply_inverse(map.frame_in_setup, p);
+    Box box{points.front(), points.front()};
+    for (const Vec3 p : points) extend(box, p);
+    map.x_min = (std::floor((box.min.x - around) / cell) - 1) * cell;
+    map.y_min = (std::floor((box.min.y - around) / cell) - 1) * cell;
+    map.columns = static_cast<std::int32_t>(std::ceil((box.max.x + around - map.x_min) / cell)) + 1;
+    map.rows = static_cast<std::int32_t>(std::ceil((box.max.y + around - map.y_min) / cell)) + 1;
+    map.height.assign(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows), nothing);
+    for (const Triangle& t : scene.target->triangles) rasterise(map, {points[t[0]], points[t[1]], points[t[2]]});
+    for (const Vec3 p : points) raise(map, p);
+    constexpr double wide = 1e5;
+    std::array<Vec3, 4> floor{Vec3{-wide, -wide, 0}, Vec3{wide, -wide, 0}, Vec3{wide, wide, 0}, Vec3{-wide, wide, 0}};
+    for (Vec3& p : floor) p = apply_inverse(map.frame_in_setup, p + Vec3{0, 0, -scene.spoil + floor_gap});
+    rasterise(map, {floor[0], floor[1], floor[2]});
+    rasterise(map, {floor[0], floor[2], floor[3]});
+    return map;
+}
+
+// A point of the tool's underside: cells aside, and height above the tip.
+struct Tap {
+    std::int32_t dx = 0;
+    std::int32_t dy = 0;
+    float height = 0;
+};
+
+std::vector<Tap> taps_of(const Cutter& cutter, double cell) {
+    std::vector<Tap> taps;
+    const auto most = static_cast<std::int32_t>(std::floor(cutter.radius / cell));
+    for (std::int32_t dy = -most; dy <= most; ++dy) {
+        for (std::int32_t dx = -most; dx <= most; ++dx) {
+            const double r = cell * std::sqrt(static_cast<double>(dx) * dx + static_cast<double>(dy) * dy);
+            if (r <= cutter.radius) taps.push_back({dx, dy, static_cast<float>(profile_height(cutter, r))});
+        }
+    }
+    return taps;
+}
+
+// For each cell the largest of sign * (height - tap) over the taps, times sign: sign 1 is dilation, -1 erosion.
+std::vector<float> morph(const SurfaceMap& map, const std::vector<Tap>& taps, float sign) {
+    std::vector<float> result(map.height.size(), sign > 0 ? nothing : -nothing);
+    parallel_for(0, static_cast<std::size_t>(map.rows), [&](std::size_t row) {
+        const auto j = static_cast<std::int32_t>(row);
+        float* to = &result[row * static_cast<std::size_t>(map.columns)];
+        for (const Tap& tap : taps) {
+            if (j + tap.dy < 0 || j + tap.dy >= map.rows) continue;
+            const float* from = &map.height[static_cast<std::size_t>(j + tap.dy) * map.columns];
+            const std::int32_t begin = std::max(0, -tap.dx);
+            const std::int32_t end = std::min(map.columns, map.columns - tap.dx);
+            const float add = -sign * tap.height;
+            for (std::int32_t i = begin; i < end; ++i) {
+                const float value = from[i + tap.dx] + add;
+                if (sign > 0) to[i] = value > to[i] ? value : to[i];
+                if (sign < 0) to[i] = value < to[i] ? value : to[i];
+            }
+        }
+    });
+    return result;
+}
+
+// Raises tips to where flat discs above them, holder and spindle, are clear of the surface.
+void clear_holder(const ReplayScene& scene, std::size_t direction, const CarvingTool& tool, SurfaceMap& tips) {
+    const Spindle& spindle = scene.cell->machine->spindle;
+    std::vector<std::array<double, 2>> discs;  // radius, height above the tip
+    double above = tool.stick_out;
+    for (const HolderStep& step : tool.holder) discs.push_back({0.5 * step.diameter, above}), above += step.length;
+    if (spindle.body_radius > 0) discs.push_back({spindle.body_radius, above + spindle.body_offset});
+    const auto [least, most] = std::minmax_element(tips.height.begin(), tips.height.end());
+    for (const auto& [radius, height] : discs) {
+        if (*most - *least < height) continue;
+        SurfaceMap coarse = target_surface(scene, direction, holder_cell, radius);
+        coarse.height = morph(coarse, taps_of({ToolShape::flat, radius, 0, 0, 1}, holder_cell), 1);
+        for (std::int32_t j = 0; j < tips.rows; ++j) {
+            for (std::int32_t i = 0; i < tips.columns; ++i) {
+                float& tip = tips.height[static_cast<std::size_t>(j) * tips.columns + i];
+                const double x = tips.x_min + (i + 0.5) * tips.cell;
+                const double y = tips.y_min + (j + 0.5) * tips.cell;
+                tip = std::max(tip, static_cast<float>(coarse.at(x, y) - height));
+            }
+        }
+    }
+}
+
+}  // namespace
+
+double SurfaceMap::at(double x, double y) const {
+    const auto i = static_cast<std::int32_t>(std::floor((x - x_min) / cell));
+    const auto j = static_cast<std::int32_t>(std::floor((y - y_min) / cell));
+    if (i < 0 || j < 0 || i >= columns || j >= rows) return nothing;
+    return height[static_cast<std::size_t>(j) * columns + i];
+}
+
+double SurfaceMap::distance_above(Vec3 point, double most) const {
+    double best = most;
+    const auto i0 = static_cast<std::int32_t>(std::floor((point.x - x_min) / cell));
+    const auto j0 = static_cast<std::int32_t>(std::floor((point.y - y_min) / cell));
+    const auto look = [&](std::int32_t i, std::int32_t j) {
+        if (i < 0 || j < 0 || i >= columns || j >= rows) return;
+        const double dx = x_min + (i + 0.5) * cell - point.x;
+        const double dy = y_min + (j + 0.5) * cell - point.y;
+        const double dz = std::max(0.0, height[static_cast<std::size_t>(j) * columns + i] - point.z);
+        best = std::min(best, std::sqrt(dx * dx + dy * dy + dz * dz));
+    };
+    for (std::int32_t ring = 0; ring <= static_cast<std::int32_t>(best / cell + 1); ++ring) {
+        for (std::int32_t k = -ring; k <= ring; ++k) {
+            look(i0 + k, j0 - ring);
+            if (ring > 0) look(i0 + k, j0 + ring);
+            if (k > -ring && k < ring) look(i0 - ring, j0 + k), look(i0 + ring, j0 + k);
+        }
+    }
+    return best;
+}
+
+SurfaceMap closing_of(const ReplayScene& scene, std::size_t direction, const CarvingTool& tool, double cell,
+                      const Context& context) {
+    context.check_cancelled();
+    const Cutter cutter = cutter_of(tool);
+    SurfaceMap map = target_surface(scene, direction, cell, 2 * cutter.radius + 2 * cell);
+    const std::vector<Tap> taps = taps_of(cutter, cell);
+    map.height = morph(map, taps, 1);
+    context.check_cancelled();
+    clear_holder(scene, direction, tool, map);
+    map.height = morph(map, taps, -1);
+    return map;
+}
+
+std::vector<std::optional<std::size_t>> finest_tools(const ReplayScene& scene) {
+    const std::vector<CarvingTool>& tools = scene.cell->machine->tools;
+    std::vector<std::optional<std::size_t>> finest(scene.directions.size());
+    for (const SceneChunk& chunk : scene.chunks) {
+        for (std::size_t i = 0; i < tools.size(); ++i) {
+            if (tools[i].number != chunk.tool) continue;
+            std::optional<std::size_t>& best = finest[chunk.direction];
+            if (!best || tools[i].diameter < tools[*best].diameter) best = i;
+        }
+    }
+    return finest;
+}
+
+}  // namespace qchopper

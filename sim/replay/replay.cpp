@@ -1,0 +1,133 @@
+// One stage after the other; each is in a file of its own.
+
+#include "sim/replay/replay.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "sim/program/rounded_corner.h"
+#include "sim/replay/gouge.h"
+#include "sim/replay/machine_walk.h"
+
+namespace qchopper {
+namespace {
+
+void demand(bool holds, const char* what) {
+    if (!holds) throw InputError(InputFault::use, std::string("the program cannot be replayed: ") + what);
+}
+
+void check_scene(const ReplayScene& scene) {
+    demand(scene.cell != nullptr && scene.cell->machine && scene.cell->machine->robot,
+           "the cell file describes no robot");
+    demand(!scene.directions.empty(), "the job has no direction");
+    demand(!scene.chunks.empty(), "the job names no program");
+    for (const SceneChunk& chunk : scene.chunks) {
+        const auto& tools = scene.cell->machine->tools;
+        demand(std::any_of(tools.begin(), tools.end(), [&](const CarvingTool& t) { return t.number == chunk.tool; }),
+               "a tool of the job is not in the cell file");
+        demand(chunk.direction < scene.directions.size(), "a direction of the job is not there");
+    }
+    const Vec3 size = scene.block.size();
+    demand(size.x > 0 && size.y > 0 && size.z > 0, "the block has no size");
+    demand(scene.target != nullptr && !scene.target->triangles.empty(), "the piece has no surface");
+    demand(scene.is_base.empty() || scene.is_base.size() == scene.target->triangles.size(),
+           "the base is not of the piece");
+}
+
+double largest_rounding(const ToolPath& path) {
+    double largest = 0;
+    for (std::size_t i = 0; i + 1 < path.lines.size(); ++i) {
+        const TipLine& line = path.lines[i];
+        if (line.rounding <= 0 || !path.lines[i + 1].follows_line) continue;
+        largest = std::max(largest, round_corner(line.from, line.to, path.lines[i + 1].to, line.rounding).deviation);
+    }
+    return largest;
+}
+
+void judge_gouge(const ReplayReport& report, const ReplayOptions& options, FindingLog& log) {
+    if (report.largest_gouge > options.most_gouge) {
+        log.add(FindingKind::gouge, report.gouge_place, report.largest_gouge, report.largest_gouge, [&] {
+            return "the tool cuts " + fixed(report.largest_gouge, 3) + " mm into the piece, at " +
+                   fixed(report.gouge_at.x, 1) + " " + fixed(report.gouge_at.y, 1) + " " + fixed(report.gouge_at.z, 1);
+        });
+    }
+    const double beyond = report.volumes.beyond_mm3;
+    if (beyond <= options.most_beyond_mm3) return;
+    log.add(FindingKind::gouge_volume, {}, beyond, beyond,
+            [&] { return fixed(beyond, 1) + " mm3 of the piece are cut away beyond tolerance"; });
+}
+
+void judge_leftover(const ReplayReport& report, const ReplayOptions& options, FindingLog& log) {
+    const double share = report.share_within();
+    if (share < options.least_share) {
+        log.add(FindingKind::leftover, {}, report.leftover.largest, 1 - share, [&] {
+            return fixed(100 * share, 2) +
+                   " % of the reachable surface are within tolerance, the most foam left on it is " +
+                   fixed(report.leftover.largest, 2) + " mm";
+        });
+    }
+    const double standing = report.volumes.standing_mm3;
+    if (standing > options.most_standing_mm3) {
+        const Vec3 at = report.volumes.standing_at;
+        log.add(FindingKind::standing_foam, {}, standing, standing, [&] {
+            return fixed(standing, 0) + " mm3 of foam stand beside the piece where the tools come to, at " +
+                   fixed(at.x, 1) + " " + fixed(at.y, 1) + " " + fixed(at.z, 1);
+        });
+    }
+    if (report.carving.cuts == 0) {
+        log.add(FindingKind::no_cut, {}, 0, 0, [] { return "the program removes nothing"; });
+    }
+}
+
+// A flat tool below the base plane within the piece's projection: the piece stands on foam there.
+double largest_radius(const ReplayScene& scene) {
+    double radius = 0;
+    for (const SceneChunk& chunk : scene.chunks) {
+        for (const CarvingTool& tool : scene.cell->machine->tools) {
+            if (tool.number == chunk.tool) radius = std::max(radius, 0.5 * tool.diameter);
+        }
+    }
+    return radius;
+}
+
+std::vector<float> deviations(const GougeFigures& gouges, const LeftoverFigures& leftover) {
+    std::vector<float> deviation = leftover.distance;
+    for (std::size_t t = 0; t < deviation.size(); ++t) {
+        if (gouges.depth[t] > deviation[t]) deviation[t] = -gouges.depth[t];
+    }
+    return deviation;
+}
+
+}  // namespace
+
+ReplayReport replay(const ParsedProgram& program, const ReplayScene& scene, const ReplayOptions& options,
+                    const Context& context) {
+    check_scene(scene);
+    FindingLog log(program);
+    ReplayReport report;
+    const ToolPath path = walk_machine(program, scene, log, context);
+    report.time = time_of(path);
+    report.largest_rounding = largest_rounding(path);
+    std::vector<Vec3> outs;
+    for (const SceneDirection& direction : scene.directions) outs.push_back(direction.out);
+    Foam foam(scene.block, outs, options.cell);
+    report.carving = carve_foam(foam, path, scene, options.is_worst, log, context);
+    const GougeFigures gouges = find_gouges(path, scene, options.gouge_floor, context);
+    report.largest_gouge = gouges.largest;
+    report.gouge_place = gouges.place;
+    report.gouge_at = gouges.at;
+    report.leftover = measure_leftover(foam, scene, gouges.depth, options.leftover, context);
+    const VolumeOptions volumes{options.volume_cell, 2 * largest_radius(scene), options.most_gouge,
+                                scene.scallop + options.leftover.too_much + options.cell};
+    report.volumes = measure_volumes(foam, scene, volumes, context);
+    report.deviation = deviations(gouges, report.leftover);
+    judge_gouge(report, options, log);
+    judge_leftover(report, options, log);
+    report.findings = log.findings();
+    report.counts = log.counts();
+    report.is_good = report.findings.empty();
+    return report;
+}
+
+}  // namespace qchopper

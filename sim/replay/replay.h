@@ -1,0 +1,61 @@
+// The proof that a program carves its piece: the parsed program is executed on the arm of the cell, the foam is
+// removed, and what is left is compared with the piece.
+//
+// mm, seconds, setup coordinates. Gouge holds for exact and for rounded corners alike (gouge.h); what is left is that
+// of the corners that ReplayOptions::is_worst says: with the parabola of rounded_corner.h more foam stays in corners
+// than with exact ones, and a real controller lies between both. The report does not depend on the number of threads
+// (tests/sim/replay/replay_test.cpp).
+
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/context.h"
+#include "sim/program/parsed_program.h"
+#include "sim/replay/carve_foam.h"
+#include "sim/replay/finding.h"
+#include "sim/replay/leftover.h"
+#include "sim/replay/path_time.h"
+#include "sim/replay/scene.h"
+#include "sim/replay/volumes.h"
+
+namespace qchopper {
+
+struct ReplayOptions {
+    double cell = 0.25;          // of the foam; figures are claimed up to 0.25
+    bool is_worst = true;        // corners that may be rounded are
+    double gouge_floor = 0.01;   // gouges up to this are not told from none
+    double most_gouge = 0.25;    // a deeper one is a finding
+    double most_beyond_mm3 = 1;  // more volume gouged deeper than that is a finding
+    double least_share = 0.995;  // of the reachable surface within tolerance
+    double most_standing_mm3 = 100;
+    LeftoverOptions leftover;
+    double volume_cell = 0.5;
+};
+
+struct ReplayReport {
+    bool is_good = false;  // no findings
+    std::vector<Finding> findings;
+    std::array<std::size_t, finding_kinds> counts{};
+    double largest_gouge = 0;
+    SourcePlace gouge_place;
+    Vec3 gouge_at;
+    double largest_rounding = 0;  // deviation of a rounded corner from its point
+    VolumeFigures volumes;
+    LeftoverFigures leftover;
+    CarveFigures carving;
+    PathTime time;
+    std::vector<float> deviation;  // per triangle of the target: leftover above 0, gouge below; of the base 0
+    double share_within() const { return ratio(leftover.within_mm2, leftover.reachable_mm2); }
+    double share_reachable() const { return ratio(leftover.reachable_mm2, leftover.area_mm2); }
+    double share_air() const { return ratio(carving.air_mm, carving.feed_mm); }
+    static double ratio(double part, double whole) { return whole > 0 ? part / whole : 0; }
+};
+
+// Throws InputError (use) if the scene is not one: no cell with a robot, no direction, a chunk with a tool or a
+// direction that is not there, a block or a target without size. Throws Cancelled.
+ReplayReport replay(const ParsedProgram& program, const ReplayScene& scene, const ReplayOptions& options = {},
+                    const Context& context = {});
+
+}  // namespace qchopper

@@ -1,0 +1,43 @@
+// What a replay is told beside the program: the cell, the block, the piece, and what the job says of each chunk.
+//
+// mm, radians, setup coordinates unless stated (z up, the piece's base plane at z = 0, the underside of the block at
+// z = -spoil). Everything else comes from the program's text.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/box.h"
+#include "base/pose.h"
+#include "cam/cell/cell.h"
+#include "segment/mesh/triangle_mesh.h"
+
+namespace qchopper {
+
+struct SceneDirection {
+    Vec3 out{0, 0, 1};       // unit vector along which the tool comes out
+    double table_angle = 0;  // of the rotary table while it is carved
+    Pose setup_in_cell;      // at that angle
+};
+
+struct SceneChunk {
+    std::string name;           // of its .src, without ending
+    std::uint16_t tool = 1;     // CarvingTool::number
+    std::size_t direction = 0;  // index in ReplayScene::directions
+};
+
+struct ReplayScene {
+    const Cell* cell = nullptr;  // with a machine and a robot
+    std::vector<SceneDirection> directions;
+    std::vector<SceneChunk> chunks;  // in the order in which they are called
+    Box block;                       // as it stands before the program
+    double spoil = 10;
+    const TriangleMesh* target = nullptr;  // closed
+    std::vector<bool> is_base;             // per triangle of the target; empty: none
+    double scallop = 0.25;                 // the scallop height that was set
+    double start_table_angle = 0;          // the joints at the start are CellMachine::start
+};
+
+}  // namespace qchopper

@@ -1,0 +1,63 @@
+// Where the real tip of the tool in the spindle goes when a program is executed.
+//
+// mm, in setup coordinates: of the block as it stands at that moment, on a rotary table turned with it.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/vec3.h"
+#include "sim/program/parsed_program.h"
+
+namespace qchopper {
+
+struct SpindleState {
+    bool is_on = false;
+    bool has_speed = false;  // waited for since it was switched on, or the cell has no signal for it
+    double rpm = 0;
+};
+
+// A straight line of the tip.
+struct TipLine {
+    Vec3 from;
+    Vec3 to;
+    SourcePlace place;
+    std::uint32_t chunk = 0;      // index in ReplayScene::chunks
+    std::uint32_t tool = 0;       // index in CellMachine::tools
+    std::uint32_t direction = 0;  // index in ReplayScene::directions
+    double feed = 0;
+    double acceleration = 0;
+    double rounding = 0;        // of the corner at its end; 0: it is exact
+    bool is_aligned = true;     // the tool axis is along the direction
+    bool follows_line = false;  // it begins where the line before it ends
+    SpindleState spindle;
+};
+
+// The tool on the way of a joint move.
+struct TipPose {
+    Vec3 tip;
+    Vec3 out;  // unit vector from the tip into the spindle
+};
+
+struct JointSweep {
+    std::vector<TipPose> poses;
+    SourcePlace place;
+    std::uint32_t tool = 0;
+    double seconds = 0;
+};
+
+// One or the other, in the order of execution.
+struct PathPart {
+    bool is_line = false;
+    std::size_t index = 0;
+};
+
+struct ToolPath {
+    std::vector<TipLine> lines;
+    std::vector<JointSweep> sweeps;
+    std::vector<PathPart> order;
+};
+
+}  // namespace qchopper

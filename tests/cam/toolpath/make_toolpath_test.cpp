@@ -1,0 +1,158 @@
+// Toolpaths of small pieces, carved once more by a plain replay; bad settings; the same for any number of threads.
+
+#include "cam/toolpath/make_toolpath.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "tests/cam/toolpath/plain_replay.h"
+#include "tests/cam/toolpath/toolpath_pieces.h"
+#include "tests/shapes.h"
+
+namespace qchopper {
+namespace {
+
+using test_pieces::bumpy;
+using test_pieces::PlainReplay;
+using test_pieces::setup_of;
+
+Cell ready_cell(const std::string& name = "kr60-ha.toml") {
+    return read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / name);
+}
+
+ToolpathSettings coarse_settings() {
+    ToolpathSettings settings;
+    settings.cell = 0.5;
+    return settings;
+}
+
+void expect_clean(const PlainReplay& replay, const std::string& name) {
+    EXPECT_EQ(replay.faults().link_in_foam, 0U) << name << ": " << replay.faults().first;
+    EXPECT_EQ(replay.faults().above_flute, 0U) << name << ": " << replay.faults().first;
+    EXPECT_EQ(replay.faults().holder, 0U) << name << ": " << replay.faults().first;
+    EXPECT_EQ(replay.faults().below_spoil, 0U) << name << ": " << replay.faults().first;
+    EXPECT_EQ(replay.faults().not_at_retract, 0U) << name << ": " << replay.faults().first;
+}
+
+TEST(MakeToolpath, RoughingOfABoxLeavesTheAllowanceAndNothingElse) {
+    const TriangleMesh mesh = shapes::box({0, 0, 0}, {60, 40, 50});
+    const auto setup = setup_of(mesh, 18);
+    const Cell cell = ready_cell();
+    const Toolpath path = make_toolpath(setup, mesh, cell, coarse_settings());
+    ASSERT_FALSE(path.operations.empty());
+    const Operation& first = path.operations.front();
+    ASSERT_EQ(first.kind, OperationKind::roughing);
+    PlainReplay replay(setup, cell, 2.5);
+    replay.carve(first);
+    expect_clean(replay, "box");
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < replay.points().size(); ++i) {
+        const Vec3 p = replay.points()[i];
+        const Vec3 beside{std::max(0.0, std::abs(p.x) - 30), std::max(0.0, std::abs(p.y) - 20),
+                          std::max(0.0, p.z - 50)};
+        const bool is_piece = beside == Vec3{0, 0, 0} && p.z >= 0;
+        if (is_piece || norm(beside) < first.allowance - 0.3) {
+            EXPECT_TRUE(replay.is_foam(i) || p.z < 0) << p.x << " " << p.y << " " << p.z;
+        }
+        // On the floor, around the piece as far as a cell of the map may lie, and in the corner between both.
+        if (!replay.is_foam(i) || p.z < first.allowance + 0.1) continue;
+        // Above the piece a level may end nowhere nearer than the height of one.
+        const bool is_far = std::max(beside.x, beside.y) > first.allowance + 3.5;
+        if (is_far || beside.z > first.allowance + first.step_down) ++left;
+    }
+    EXPECT_EQ(left, 0U);
+}
+
+TEST(MakeToolpath, EveryOperationIsCleanInAPlainReplay) {
+    const Cell cell = ready_cell();
+    const auto carve = [&](const TriangleMesh& mesh, double tilt, const std::string& name) {
+        const auto setup = setup_of(mesh, 8, tilt);
+        PlainReplay replay(setup, cell, 3);
+        for (const Operation& operation : make_toolpath(setup, mesh, cell, coarse_settings()).operations) {
+            replay.carve(operation);
+            expect_clean(replay, name + ", tool " + std::to_string(operation.tool) + ", direction " +
+                                     std::to_string(operation.direction));
+        }
+    };
+    carve(bumpy(90, 30, 60, 3), 0, "bumps");
+    carve(bumpy(90, 30, 60, 4), 45, "tilted bumps");
+    carve(shapes::ball({0, 0, 0}, 45, 24), 60, "ball");
+}
+
+TEST(MakeToolpath, HolderAndSpindleStayClearBesideATallPiece) {
+    // A tower of 230 mm with a stick-out of 150: the holder is deep beside it.
+    const TriangleMesh mesh =
+        shapes::joined({shapes::box({-60, -60, 0}, {60, 60, 20}), shapes::box({-20, -20, 20}, {20, 20, 230})});
+    const auto setup = setup_of(mesh, 5, 30);
+    const Cell cell = ready_cell();
+    PlainReplay replay(setup, cell, 4);
+    const Toolpath path = make_toolpath(setup, mesh, cell, coarse_settings());
+    for (const Operation& operation : path.operations) replay.carve(operation);
+    expect_clean(replay, "tower");
+}
+
+TEST(MakeToolpath, IsTheSameForAnyNumberOfThreads) {
+    const TriangleMesh mesh = bumpy(70, 20, 40, 5);
+    const auto setup = setup_of(mesh, 6, 40);
+    const Cell cell = ready_cell();
+    const Toolpath path = make_toolpath(setup, mesh, cell, coarse_settings());
+    for (const std::size_t threads : {1U, 2U, 4U}) {
+        const ThreadLimit limit(threads);
+        EXPECT_TRUE(make_toolpath(setup, mesh, cell, coarse_settings()) == path) << threads;
+    }
+}
+
+TEST(MakeToolpath, NamesTheSettingThatIsNotValid) {
+    const TriangleMesh mesh = shapes::box({0, 0, 0}, {20, 20, 20});
+    const auto setup = setup_of(mesh);
+    const Cell cell = ready_cell();
+    const auto refused = [&](const ToolpathSettings& settings, const std::string& name, const Cell& in) {
+        try {
+            make_toolpath(setup, mesh, in, settings);
+            FAIL() << name;
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+        }
+    };
+    ToolpathSettings settings;
+    settings.step_down = 120;
+    refused(settings, "step_down is deeper than the flute", cell);
+    settings = {};
+    settings.path_tolerance = 0;
+    refused(settings, "path_tolerance", cell);
+    settings = {};
+    settings.scallop = 0;
+    refused(settings, "scallop", cell);
+    settings = {};
+    settings.cell = std::numeric_limits<double>::quiet_NaN();
+    refused(settings, "cell", cell);
+    settings = {};
+    settings.roughing_tool = 9;
+    refused(settings, "roughing_tool", cell);
+    settings = {};
+    settings.finishing_tool = 1;
+    refused(settings, "not ball-ended", cell);
+    Cell no_ball = cell;
+    std::erase_if(no_ball.machine->tools, [](const CarvingTool& t) { return t.shape == ToolShape::ball; });
+    refused({}, "ball-ended", no_ball);
+    refused({}, "version 1", ready_cell("foam-1.toml"));
+}
+
+TEST(MakeToolpath, CanBeCancelled) {
+    const TriangleMesh mesh = shapes::box({0, 0, 0}, {40, 40, 40});
+    const auto setup = setup_of(mesh);
+    const std::atomic<bool> cancelled = true;
+    Context context;
+    context.cancelled = &cancelled;
+    EXPECT_THROW(make_toolpath(setup, mesh, ready_cell(), {}, context), Cancelled);
+}
+
+}  // namespace
+}  // namespace qchopper

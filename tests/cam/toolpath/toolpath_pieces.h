@@ -1,0 +1,24 @@
+// Setups and tools for the tests of toolpaths, made without a cell file.
+
+#pragma once
+
+#include <cstddef>
+
+#include "cam/cell/carving_tool.h"
+#include "cam/setup/setup.h"
+#include "segment/mesh/triangle_mesh.h"
+
+namespace qchopper::test_pieces {
+
+CarvingTool ball_tool(double diameter);
+CarvingTool flat_tool(double diameter);
+
+// The piece stands with its lowest point at z = 0 in a block with `margin` around and above it and 15 mm below. Its
+// directions are up and, with a tilt, one that leans towards x.
+Setup setup_of(const TriangleMesh& mesh, double margin = 5, double tilt_deg = 0);
+
+// A closed body over [0, size] x [0, size] with its underside at z = 0 and bumps of a given height; the same for a
+// seed.
+TriangleMesh bumpy(double size, std::size_t cells, double high, unsigned seed);
+
+}  // namespace qchopper::test_pieces
