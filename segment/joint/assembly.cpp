@@ -269,6 +269,27 @@ Assembly assembly_of(const Segmentation& segmentation, std::span<const PieceJoin
     return assembly;
 }
 
+std::vector<std::vector<AssemblyKey>> assembly_keys(const Assembly& assembly, std::size_t pieces) {
+    std::vector<std::vector<AssemblyKey>> keys(pieces);
+    std::vector<Vec3> shift(pieces);
+    for (std::size_t s = assembly.steps.size(); s-- > 0;) {
+        const AssemblyStep& step = assembly.steps[s];
+        for (const std::size_t p : step.moved) {
+            keys[p].push_back({static_cast<double>(s + 1), shift[p]});
+            shift[p] = shift[p] - step.distance_mm * step.direction;
+            keys[p].push_back({static_cast<double>(s), shift[p]});
+        }
+    }
+    for (std::vector<AssemblyKey>& of_piece : keys) {
+        std::reverse(of_piece.begin(), of_piece.end());
+        if (!of_piece.empty() && of_piece.front().time_s > 0) of_piece.insert(of_piece.begin(), {0, of_piece[0].shift});
+        // two steps in a row share a time
+        const auto same = [](const AssemblyKey& a, const AssemblyKey& b) { return a.time_s == b.time_s; };
+        of_piece.erase(std::unique(of_piece.begin(), of_piece.end(), same), of_piece.end());
+    }
+    return keys;
+}
+
 std::string names_of(std::span<const std::size_t> indices, std::span<const Piece> pieces) {
     std::string names;
     for (const std::size_t i : indices) names += (names.empty() ? "" : ", ") + pieces[i].name;

@@ -38,6 +38,16 @@ struct Assembly {
 // one side of a cut, each of O(triangles that lie over each other). Reports progress in cuts. Throws Cancelled.
 Assembly assembly_of(const Segmentation& segmentation, std::span<const PieceJoint> joints, const Context& context = {});
 
+// Where a piece is at a time: beside its place by `shift`, linear between.
+struct AssemblyKey {
+    double time_s = 0;
+    Vec3 shift;
+};
+
+// Per piece the keys of an animation in which step i takes the second from i to i + 1; empty for a piece that never
+// moves. The last key of a piece is its place.
+std::vector<std::vector<AssemblyKey>> assembly_keys(const Assembly& assembly, std::size_t pieces);
+
 // "B, C", of indices of pieces.
 std::string names_of(std::span<const std::size_t> indices, std::span<const Piece> pieces);
 

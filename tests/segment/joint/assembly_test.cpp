@@ -202,6 +202,37 @@ TEST(Assembly, RingsAreJoinedPartByPart) {
     }
 }
 
+TEST(Assembly, TheAnimationEndsInPlaceAndMovesEachStepInItsSecond) {
+    std::mt19937 random(6);
+    const Segmentation s = cut_randomly(shapes::box({0, 0, 0}, {300, 200, 150}, 3), 5, random);
+    const Assembly assembly = assembly_of(s, piece_joints(s.pieces, {}));
+    const auto keys = assembly_keys(assembly, s.pieces.size());
+    const auto shift_at = [&](std::size_t piece, double time) {
+        const std::vector<AssemblyKey>& of = keys[piece];
+        if (of.empty() || time >= of.back().time_s) return Vec3{};
+        for (std::size_t k = 0; k + 1 < of.size(); ++k) {
+            if (time > of[k + 1].time_s) continue;
+            const double share = (time - of[k].time_s) / (of[k + 1].time_s - of[k].time_s);
+            return of[k].shift + share * (of[k + 1].shift - of[k].shift);
+        }
+        return Vec3{};
+    };
+    for (std::size_t i = 0; i < assembly.steps.size(); ++i) {
+        const AssemblyStep& step = assembly.steps[i];
+        const double time = static_cast<double>(i);
+        for (std::size_t p = 0; p < s.pieces.size(); ++p) {
+            const Vec3 moved = shift_at(p, time + 1) - shift_at(p, time);
+            const bool moves = std::find(step.moved.begin(), step.moved.end(), p) != step.moved.end();
+            EXPECT_NEAR(norm(moved - (moves ? step.distance_mm : 0) * step.direction), 0, 1e-6) << i << " " << p;
+        }
+    }
+    for (const auto& of_piece : keys) {
+        if (!of_piece.empty()) {
+            EXPECT_NEAR(norm(of_piece.back().shift), 0, 1e-9);
+        }
+    }
+}
+
 TEST(InFront, KnowsWhichOfTwoSolidsComesFirst) {
     const TriangleMesh low = shapes::box({0, 0, 0}, {10, 10, 10});
     const TriangleMesh high = shapes::box({5, 5, 20}, {15, 15, 30});
