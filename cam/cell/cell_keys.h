@@ -121,7 +121,7 @@ inline constexpr TableKeys dowel{"dowel", dowel_keys};
 inline constexpr auto all = std::to_array<TableKeys>(
     {root,    reach,      table,         rotary_table,     robot,       base,       cable,         capsule,
      spindle, spindle_on, spindle_speed, spindle_at_speed, spindle_off, extraction, extraction_on, extraction_off,
-     tool,    stock,      obstacle,      margin,           start,       program,    link});
+     tool,    stock,      obstacle,      margin,           start,       program,    link,          dowel});
 
 }  // namespace keys_2
 }  // namespace qchopper

@@ -116,12 +116,36 @@ void choose_dowels(Made& made, PieceJoint& joint, std::size_t index, const Sites
     if (single) place(made, joint, index, *single, settings.sizes);
 }
 
+// Whether a hole of one size has the other size's hole in it, wall included: where it is clear, so is the other.
+bool contains_hole(const DowelSize& size, const DowelSize& other) {
+    return size.depth >= other.depth && size.clearance() >= other.clearance();
+}
+
+SitesOfSizes sites_among(const ContactSides& sides, const std::vector<Point2>& points,
+                         const std::vector<DowelSize>& sizes) {
+    SitesOfSizes sites(sizes.size());
+    for (std::size_t s = sizes.size(); s-- > 0;) {
+        const bool is_known = s + 1 < sizes.size() && contains_hole(sizes[s], sizes[s + 1]);
+        sites[s] = clear_sites(sides, is_known ? sites[s + 1] : points, sizes[s]);
+    }
+    return sites;
+}
+
+// Thin walls have few sites: they are searched again on finer grids.
 SitesOfSizes sites_of(const PieceJoint& joint, const std::vector<std::optional<PieceSurface>>& surfaces,
                       const JointSettings& settings) {
+    constexpr std::size_t enough = 24;
+    constexpr std::size_t finest = 16;  // times as many points
     const ContactSides sides{*surfaces[joint.below], *surfaces[joint.above], joint.plane, joint.cut};
-    const std::vector<Point2> points = grid_points(joint.contact, settings.sites);
-    SitesOfSizes sites;
-    for (const DowelSize& size : settings.sizes) sites.push_back(clear_sites(sides, points, size));
+    SitesOfSizes sites(settings.sizes.size());
+    std::size_t points_before = 0;
+    for (std::size_t times = 1; times <= finest; times *= 4) {
+        const std::vector<Point2> points = grid_points(joint.contact, times * settings.sites);
+        if (sites.empty() || points.size() <= points_before) break;
+        points_before = points.size();
+        sites = sites_among(sides, points, settings.sizes);
+        if (sites.back().size() >= enough) break;
+    }
     return sites;
 }
 
