@@ -126,6 +126,7 @@ struct Parser {
                       "place: as they sit in the scan; setup: as they lie in the stock (place)")
             ->check(one_of({"place", "setup"}));
         c->add_option("--piece", exported.piece, "only this piece");
+        c->add_flag("--holes", exported.holes, "cut the holes of the dowels into the pieces");
         c->add_option("--simplify", exported.simplify_mm,
                       "as few faces as a deviation of so many mm allows; caps stay as they are")
             ->check(number_between(1e-9, many, "a length in mm above 0"));

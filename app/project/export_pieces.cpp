@@ -15,6 +15,7 @@
 #include "base/staged_folder.h"
 #include "base/timings.h"
 #include "segment/io/read_mesh.h"
+#include "segment/joint/drill.h"
 #include "segment/picture/picture.h"
 
 namespace qchopper {
@@ -27,6 +28,9 @@ constexpr double gap_in_row = 20;  // mm
 void check_options(const ExportRequest& a) {
     if (a.simplify_mm && a.max_faces) {
         throw InputError(InputFault::use, "--simplify and --max-faces exclude each other", "pass one of them");
+    }
+    if (a.holes && (a.simplify_mm || a.max_faces)) {
+        throw InputError(InputFault::use, "--holes excludes --simplify and --max-faces", "export twice");
     }
 }
 
@@ -91,11 +95,41 @@ ExportPiece exported(const Piece& piece, std::size_t place, const Project& proje
     return made;
 }
 
+// Whether the file shows how all pieces are joined.
+bool is_animated(const ExportRequest& request) {
+    return request.format == "glb" && request.pose == "place" && !request.piece;
+}
+
+// Cuts the holes in and adds the moves of the assembly, where they are asked for. `rows` are some of the segmentation's
+// pieces.
+void add_joints(OpenProject& open, const ExportRequest& request, std::vector<ExportedPiece>& rows,
+                const Context& context) {
+    if (!request.holes && !is_animated(request)) return;
+    const StageTimer stage(context, "joints found");
+    const Segmentation& segmentation = open.segmentation();
+    const Setups* setups = open.setups();
+    const JointSettings settings = joint_settings(setups != nullptr ? &setups->cell() : nullptr);
+    const std::vector<PieceJoint> joints = request.holes ? piece_joints(segmentation.pieces, settings, context)
+                                                         : contacts_of(segmentation.pieces, settings.least_mm2);
+    std::vector<std::vector<AssemblyKey>> keys(segmentation.pieces.size());
+    if (is_animated(request)) {
+        keys = assembly_keys(assembly_of(segmentation, joints, context), segmentation.pieces.size());
+    }
+    for (std::size_t i = 0; i < segmentation.pieces.size(); ++i) {
+        for (ExportedPiece& row : rows) {
+            if (row.piece.name != segmentation.pieces[i].name) continue;
+            for (const AssemblyKey& key : keys[i]) row.piece.moves.push_back({key.time_s, key.shift});
+            if (!request.holes) continue;
+            row.piece.mesh = std::make_shared<const TriangleMesh>(drilled(segmentation.pieces[i], i, joints));
+        }
+    }
+}
+
 // In setup pose unless `setups` is nullptr.
 std::vector<ExportedPiece> rows_of(OpenProject& open, const ExportRequest& request, Setups* setups,
                                    const Context& context) {
     StageTimer stage(context, "pieces read");
-    const std::vector<Piece> pieces = pieces_of(open, setups != nullptr);
+    const std::vector<Piece> pieces = pieces_of(open, setups != nullptr || request.holes);
     if (setups != nullptr) stage.next("setups chosen");
     std::vector<ExportedPiece> rows;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -192,6 +226,7 @@ ExportedProject export_pieces(OpenProject& project, const ExportRequest& request
             "name one by: qchopper segment " + shell_word(project.folder()) + " --cell FILE; or leave --pose out");
     }
     exported.pieces = rows_of(project, request, in_setup ? project.setups() : nullptr, context);
+    add_joints(project, request, exported.pieces, context);
     if (exported.is_simplified) simplify_all(exported.pieces, request, context);
     const ScanSource& scan = project.project().scan;
     const ExportNotes notes{project.folder().stem().string(), program_version, scan.sha256, scan.centre};

@@ -20,6 +20,7 @@ struct ExportRequest {
     std::optional<std::string> piece;          // nothing: all
     std::optional<double> simplify_mm;         // largest deviation, above 0; excludes max_faces
     std::optional<std::size_t> max_faces;      // of a piece, at least 4
+    bool holes = false;                        // cut the holes of the dowels in; excludes simplifying
     std::optional<std::filesystem::path> out;  // a file or a folder; nothing: beside the project
 };
 

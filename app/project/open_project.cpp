@@ -231,7 +231,9 @@ bool OpenProject::decide_setup(const SetupOrder& order) {
 void OpenProject::write_job_again(std::size_t piece, const std::string& program_version) {
     check_cell();
     if (project_.stage != Stage::done) return;
-    write_job(folder_, project_, segmentation(), piece, *setups(), program_version, context_);
+    const std::vector<PieceJoint> joints =
+        piece_joints(segmentation().pieces, joint_settings(&setups()->cell()), context_);
+    write_job(folder_, project_, segmentation(), piece, *setups(), joints, program_version, context_);
     save_project(folder_, project_);
 }
 
@@ -329,7 +331,9 @@ PreparedProject OpenProject::prepare(const std::string& program_version, const C
     PreparedProject prepared{folder_, {}, setups()->cell(), most_unreachable(project_, setups()->cell()), {}};
     static_cast<void>(segmentation());
     release_scan();
-    prepared.pieces = write_jobs(folder_, project_, segmentation(), *setups(), program_version, context);
+    prepared.joints = project_joints(segmentation(), &prepared.cell, context);
+    prepared.pieces =
+        write_jobs(folder_, project_, segmentation(), *setups(), prepared.joints.joints, program_version, context);
     write_pictures(folder_, segmentation().pieces, *setups(), context);
     project_.stage = is_out_of_time ? Stage::cutting : Stage::done;
     const StageTimer stage(context, "project saved");

@@ -18,6 +18,7 @@
 #include "app/project/outputs.h"
 #include "app/project/piece_jobs.h"
 #include "app/project/project.h"
+#include "app/project/project_joints.h"
 #include "segment/search/search.h"
 
 namespace qchopper {
@@ -29,6 +30,7 @@ struct PreparedProject {
     Cell cell;
     double max_unreachable = 0;       // share of a piece's surface that may stay out of reach
     std::vector<PieceReport> pieces;  // in the order of the project's
+    ProjectJoints joints = {};        // of them
     bool all_fit() const;
     // Whether jobs of this cell hold programs, and programs were asked for.
     bool has_programs() const;

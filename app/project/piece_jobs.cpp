@@ -16,6 +16,7 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "base/timings.h"
+#include "cam/job/job_caps.h"
 #include "cam/job/read_job.h"
 #include "cam/job/write_job.h"
 #include "segment/mesh/measure.h"
@@ -74,13 +75,15 @@ struct JobOrders {
     const Project& project;
     const Segmentation& segmentation;
     const Cell& cell;
+    std::span<const PieceJoint> joints;
     Sha256 cell_sha256;  // of the cell file
     const std::string& program_version;
 };
 
 JobOrders orders_of(const fs::path& folder, const Project& project, const Segmentation& segmentation, const Cell& cell,
-                    const std::string& program_version) {
-    return {folder,         project, segmentation, cell, sha256(read_file(folder / "cell.toml", settings_limit)),
+                    std::span<const PieceJoint> joints, const std::string& program_version) {
+    return {folder,         project, segmentation,
+            cell,           joints,  sha256(read_file(folder / "cell.toml", settings_limit)),
             program_version};
 }
 
@@ -100,6 +103,7 @@ JobInput job_input(const JobOrders& orders, std::size_t index, const Carving& ca
     input.states = carving.choice.states;
     input.max_unreachable = most_unreachable(orders.project, orders.cell);
     input.warnings = orders.project.warnings;
+    input.caps = caps_of(orders.segmentation.pieces, index, orders.joints, input.setup, input.cell);
     return input;
 }
 
@@ -222,9 +226,10 @@ class JobProgress {
 }  // namespace
 
 PieceReport write_job(const fs::path& folder, Project& project, const Segmentation& segmentation, std::size_t index,
-                      Setups& setups, const std::string& program_version, const Context& context) {
+                      Setups& setups, std::span<const PieceJoint> joints, const std::string& program_version,
+                      const Context& context) {
     const Piece& piece = segmentation.pieces[index];
-    MadeJob made = make_job(orders_of(folder, project, segmentation, setups.cell(), program_version), index,
+    MadeJob made = make_job(orders_of(folder, project, segmentation, setups.cell(), joints, program_version), index,
                             setups.held(piece), context);
     std::erase_if(project.jobs, [&](const WrittenJob& job) { return job.piece == piece.name; });
     const auto later = std::find_if(project.jobs.begin(), project.jobs.end(),
@@ -234,7 +239,8 @@ PieceReport write_job(const fs::path& folder, Project& project, const Segmentati
 }
 
 std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, const Segmentation& segmentation,
-                                    Setups& setups, const std::string& program_version, const Context& context) {
+                                    Setups& setups, std::span<const PieceJoint> joints,
+                                    const std::string& program_version, const Context& context) {
     StageTimer stage(context, "setups chosen");
     const std::size_t count = segmentation.pieces.size();
     context.progress("setups chosen", 0, count);
@@ -244,7 +250,7 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
     stage.next("jobs written");
     std::vector<const Carving*> carvings;
     for (const Piece& piece : segmentation.pieces) carvings.push_back(&setups.held(piece));
-    const JobOrders orders = orders_of(folder, project, segmentation, setups.cell(), program_version);
+    const JobOrders orders = orders_of(folder, project, segmentation, setups.cell(), joints, program_version);
     std::vector<MadeJob> made(count);
     JobProgress progress(context, count);
     parallel_for(0, count, [&](std::size_t i) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "app/project/reach_advice.h"
 #include "app/project/setups.h"
 #include "base/context.h"
+#include "segment/joint/piece_joints.h"
 
 namespace qchopper {
 
@@ -37,13 +39,16 @@ struct PieceReport {
 };
 
 // Writes jobs/<name>.qjob of one piece, and those of further parts, if it fits the cell, else removes them, and records
-// them in the project, which is not saved. `index` is that of the piece in the segmentation.
+// them in the project, which is not saved. `index` is that of the piece in the segmentation, `joints` are those of all
+// its pieces.
 PieceReport write_job(const std::filesystem::path& folder, Project& project, const Segmentation& segmentation,
-                      std::size_t index, Setups& setups, const std::string& program_version, const Context& context);
+                      std::size_t index, Setups& setups, std::span<const PieceJoint> joints,
+                      const std::string& program_version, const Context& context);
 
 // The same for all pieces; no other job stays recorded. One report per piece. Throws Cancelled.
 std::vector<PieceReport> write_jobs(const std::filesystem::path& folder, Project& project,
                                     const Segmentation& segmentation, Setups& setups,
-                                    const std::string& program_version, const Context& context);
+                                    std::span<const PieceJoint> joints, const std::string& program_version,
+                                    const Context& context);
 
 }  // namespace qchopper

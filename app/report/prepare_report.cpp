@@ -10,6 +10,7 @@
 #include "app/project/shell_word.h"
 #include "app/project/value_json.h"
 #include "app/report/columns.h"
+#include "app/report/joint_report.h"
 #include "app/report/segment_report.h"
 #include "app/report/setup_report.h"
 #include "app/report/work_envelope_report.h"
@@ -171,6 +172,7 @@ std::vector<std::string> table(const PreparedProject& prepared) {
         "unreachable: of the surface without the base, along the directions of the setup; foam: what they leave, and "
         "its depth.");
     if (const std::string note = arm_note(prepared.cell); !note.empty()) lines.push_back(note);
+    for (const std::string& line : joint_lines(prepared.joints)) lines.push_back(line);
     for (const std::string& line : ignored_lines(prepared.project)) lines.push_back(line);
     const std::size_t fragments = prepared.project.fragment_list.size();
     if (fragments > 0) {
@@ -224,6 +226,8 @@ std::string document(const PreparedProject& prepared) {
               {"cuts", cuts},
               {"verdicts", verdicts},
               {"pieces", pieces},
+              {"joints", joints_json(prepared.joints)},
+              {"assembly", assembly_json(prepared.joints)},
               {"fragments", fragments},
               {"discarded", discarded_json(p)},
               {"warnings", p.warnings}};

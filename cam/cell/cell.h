@@ -17,6 +17,7 @@
 #include "cam/cell/material.h"
 #include "cam/cell/origin.h"
 #include "cam/cell/robot.h"
+#include "segment/joint/dowel.h"
 #include "segment/mesh/measure.h"
 
 namespace qchopper {
@@ -120,6 +121,8 @@ struct Cell {
     double clearance = 20;    // height above the block in which the tool travels
     Tool tool;                // version 2: the first one
     Link link;
+    std::vector<DowelSize> dowels = default_dowels();  // largest first; empty: pieces are joined without dowels
+    double dowel_play = default_dowel_play;
     std::optional<CellMachine> machine;  // version 2; nothing: version 1, boxes only
     bool operator==(const Cell&) const = default;
 };

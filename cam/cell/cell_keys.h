@@ -42,8 +42,9 @@ inline constexpr auto all = std::to_array<TableKeys>(
 namespace keys_2 {
 
 inline constexpr auto root_keys = std::to_array<std::string_view>(
-    {"version", "name", "id", "clearance", "max_tilt_deg", "max_unreachable", "margin", "reach", "table",
-     "rotary_table", "robot", "spindle", "extraction", "tool", "stock", "obstacle", "start", "program", "link"});
+    {"version", "name",     "id",           "clearance", "max_tilt_deg", "max_unreachable", "margin",
+     "reach",   "table",    "rotary_table", "robot",     "spindle",      "extraction",      "tool",
+     "stock",   "obstacle", "start",        "program",   "link",         "dowel",           "dowel_play"});
 inline constexpr auto box_keys = std::to_array<std::string_view>({"min", "max", "source", "sources"});
 inline constexpr auto table_keys = std::to_array<std::string_view>({"centre", "size", "height", "source", "sources"});
 inline constexpr auto rotary_table_keys = std::to_array<std::string_view>(
@@ -90,6 +91,8 @@ inline constexpr auto start_keys = std::to_array<std::string_view>({"joints_deg"
 inline constexpr auto program_keys = std::to_array<std::string_view>(
     {"memory_bytes", "lines_per_chunk", "source", "sources", "dialect", "link_feed", "tool_change"});
 
+inline constexpr auto dowel_keys = std::to_array<std::string_view>({"diameter", "depth", "wall"});
+
 inline constexpr TableKeys root{"", root_keys};
 inline constexpr TableKeys reach{"reach", box_keys};
 inline constexpr TableKeys table{"table", table_keys};
@@ -113,11 +116,12 @@ inline constexpr TableKeys margin{"margin", margin_keys};
 inline constexpr TableKeys start{"start", start_keys};
 inline constexpr TableKeys program{"program", program_keys};
 inline constexpr TableKeys link{"link", keys_1::link};
+inline constexpr TableKeys dowel{"dowel", dowel_keys};
 
 inline constexpr auto all = std::to_array<TableKeys>(
     {root,    reach,      table,         rotary_table,     robot,       base,       cable,         capsule,
      spindle, spindle_on, spindle_speed, spindle_at_speed, spindle_off, extraction, extraction_on, extraction_off,
-     tool,    stock,      obstacle,      margin,           start,       program,    link});
+     tool,    stock,      obstacle,      margin,           start,       program,    link,          dowel});
 
 }  // namespace keys_2
 }  // namespace qchopper

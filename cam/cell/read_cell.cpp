@@ -21,6 +21,7 @@ namespace {
 constexpr double farthest = 100'000;  // mm; a coordinate of version 1 that is larger is in a wrong unit
 constexpr std::size_t most_blocks = 1000;
 constexpr std::size_t most_obstacles = 1000;
+constexpr std::size_t most_dowels = 12;
 
 // `name` is the table's, for messages.
 Box read_box(const TomlReader& reader, const std::string& name, double most) {
@@ -219,6 +220,21 @@ void read_limits(const TomlReader& root, Cell& cell, CellMachine& machine) {
     add_defaults(root, std::to_array<std::string_view>({"max_tilt_deg"}), "", machine.origins);
 }
 
+std::vector<DowelSize> read_dowels(const TomlReader& root) {
+    if (!root.has("dowel")) return default_dowels();
+    std::vector<DowelSize> dowels;
+    for (const TomlReader& row : root.tables("dowel", keys_2::dowel.keys)) {
+        const DowelSize size{row.number("diameter", 1, 200), row.number("depth", 1, 1'000),
+                             row.number("wall", 0, 1'000)};
+        if (dowels.size() == most_dowels) root.refuse("dowel", "more than " + std::to_string(most_dowels) + " sizes");
+        if (!dowels.empty() && dowels.back().diameter <= size.diameter) {
+            row.refuse("diameter", "is not smaller than the one before", "list the sizes of dowels largest first");
+        }
+        dowels.push_back(size);
+    }
+    return dowels;
+}
+
 // As jobs name it.
 Tool tool_of(const CarvingTool& tool) {
     return {tool.number,
@@ -248,6 +264,8 @@ Cell read_version_2(const TomlReader& root, const std::filesystem::path& path) {
         read_stock(root, keys_2::stock.keys, [&](const TomlReader& row) { return read_block_2(row, machine.origins); });
     machine.obstacles = read_obstacles(root, machine.origins);
     machine.start = read_start(root, machine.robot, cell.reach);
+    cell.dowels = read_dowels(root);
+    if (root.has("dowel_play")) cell.dowel_play = root.number("dowel_play", 0, 5);
     read_limits(root, cell, machine);
     if (root.has("link")) cell.link = read_link(root.table("link", keys_2::link.keys), path);
     cell.machine = std::move(machine);

@@ -44,6 +44,7 @@ Bytes as_glb(std::span<const ExportPiece> pieces, const ExportNotes& notes) {
         for (Vec3& p : lying.points) p = p - node.origin;
         node.surface = piece.colour;
         node.notes = glb_notes(piece, notes);
+        node.keys = piece.moves;
         meshes.push_back(std::move(lying));
         scene.nodes.push_back(std::move(node));
     }

@@ -12,11 +12,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/file.h"
 #include "base/pose.h"
 #include "base/sha256.h"
 #include "segment/cut/piece.h"
+#include "segment/io/write_glb.h"
 
 namespace qchopper {
 
@@ -35,6 +37,7 @@ struct ExportPiece {
     std::string parent;                              // the piece that it was cut from; empty: none
     std::optional<bool> fits;                        // into its cell; nothing: not checked
     std::array<double, 3> colour{0.80, 0.72, 0.56};  // linear red, green, blue
+    std::vector<GlbKey> moves = {};                  // of the assembly, in GLB only
 };
 
 struct ExportNotes {

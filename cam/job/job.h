@@ -13,6 +13,7 @@
 
 #include "base/file.h"
 #include "cam/cell/cell.h"
+#include "cam/job/job_cap.h"
 #include "cam/job/job_program.h"
 #include "cam/job/ticket.h"
 #include "cam/setup/envelope.h"
@@ -43,6 +44,7 @@ struct JobInput {
     std::vector<std::string> warnings;  // of the project: "scaled by 0.5 on request"
     WorkEnvelope work_envelope = {};    // of the setup
     std::optional<ProgramInput> program = {};
+    std::vector<DrawnCap> caps = {};                        // that are joined to other pieces, by their cuts
     std::string no_program_because = "none was asked for";  // for people; not used if there is a program
 };
 
@@ -81,6 +83,7 @@ struct ReadJob {
     double max_unreachable = 0;          // share, 0..1
     std::string block_name;              // in the cell's list of stock
     std::vector<HalfSpace> half_spaces;  // in piece coordinates
+    std::vector<JobCap> caps;            // that are joined to other pieces, by their cuts
     EnvelopeReport envelope;
     bool is_arm_checked = false;      // whether envelope.json tells of poses
     bool holds_poses = true;          // whether the machine holds all of them; true where they are not checked

@@ -9,6 +9,8 @@
 
 #include "base/error.h"
 #include "base/json.h"
+#include "cam/job/cap_document.h"
+#include "cam/job/pose_json.h"
 #include "cam/job/program_document.h"
 #include "cam/setup/block_placement.h"
 
@@ -72,12 +74,6 @@ Json from_alternatives(const std::vector<Alternative>& alternatives) {
                         {"directions", other.directions}});
     }
     return list;
-}
-
-Json from_pose(const Pose& pose) {
-    Json rows = Json::array();
-    for (const Vec3& row : pose.row) rows.push_back(from_vector(row));
-    return {{"rows", rows}, {"shift", from_vector(pose.shift)}};
 }
 
 Json from_placement(const BlockPlacement& placement) {
@@ -166,18 +162,6 @@ std::int32_t cut_number(const Json& object, const std::string& key) {
     const auto number = whole<std::uint32_t>(object, key);
     if (number > std::numeric_limits<std::int32_t>::max()) throw wrong(key, "is no number of a cut");
     return static_cast<std::int32_t>(number);
-}
-
-Pose to_pose(const Json& json, const std::string& key) {
-    const Json& rows = member(json, "rows");
-    if (!rows.is_array() || rows.size() != 3) throw wrong("rows", "is not three rows");
-    Pose pose;
-    for (std::size_t i = 0; i < 3; ++i) pose.row[i] = to_vector(rows[i], "rows");
-    pose.shift = vector(json, "shift");
-    // A mirror image would pass all other checks and be carved.
-    const double turn = dot(pose.row[0], cross(pose.row[1], pose.row[2]));
-    if (!(std::abs(turn - 1) < 1e-6)) throw wrong(key, "is not a rotation");
-    return pose;
 }
 
 int base_number(const Json& object) {
@@ -328,6 +312,7 @@ ReadJob to_job(const Json& json) {
     if (job.cell_id == 0) throw wrong("id", "is the number of no cell");
     job.half_spaces = to_half_spaces(json);
     job.setup = to_setup(member(json, "setup"), member(json, "stock"));
+    job.caps = to_caps(member(json, "caps"), job.setup.piece_in_setup);
     job.setup_in_cell = to_frames(member(json, "setup"), job.setup);
     job.alternatives = to_alternatives(json);
     job.max_unreachable = real_within(json, "max_unreachable", 0, 1);
@@ -365,6 +350,8 @@ std::string to_manifest(const JobInput& input, const std::vector<JobEntry>& entr
     for (const JobEntry& entry : entries) {
         files.push_back({{"name", entry.name}, {"size", entry.size}, {"sha256", to_hex(entry.sha256)}});
     }
+    std::vector<JobCap> caps;
+    for (const DrawnCap& drawn : input.caps) caps.push_back(drawn.cap);
     const Json json = {
         {"format", format_name},
         {"schema", job_schema_version},
@@ -380,6 +367,7 @@ std::string to_manifest(const JobInput& input, const std::vector<JobEntry>& entr
         {"scan_sha256", to_hex(input.scan_sha256)},
         {"cell", {{"name", input.cell.name}, {"id", input.cell.id}}},
         {"half_spaces", from_half_spaces(input.piece.half_spaces)},
+        {"caps", from_caps(caps)},
         {"setup", from_setup(input)},
         {"stock", from_stock(input)},
         {"alternatives", from_alternatives(alternatives_of(input))},

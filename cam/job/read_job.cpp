@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/portable_name.h"
 #include "base/zip.h"
+#include "cam/job/cap_document.h"
 #include "cam/job/envelope_document.h"
 #include "cam/job/manifest.h"
 #include "cam/job/program_document.h"
@@ -43,8 +44,10 @@ void check_entries(const ReadJob& job, const std::string& source) {
     for (const char* name : names) {
         if (!job.files.contains(name)) refuse(source, std::string(name) + " is missing");
     }
-    const std::string fault = fault_of_program_files(job.program, job.files);
-    if (!fault.empty()) refuse(source, fault);
+    for (const std::string& fault :
+         {fault_of_program_files(job.program, job.files), fault_of_templates(job.caps, job.files)}) {
+        if (!fault.empty()) refuse(source, fault);
+    }
 }
 
 void check_ticket(const ReadJob& job, const std::string& source) {

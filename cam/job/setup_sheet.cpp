@@ -9,6 +9,7 @@
 
 #include "base/hex.h"
 #include "base/text.h"
+#include "cam/job/cap_section.h"
 #include "cam/job/envelope_picture.h"
 #include "cam/job/envelope_section.h"
 #include "cam/job/manifest.h"
@@ -377,7 +378,8 @@ std::string setup_sheet(const JobInput& input, std::uint32_t estimated_time_s) {
            head(input) + pictures(input) + block_section(input) + place_section(input) + holding_section(input.setup) +
            piece_section(input.setup) + tool_section(input.cell) + direction_section(input) + reach_section(input) +
            parting_section(input.setup) + alternative_section(input) + margin_section(input.envelope) +
-           envelope_section(input) + warning_section(input) + program_section(input, estimated_time_s) + "<footer>" +
+           envelope_section(input) + warning_section(input) + program_section(input, estimated_time_s) +
+           cap_section(input) + "<footer>" +
            svg_text("Project " + to_hex(input.project_id) + ". Scan " + to_hex(input.scan_sha256) +
                     ". Written by qchopper " + input.program_version + ".") +
            "</footer>\n</body>\n</html>\n";

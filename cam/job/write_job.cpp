@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/zip.h"
+#include "cam/job/cap_template.h"
 #include "cam/job/envelope_document.h"
 #include "cam/job/envelope_picture.h"
 #include "cam/job/manifest.h"
@@ -104,6 +105,11 @@ Bytes job_file(const JobInput& input) {
     if (input.program) {
         for (const auto& [name, text] : input.program->texts) files[name] = to_bytes(text);
         if (!input.program->deviation_picture.empty()) files["deviation.png"] = input.program->deviation_picture;
+    }
+    for (const DrawnCap& cap : input.caps) {
+        const CapTemplate drawing = cap_template(cap, input.piece.name);
+        files[template_name(cap.cap.cut, "svg")] = to_bytes(template_svg(drawing));
+        files[template_name(cap.cap.cut, "pdf")] = template_pdf(drawing);
     }
     const TicketTemplate ticket = ticket_template(input);
     files["setup.html"] = to_bytes(setup_sheet(input, ticket.estimated_time_s));

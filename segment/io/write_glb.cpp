@@ -115,6 +115,58 @@ void add_node(tinygltf::Model& model, const GlbNode& from) {
     model.meshes.push_back(mesh);
 }
 
+int add_numbers(tinygltf::Model& model, const std::vector<float>& numbers, int per_value, int type) {
+    const std::size_t offset = model.buffers[0].data.size();
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = offset;
+    view.byteLength = numbers.size() * sizeof(float);
+    model.buffers[0].data.resize(offset + view.byteLength);
+    std::memcpy(model.buffers[0].data.data() + offset, numbers.data(), view.byteLength);
+    model.bufferViews.push_back(view);
+    tinygltf::Accessor accessor;
+    accessor.bufferView = static_cast<int>(model.bufferViews.size()) - 1;
+    accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
+    accessor.type = type;
+    accessor.count = numbers.size() / static_cast<std::size_t>(per_value);
+    if (per_value == 1) {
+        accessor.minValues = {numbers.front()};
+        accessor.maxValues = {numbers.back()};
+    }
+    model.accessors.push_back(accessor);
+    return static_cast<int>(model.accessors.size()) - 1;
+}
+
+void add_keys(tinygltf::Model& model, tinygltf::Animation& animation, const GlbNode& node, int number) {
+    std::vector<float> times;
+    std::vector<float> places;
+    for (const GlbKey& key : node.keys) {
+        times.push_back(static_cast<float>(key.time_s));
+        const Vec3 place = node.origin + key.shift;
+        for (int axis = 0; axis < 3; ++axis) places.push_back(static_cast<float>(place[axis]));
+    }
+    tinygltf::AnimationSampler sampler;
+    sampler.input = add_numbers(model, times, 1, TINYGLTF_TYPE_SCALAR);
+    sampler.output = add_numbers(model, places, 3, TINYGLTF_TYPE_VEC3);
+    sampler.interpolation = "LINEAR";
+    tinygltf::AnimationChannel channel;
+    channel.sampler = static_cast<int>(animation.samplers.size());
+    channel.target_node = number;
+    channel.target_path = "translation";
+    animation.samplers.push_back(sampler);
+    animation.channels.push_back(channel);
+}
+
+void add_animation(tinygltf::Model& model, const GlbScene& scene) {
+    tinygltf::Animation animation;
+    animation.name = scene.animation;
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        // node 0 is the root
+        if (!scene.nodes[i].keys.empty()) add_keys(model, animation, scene.nodes[i], static_cast<int>(i) + 1);
+    }
+    if (!animation.channels.empty()) model.animations.push_back(animation);
+}
+
 void add_root(tinygltf::Model& model, const std::string& name) {
     tinygltf::Node root;
     root.name = name;
@@ -150,6 +202,7 @@ Bytes to_glb(const GlbScene& scene) {
     model.buffers.resize(1);
     add_root(model, scene.root);
     for (const GlbNode& node : scene.nodes) add_node(model, node);
+    add_animation(model, scene);
     std::ostringstream stream;
     tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true);
     model = {};

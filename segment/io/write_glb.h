@@ -20,19 +20,27 @@ namespace qchopper {
 
 using GlbNote = std::pair<std::string, std::variant<bool, int, double, std::string>>;
 
+// Where a node is at a time, beside its place: linear between keys.
+struct GlbKey {
+    double time_s = 0;
+    Vec3 shift;  // mm
+};
+
 struct GlbNode {
     std::string name;                                 // "piece/B"
     const TriangleMesh* mesh = nullptr;               // not null, about the origin of the node; owned by the caller
     Vec3 origin;                                      // of the node, mm
     std::array<double, 3> surface{0.80, 0.72, 0.56};  // linear red, green, blue
     std::array<double, 3> cap{0.90, 0.85, 0.74};
-    std::vector<GlbNote> notes;  // extras: {"qchopper": {...}}
+    std::vector<GlbNote> notes;     // extras: {"qchopper": {...}}
+    std::vector<GlbKey> keys = {};  // of the animation, times ascending; empty: the node stays
 };
 
 struct GlbScene {
     std::string generator;
     std::string root = "scene";  // name of the root node
     std::vector<GlbNode> nodes;
+    std::string animation = "assembly";  // its name; there is one where a node has keys
 };
 
 // Throws InputError (use) for a scene beyond the 4 GiB that the format can hold.

@@ -14,7 +14,7 @@ MODULES = ["base", "segment", "cam", "devices", "sim", "app"]
 
 # Inside these modules the sub-modules are ordered as well.
 SUB_MODULES = {
-    "segment": ["mesh", "io", "repair", "import", "cut", "simplify", "sample", "picture", "score", "search"],
+    "segment": ["mesh", "io", "repair", "import", "cut", "simplify", "sample", "picture", "score", "search", "joint"],
     "cam": ["cell", "setup", "toolpath", "program", "post", "job", "export"],
     "app": ["project", "report", "cli"],
 }

@@ -37,8 +37,11 @@ int run(int argc, char** argv) {
     };
     ModbusTcpBus bus({"127.0.0.1", port});
     Journal journal(argv[2], {any_cell_id, true, "crash test"});
-    const std::vector<HandedOver> handed =
-        hand_over({PieceJob{"A", job.file, job.ticket}}, bus, options, journal, ProjectContext{});
+    PieceJob piece_job;
+    piece_job.piece = "A";
+    piece_job.file = job.file;
+    piece_job.ticket = job.ticket;
+    const std::vector<HandedOver> handed = hand_over({piece_job}, bus, options, journal, ProjectContext{});
     for (const HandedOver& one : handed) {
         std::printf("%s|%s|%d|%d\n", describe(one.outcome.verdict), to_text(one.outcome.job_id).c_str(),
                     one.outcome.is_complete() ? 1 : 0, one.outcome.carved_before ? 1 : 0);

@@ -78,6 +78,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                        {"setup-2.png", to_bytes("PNG")},
                                        {"setup.html", to_bytes("setup")},
                                        {"ticket.json", to_bytes(text.substr(0, end))}};
+    if (manifest.find("\"cap_in_piece\"") != std::string::npos) {  // the cap of the seed
+        files["template-4.pdf"] = to_bytes("%PDF");
+        files["template-4.svg"] = to_bytes("svg");
+    }
     const std::string right = agreeing(manifest, files);
     for (const std::string& one : {manifest, right}) {
         std::map<std::string, Bytes> all = files;

@@ -34,6 +34,14 @@ JobInput some_job() {
     input.setup.block.offcuts = {{200, 60, 50}};
     input.setup.spoil = 10;
     input.setup.warnings = {"a warning"};
+    DrawnCap cap;
+    cap.cap.cut = 4;
+    cap.cap.cap_in_piece.row = {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, -1}};
+    cap.cap.joints = {{"C", 200, "", {{6, 16, {1, 2}, {1, -2, 0}, {0, 0, 1}, false}}}};
+    cap.outline = {{{-10, -5}, {10, -5}, {10, 5}, {-10, 5}}};
+    cap.names_at = {{0, 0}};
+    cap.size = {20, 10};
+    input.caps = {cap};
     SurfaceReach& reach = input.setup.reach;
     reach.method = ReachMethod::mapped;
     reach.directions = {{{0, 0, 1}, 0, 0.75, 20}};

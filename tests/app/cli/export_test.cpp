@@ -63,6 +63,28 @@ TEST_F(Export, EveryFormatIsWrittenTheSameWayTwice) {
     }
 }
 
+TEST_F(Export, HolesAreCutInAndTheMeshesStayClosed) {
+    const json plain = document({"ply", "-o", "plain"});
+    const json holed = document({"ply", "--holes", "-o", "holed"});
+    ASSERT_EQ(plain["pieces"].size(), holed["pieces"].size());
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < plain["pieces"].size(); ++i) {
+        const std::string file = holed["pieces"][i]["file"].get<std::string>();
+        changed += plain["pieces"][i]["faces"] != holed["pieces"][i]["faces"] ? 1 : 0;
+        const program::Ended seen = program::run({"inspect", file, "--json"}, {folder.path});
+        EXPECT_EQ(seen.code, 0) << seen.err;
+    }
+    EXPECT_GT(changed, 0U);
+    EXPECT_EQ(run({"ply", "--holes", "--simplify", "1", "-o", "both"}).code, 64);
+}
+
+TEST_F(Export, AGlbOfAllPiecesShowsTheAssembly) {
+    EXPECT_EQ(run({"glb", "-o", "all.glb"}).code, 0);
+    EXPECT_NE(bytes("all.glb").find("\"animations\""), std::string::npos);
+    EXPECT_EQ(run({"glb", "--pose", "setup", "-o", "setup.glb"}).code, 0);
+    EXPECT_EQ(bytes("setup.glb").find("\"animations\""), std::string::npos);
+}
+
 TEST_F(Export, WhatIsWrittenCanBeReadAgain) {
     EXPECT_EQ(run({"3mf", "--piece", "C"}).code, 0);
     EXPECT_EQ(run({"glb", "--piece", "C", "-o", "c.glb"}).code, 0);

@@ -311,6 +311,23 @@ TEST(CellVersion2, NamesLineAndKeyOfEveryFault) {
     }
 }
 
+TEST(CellVersion2, DowelsAreAListLargestFirst) {
+    EXPECT_EQ(parse_cell(robot_cell(), "cell.toml").dowels, default_dowels());
+    const std::string two =
+        "\n[[dowel]]\ndiameter = 12.0\ndepth = 30.0\nwall = 8.0\n[[dowel]]\ndiameter = 6.0\ndepth = 20.0\nwall = 4.0\n";
+    const Cell cell =
+        parse_cell(replaced(robot_cell(), "version = 2", "version = 2\ndowel_play = 0.5") + two, "cell.toml");
+    EXPECT_EQ(cell.dowels, (std::vector<DowelSize>{{12, 30, 8}, {6, 20, 4}}));
+    EXPECT_EQ(cell.dowel_play, 0.5);
+    EXPECT_NE(refused(robot_cell() + replaced(two, "12.0", "5.0")).find("not smaller"), std::string::npos);
+    EXPECT_NE(refused(robot_cell() + replaced(two, "12.0", "0.5")).find("bounds"), std::string::npos);
+    EXPECT_NE(refused(robot_cell() + replaced(two, "12.0", "nan")).find("finite"), std::string::npos);
+    EXPECT_NE(refused(robot_cell() + replaced(two, "depth = 30.0\n", "")).find("depth"), std::string::npos);
+    EXPECT_NE(refused(replaced(robot_cell(), "version = 2", "version = 2\ndowel_play = 9.0")).find("bounds"),
+              std::string::npos);
+    EXPECT_TRUE(parse_cell(replaced(robot_cell(), "version = 2", "version = 2\ndowel = []"), "c.toml").dowels.empty());
+}
+
 TEST(CellVersion2, AnOriginOfAValueThatIsNotGivenIsRefused) {
     const std::string text =
         replaced(robot_cell(), "shape = \"ball\"", "shape = \"ball\"\nsources = { corner_radius = \"measured\" }");

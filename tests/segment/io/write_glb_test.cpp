@@ -42,6 +42,23 @@ TEST(WriteGlb, FarFromTheOriginNothingIsLost) {
     EXPECT_NE(text.find("piece/A"), std::string::npos);
 }
 
+TEST(WriteGlb, KeysAreAnAnimationOfTheNodesThatHaveThem) {
+    const std::vector<TriangleMesh> meshes{shapes::box({0, 0, 0}, {100, 200, 400}), shapes::ball({0, 0, 0}, 50)};
+    GlbScene scene = scene_of(meshes, {{1000, 0, 0}, {0, 3000, 0}});
+    const auto text_of = [](const Bytes& bytes) { return std::string(bytes.begin(), bytes.end()); };
+    EXPECT_EQ(text_of(to_glb(scene)).find("\"animations\""), std::string::npos);
+    scene.nodes[1].keys = {{0, {0, 0, 200}}, {2, {0, 0, 0}}};
+    const Bytes bytes = to_glb(scene);
+    const std::string text = text_of(bytes);
+    EXPECT_NE(text.find("\"animations\""), std::string::npos);
+    EXPECT_NE(text.find("\"node\":2"), std::string::npos);  // after the root and the first
+    EXPECT_NE(text.find("\"max\":[2"), std::string::npos);
+    const RawMesh back = parse_mesh(bytes, "a.glb");  // at rest it is in its place
+    const double mm = *back.mm_per_unit;
+    const Vec3 size = mm * bounds(back.mesh).size();
+    EXPECT_NEAR(std::max({size.x, size.y, size.z}), 3050, 0.01);
+}
+
 TEST(WriteGlb, SameSceneSameBytes) {
     const std::vector<TriangleMesh> meshes{shapes::torus({0, 0, 0}, 50, 20)};
     EXPECT_EQ(to_glb(scene_of(meshes, {{1, 2, 3}})), to_glb(scene_of(meshes, {{1, 2, 3}})));

@@ -1,0 +1,23 @@
+// Joints, seams and the steps of the assembly as text and JSON.
+//
+// Tests: tests/app/project/project_joints_test.cpp.
+
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "app/project/project_joints.h"
+
+namespace qchopper {
+
+// A row per joint, the length of the seams, and a line per step.
+std::vector<std::string> joint_lines(const ProjectJoints& joints);
+
+// {joints, seam_mm, visible_seam_mm}
+nlohmann::ordered_json joints_json(const ProjectJoints& joints);
+// A list of steps.
+nlohmann::ordered_json assembly_json(const ProjectJoints& joints);
+
+}  // namespace qchopper

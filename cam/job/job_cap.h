@@ -1,0 +1,54 @@
+// The caps of a piece in its job: with which pieces they are joined, and the holes for the dowels.
+//
+// Values; mm. The frame of a cap has z along its outward normal and its origin in the least corner of the cap's
+// rectangle, so that it is what one sees who looks at the cap.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/pose.h"
+#include "segment/mesh/polygon.h"
+
+namespace qchopper {
+
+struct JobHole {
+    double diameter = 0;
+    double depth = 0;
+    Point2 on_cap;          // of its middle, in the frame of the cap
+    Vec3 point;             // the same in setup coordinates
+    Vec3 axis;              // unit vector in setup coordinates, into the piece
+    bool by_robot = false;  // the robot could drill it in this setup; otherwise by hand with the template
+    bool operator==(const JobHole&) const = default;
+};
+
+// What one piece touches of a cap.
+struct CapJoint {
+    std::string neighbour;
+    double area_mm2 = 0;  // of the contact
+    std::string note;     // what is wrong with the joint, for people; empty: nothing
+    std::vector<JobHole> holes;
+    bool operator==(const CapJoint&) const = default;
+};
+
+struct JobCap {
+    std::int32_t cut = 0;
+    Pose cap_in_piece;
+    std::vector<CapJoint> joints;
+    bool operator==(const JobCap&) const = default;
+};
+
+// A cap with what its template draws, in the frame of the cap.
+struct DrawnCap {
+    JobCap cap;
+    std::vector<std::vector<Point2>> outline;
+    std::vector<Point2> names_at;  // one per joint: where the neighbour's name stands
+    Point2 size;                   // of the rectangle around the outline
+};
+
+// "template-3.svg", "template-3.pdf", of the cap of cut 3.
+std::string template_name(std::int32_t cut, const std::string& ending);
+
+}  // namespace qchopper

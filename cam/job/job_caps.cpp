@@ -1,0 +1,112 @@
+// From the plane of a cut to the frame of the cap on one of its sides. O(triangles of the piece + corners of contacts).
+
+#include "cam/job/job_caps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cam/setup/held_directions.h"
+#include "segment/mesh/plane_frame.h"
+
+namespace qchopper {
+namespace {
+
+// With its origin in the point of the plane that is nearest to that of the piece.
+Pose cap_frame(const HalfSpace& half_space) {
+    const Vec3 out = -half_space.up();
+    const PlaneFrame frame = frame_across(out);
+    const Vec3 origin = half_space.plane.offset * half_space.plane.normal;
+    // rows of piece_in_cap, then inverted
+    return inverse(Pose{{frame.u, frame.v, out}, {-dot(frame.u, origin), -dot(frame.v, origin), -dot(out, origin)}});
+}
+
+Point2 in_cap(const Pose& cap_in_piece, Vec3 point) {
+    const Vec3 p = apply_inverse(cap_in_piece, point);
+    return {p.x, p.y};
+}
+
+Point2 middle_of(const FlatRegion& contact, const Plane& plane, const Pose& cap_in_piece) {
+    Vec3 sum;
+    double count = 0;
+    for (const CapRegion& region : contact.regions) {
+        for (const std::uint32_t p : contact.loops[region.outer]) {
+            sum = sum + from_plane(plane, contact.points[p]);
+            ++count;
+        }
+    }
+    return in_cap(cap_in_piece, 1 / count * sum);
+}
+
+bool has_tool_for(const Cell& cell, const DowelSize& size) {
+    if (!cell.machine) return cell.tool.diameter <= size.diameter;
+    return std::any_of(cell.machine->tools.begin(), cell.machine->tools.end(), [&](const CarvingTool& tool) {
+        return tool.diameter <= size.diameter && tool.stick_out >= size.depth;
+    });
+}
+
+// Whether the tool may come out along the cap's normal.
+bool is_tool_direction(const HalfSpace& half_space, const Setup& setup, const Cell& cell) {
+    if (setup.base && *setup.base == half_space.cut) return false;
+    const Vec3 out = rotate(setup.piece_in_setup, -half_space.up());
+    const double most_tilt = cell.machine && cell.machine->robot ? cell.machine->max_tilt : 0;
+    if (std::acos(std::clamp(out.z, -1.0, 1.0)) > most_tilt + 1e-6) return false;
+    return held_directions(cell, setup.box, setup.spoil, std::span(&out, 1)).front() != 0;
+}
+
+CapJoint cap_joint(const PieceJoint& joint, const Pose& cap_in_piece, const Setup& setup, const Cell& cell,
+                   bool is_direction) {
+    CapJoint made;
+    made.area_mm2 = joint.contact.area_mm2;
+    const Vec3 out = rotate(cap_in_piece, {0, 0, 1});
+    for (const Dowel& dowel : joint.dowels) {
+        const Point2 at = in_cap(cap_in_piece, dowel.point);
+        made.holes.push_back({dowel.size.diameter, dowel.size.depth, at,
+                              apply(setup.piece_in_setup, apply(cap_in_piece, {at.x, at.y, 0})),
+                              -rotate(setup.piece_in_setup, out), is_direction && has_tool_for(cell, dowel.size)});
+    }
+    return made;
+}
+
+// The outline in the frame, whose origin is moved to the least corner.
+void draw_outline(DrawnCap& drawn, const Piece& piece, const HalfSpace& half_space) {
+    Pose& frame = drawn.cap.cap_in_piece;
+    const FlatPolygons flat = cap_polygons(piece, half_space);
+    Rectangle2 box;
+    for (const Vec3& p : flat.points) box.include(in_cap(frame, p));
+    frame.shift = apply(frame, {box.min.x, box.min.y, 0});
+    drawn.size = {box.max.x - box.min.x, box.max.y - box.min.y};
+    for (const Loop& loop : outlines(flat)) {
+        std::vector<Point2> line;
+        for (const std::uint32_t p : loop) line.push_back(in_cap(frame, flat.points[p]));
+        drawn.outline.push_back(std::move(line));
+    }
+}
+
+}  // namespace
+
+std::vector<DrawnCap> caps_of(std::span<const Piece> pieces, std::size_t index, std::span<const PieceJoint> joints,
+                              const Setup& setup, const Cell& cell) {
+    std::vector<DrawnCap> caps;
+    for (const HalfSpace& half_space : pieces[index].half_spaces) {
+        DrawnCap drawn;
+        for (const PieceJoint& joint : joints) {
+            if (joint.cut != half_space.cut || (joint.below != index && joint.above != index)) continue;
+            if (drawn.cap.joints.empty()) {
+                drawn.cap.cut = half_space.cut;
+                drawn.cap.cap_in_piece = cap_frame(half_space);
+                draw_outline(drawn, pieces[index], half_space);
+            }
+            const Pose& frame = drawn.cap.cap_in_piece;
+            CapJoint made = cap_joint(joint, frame, setup, cell, is_tool_direction(half_space, setup, cell));
+            made.neighbour = pieces[joint.below == index ? joint.above : joint.below].name;
+            made.note = describe_fault(joint, pieces, joints);
+            drawn.cap.joints.push_back(std::move(made));
+            drawn.names_at.push_back(middle_of(joint.contact, joint.plane, frame));
+        }
+        if (!drawn.cap.joints.empty()) caps.push_back(std::move(drawn));
+    }
+    std::sort(caps.begin(), caps.end(), [](const DrawnCap& a, const DrawnCap& b) { return a.cap.cut < b.cap.cut; });
+    return caps;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,213 @@
+#include "cam/job/job_caps.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/error.h"
+#include "base/zip.h"
+#include "cam/job/cap_document.h"
+#include "cam/job/cap_template.h"
+#include "cam/job/read_job.h"
+#include "cam/job/write_job.h"
+#include "segment/io/read_mesh.h"
+#include "segment/mesh/measure.h"
+#include "segment/mesh/transform.h"
+#include "segment/mesh/triangle_tree.h"
+#include "tests/cam/job/some_job.h"
+#include "tests/folder.h"
+#include "tests/segment/joint/cut_pieces.h"
+
+namespace qchopper {
+namespace {
+
+using namespace test_pieces;
+
+struct JobsOfPieces {
+    Segmentation segmentation;
+    std::vector<PieceJoint> joints;
+    std::vector<JobInput> inputs;
+    std::vector<ReadJob> jobs;
+};
+
+// A torus in six pieces or so, all with jobs.
+const JobsOfPieces& some_jobs() {
+    static const JobsOfPieces all = [] {
+        JobsOfPieces made;
+        std::mt19937 random(3);
+        made.segmentation = cut_randomly(shapes::torus({30, -20, 10}, 80, 32, 24), 4, random);
+        const std::vector<Piece>& pieces = made.segmentation.pieces;
+        made.joints = piece_joints(pieces, {});
+        for (std::size_t p = 0; p < pieces.size(); ++p) {
+            JobInput input = some_job();
+            input.piece = pieces[p];
+            input.piece_no = static_cast<std::uint16_t>(p + 1);
+            input.piece_count = static_cast<std::uint16_t>(pieces.size());
+            SetupOptions options;
+            options.mapped = 0;
+            input.setup = choose_setup(pieces[p], input.cell, options).setups.front();
+            input.envelope = check_envelope(input.setup, input.cell);
+            input.caps = caps_of(pieces, p, made.joints, input.setup, input.cell);
+            made.jobs.push_back(parse_job(job_file(input), pieces[p].name));
+            made.inputs.push_back(std::move(input));
+        }
+        return made;
+    }();
+    return all;
+}
+
+const CapJoint* joint_towards(const ReadJob& job, std::int32_t cut, const std::string& neighbour) {
+    for (const JobCap& cap : job.caps) {
+        if (cap.cut != cut) continue;
+        for (const CapJoint& joint : cap.joints) {
+            if (joint.neighbour == neighbour) return &joint;
+        }
+    }
+    return nullptr;
+}
+
+TEST(JobCaps, WhatIsReadIsWhatWasWritten) {
+    const JobsOfPieces& all = some_jobs();
+    for (std::size_t p = 0; p < all.jobs.size(); ++p) {
+        ASSERT_EQ(all.jobs[p].caps.size(), all.inputs[p].caps.size());
+        for (std::size_t c = 0; c < all.jobs[p].caps.size(); ++c) {
+            EXPECT_EQ(all.jobs[p].caps[c], all.inputs[p].caps[c].cap);
+        }
+    }
+}
+
+// Rebuilt from their jobs alone, by the inverse of how they lie.
+TEST(JobCaps, PiecesOfTheJobsMeetAndSoDoTheirHoles) {
+    const JobsOfPieces& all = some_jobs();
+    const std::vector<Piece>& pieces = all.segmentation.pieces;
+    double farthest = 0;
+    double holes_apart = 0;
+    std::size_t holes = 0;
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        const TriangleMesh lying = parse_mesh(all.jobs[p].files.at("piece.stl"), "piece.stl").mesh;
+        const TriangleMesh rebuilt = apply(inverse(all.jobs[p].setup.piece_in_setup), lying);
+        const TriangleTree tree(*pieces[p].mesh);
+        for (const Vec3& point : rebuilt.points) {
+            farthest = std::max(farthest, tree.nearest(*pieces[p].mesh, point).distance);
+        }
+    }
+    EXPECT_LE(farthest, 0.005);  // of each of two that meet: 0.01 mm together
+    for (const PieceJoint& joint : all.joints) {
+        const ReadJob& below = all.jobs[joint.below];
+        const ReadJob& above = all.jobs[joint.above];
+        const CapJoint* first = joint_towards(below, joint.cut, pieces[joint.above].name);
+        const CapJoint* second = joint_towards(above, joint.cut, pieces[joint.below].name);
+        ASSERT_TRUE(first != nullptr && second != nullptr);
+        ASSERT_EQ(first->holes.size(), joint.dowels.size());
+        ASSERT_EQ(second->holes.size(), joint.dowels.size());
+        for (std::size_t h = 0; h < joint.dowels.size(); ++h) {
+            ++holes;
+            const Vec3 a = apply_inverse(below.setup.piece_in_setup, first->holes[h].point);
+            const Vec3 b = apply_inverse(above.setup.piece_in_setup, second->holes[h].point);
+            const Vec3 into_a = rotate_inverse(below.setup.piece_in_setup, first->holes[h].axis);
+            const Vec3 into_b = rotate_inverse(above.setup.piece_in_setup, second->holes[h].axis);
+            holes_apart = std::max({holes_apart, norm(a - b), 100 * norm(into_a + into_b)});
+            EXPECT_NEAR(dot(into_b, joint.plane.normal), 1, 1e-9);
+            EXPECT_EQ(first->holes[h].diameter, second->holes[h].diameter);
+        }
+    }
+    EXPECT_LE(holes_apart, 0.02);
+    EXPECT_GE(holes, 4u);
+}
+
+TEST(JobCaps, ABaseIsNeverDrilledByTheRobotAndEveryCapHasItsTemplates) {
+    const JobsOfPieces& all = some_jobs();
+    for (const ReadJob& job : all.jobs) {
+        for (const JobCap& cap : job.caps) {
+            EXPECT_TRUE(job.files.contains(template_name(cap.cut, "svg")));
+            EXPECT_TRUE(job.files.contains(template_name(cap.cut, "pdf")));
+            if (job.setup.base != cap.cut) continue;
+            for (const CapJoint& joint : cap.joints) {
+                for (const JobHole& hole : joint.holes) EXPECT_FALSE(hole.by_robot);
+            }
+        }
+        const Bytes& sheet = job.files.at("setup.html");
+        EXPECT_NE(std::string(sheet.begin(), sheet.end()).find("14. Joints"), std::string::npos);
+    }
+}
+
+TEST(JobCaps, TheRobotDrillsWhereTheToolMayComeOutAlongTheCap) {
+    Segmentation s = uncut(shapes::box({0, 0, 0}, {120, 100, 100}, 2), 0);
+    ASSERT_TRUE(cut_at(s, "A", {{0, 0, 1}, 50}));
+    const std::vector<PieceJoint> joints = piece_joints(s.pieces, {});
+    const std::size_t below = joints.at(0).below;
+    qchopper::Setup setup;  // as it lies in the scan: its cap looks up
+    setup.box = bounds(*s.pieces[below].mesh);
+    Cell version_1 = cell();
+    version_1.tool.diameter = 4;
+    const auto by_robot = [&](const qchopper::Setup& lying, const Cell& in) {
+        std::vector<bool> by;
+        for (const JobHole& hole : caps_of(s.pieces, below, joints, lying, in).at(0).cap.joints.at(0).holes) {
+            by.push_back(hole.by_robot);
+        }
+        return by;
+    };
+    EXPECT_EQ(by_robot(setup, version_1), (std::vector<bool>{true, true}));
+    version_1.tool.diameter = 7;  // too thick for the 6 mm hole
+    EXPECT_EQ(by_robot(setup, version_1), (std::vector<bool>{true, false}));
+    setup.base = 1;
+    EXPECT_EQ(by_robot(setup, version_1), (std::vector<bool>{false, false}));
+    setup.base.reset();
+    setup.piece_in_setup = {{Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, -1}}, {}};
+    EXPECT_EQ(by_robot(setup, version_1), (std::vector<bool>{false, false}));
+}
+
+// As the text of a manifest gives it back.
+nlohmann::ordered_json as_read(const std::vector<JobCap>& caps) {
+    return nlohmann::ordered_json::parse(from_caps(caps).dump());
+}
+
+TEST(JobCaps, AForgedHoleIsRefused) {
+    const JobsOfPieces& all = some_jobs();
+    std::vector<JobCap> caps;
+    Pose lying;
+    for (const ReadJob& job : all.jobs) {
+        if (job.caps.empty() || job.caps[0].joints[0].holes.empty()) continue;
+        caps = job.caps;
+        lying = job.setup.piece_in_setup;
+    }
+    ASSERT_FALSE(caps.empty());
+    EXPECT_EQ(to_caps(as_read(caps), lying), caps);
+    std::vector<JobCap> forged = caps;
+    forged[0].joints[0].holes[0].point.x += 0.01;
+    EXPECT_THROW(to_caps(as_read(forged), lying), std::runtime_error);
+    forged = caps;
+    forged[0].joints[0].holes[0].axis = -forged[0].joints[0].holes[0].axis;
+    EXPECT_THROW(to_caps(as_read(forged), lying), std::runtime_error);
+    EXPECT_NE(fault_of_templates(caps, {}).find("missing"), std::string::npos);
+    EXPECT_NE(fault_of_templates({}, {{"template-9.svg", {}}}).find("no cap"), std::string::npos);
+}
+
+TEST(CapTemplate, IsInTrueSizeAndTheSameBytesEachTime) {
+    Segmentation s = uncut(shapes::box({0, 0, 0}, {220, 100, 100}, 2), 0);
+    ASSERT_TRUE(cut_at(s, "A", {{0, 0, 1}, 50}));
+    const std::vector<PieceJoint> joints = piece_joints(s.pieces, {});
+    const DrawnCap cap = caps_of(s.pieces, 0, joints, qchopper::Setup{}, cell()).at(0);
+    EXPECT_NEAR(std::max(cap.size.x, cap.size.y), 220, 1e-9);
+    EXPECT_NEAR(std::min(cap.size.x, cap.size.y), 100, 1e-9);
+    const CapTemplate drawing = cap_template(cap, "B");
+    const std::string svg = template_svg(drawing);
+    EXPECT_NE(svg.find("width=\"" + std::to_string(static_cast<int>(std::round(drawing.sheet.x)))), std::string::npos);
+    EXPECT_NE(svg.find("100 mm"), std::string::npos);
+    EXPECT_NE(svg.find("Piece B, cut 1"), std::string::npos);
+    // the bar is 100 mm long, and the outline as long as the cap
+    EXPECT_NEAR(drawing.lines.at(drawing.lines.size() - 12)[1].x - drawing.lines.at(drawing.lines.size() - 12)[0].x,
+                100, 1e-9);
+    const Bytes pdf = template_pdf(drawing);
+    EXPECT_EQ(std::string(pdf.begin(), pdf.begin() + 5), "%PDF-");
+    EXPECT_EQ(pdf, template_pdf(drawing));
+    const std::string text(pdf.begin(), pdf.end());
+    const std::string width = std::to_string(drawing.sheet.x * 72 / 25.4).substr(0, 5);
+    EXPECT_NE(text.find("/MediaBox [ 0 0 " + width), std::string::npos) << width;
+}
+
+}  // namespace
+}  // namespace qchopper
