@@ -66,6 +66,18 @@ struct Status {
     bool has(std::uint16_t flag_bit) const { return (flags & flag_bit) != 0; }
 };
 
+// IDENTITY: which memory the cell has. Another store_id, or a number lower than one seen before, means that the cell
+// lost its memory: jobs that it has started may be unknown to it.
+struct Identity {
+    std::uint16_t version = map_version;
+    Uuid store_id{};  // random, drawn when the store was made, and never again
+    std::uint32_t boot_count = 0;
+    std::uint32_t epoch_held = 0;
+    std::uint32_t starts_total = 0;
+    std::uint64_t store_created_ms = 0;
+    bool operator==(const Identity&) const = default;
+};
+
 // What a cell keeps of a job for ever, also without power.
 struct JobRecord {
     JobState state = JobState::none;
@@ -80,10 +92,10 @@ struct JobRecord {
     bool operator==(const JobRecord&) const = default;
 };
 
-// RESULT: the answer to the last QUERY.
+// RESULT: the answer to the last QUERY or QUERY_FILE.
 struct ResultRecord : JobRecord {
     Uuid job_id{};
-    std::uint32_t query_seq = 0;  // CMD_SEQ of that QUERY
+    std::uint32_t query_seq = 0;  // CMD_SEQ of that command
     std::uint32_t query_owner = 0;
     bool operator==(const ResultRecord&) const = default;
 };
@@ -127,6 +139,8 @@ struct WireTicket {
     std::uint64_t created_ms = 0;
     LinkLoss on_link_loss = LinkLoss::go_on;
     std::uint16_t requirements = 0;  // b0 rehearsal required
+    std::uint16_t part = 0;          // 1..parts of the programs of one piece; both 0: undivided
+    std::uint16_t parts = 0;
     std::uint16_t cell_id = 0;
     std::uint16_t made_for = 0;  // b0: made for a simulated cell
     std::uint32_t key_id = 0;

@@ -101,6 +101,13 @@ Decoded<ResultRecord> decode_result(std::span<const std::uint16_t> block) {
     return decoded<ResultRecord>(result_block, block);
 }
 
+Registers encode(const Identity& identity) {
+    return encoded(identity);
+}
+Decoded<Identity> decode_identity(std::span<const std::uint16_t> block) {
+    return decoded<Identity>(identity_block, block);
+}
+
 Registers encode(const Command& command) {
     return encoded(command);
 }

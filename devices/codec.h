@@ -38,6 +38,9 @@ Decoded<Status> decode_status(std::span<const std::uint16_t> block);
 Registers encode(const ResultRecord& result);
 Decoded<ResultRecord> decode_result(std::span<const std::uint16_t> block);
 
+Registers encode(const Identity& identity);
+Decoded<Identity> decode_identity(std::span<const std::uint16_t> block);
+
 Registers encode(const Command& command);
 Decoded<Command> decode_command(std::span<const std::uint16_t> block);
 // The checksum that stands in `block`, which must have the size of COMMAND.
@@ -55,6 +58,8 @@ struct TicketOrder {
     bool rehearse = false;   // a rehearsal is required before PREPARE
     Transfer transfer = Transfer::drop_folder;
     LinkLoss on_link_loss = LinkLoss::go_on;
+    std::uint16_t part = 0;  // 1..parts; both 0: undivided, or for a cell of version 1.0
+    std::uint16_t parts = 0;
 };
 // Lengths are rounded to the nearest 0.01 mm (the tool's diameter to 0.001 mm). Throws InputError (use) naming the
 // piece if a length is not a number or does not fit, or if the file name is not portable (base/portable_name.h).

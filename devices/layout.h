@@ -38,6 +38,8 @@ std::span<const LayoutRow<Status>> rows_of();
 template <>
 std::span<const LayoutRow<ResultRecord>> rows_of();
 template <>
+std::span<const LayoutRow<Identity>> rows_of();
+template <>
 std::span<const LayoutRow<Command>> rows_of();
 template <>
 std::span<const LayoutRow<WireTicket>> rows_of();

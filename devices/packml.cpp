@@ -55,6 +55,7 @@ bool job_command_allowed(PackState from, CellCommand command) {
         case CellCommand::claim:
         case CellCommand::release:
         case CellCommand::query:
+        case CellCommand::query_file:
             return true;
         case CellCommand::store:
         case CellCommand::verify:
@@ -116,8 +117,8 @@ const char* name(PackState state) {
 const char* name(CellCommand command) {
     constexpr const char* machine[] = {"none",    "Reset",     "Start", "Stop",  "Hold",    "Unhold",
                                        "Suspend", "Unsuspend", "Abort", "Clear", "Complete"};
-    constexpr const char* job[] = {"CLAIM",  "RELEASE", "STORE",        "VERIFY",   "PREPARE",
-                                   "CANCEL", "QUERY",   "CLEAR_RESULT", "REHEARSE", "SET_MODE"};
+    constexpr const char* job[] = {"CLAIM", "RELEASE",      "STORE",    "VERIFY",   "PREPARE",   "CANCEL",
+                                   "QUERY", "CLEAR_RESULT", "REHEARSE", "SET_MODE", "QUERY_FILE"};
     const std::size_t number = static_cast<std::size_t>(command);
     constexpr auto first_of_job = static_cast<std::size_t>(CellCommand::claim);
     if (number < std::size(machine)) return machine[number];

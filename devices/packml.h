@@ -2,7 +2,7 @@
 //
 // States, their numbers, the commands 1..10 and their transitions follow PackML (ISA-TR88.00.02, numbers of
 // PackTags 3.0); the commands from 100 on are of this register map. The same tables serve the simulated cell and
-// docs/registers.md. That the machine follows them in all 17 states for all 20 commands is tested against a table
+// docs/registers.md. That the machine follows them in all 17 states for all 21 commands is tested against a table
 // written by hand (tests/sim/packml_test.cpp).
 
 #pragma once
@@ -55,16 +55,18 @@ enum class CellCommand : std::uint16_t {
     query = 106,
     clear_result = 107,
     rehearse = 108,
-    set_mode = 109
+    set_mode = 109,
+    query_file = 110  // since 1.1
 };
 
 // All but `none`, in the order of docs/registers.md.
-constexpr std::array<CellCommand, 20> all_commands{
-    CellCommand::reset,  CellCommand::start,        CellCommand::stop,      CellCommand::hold,
-    CellCommand::unhold, CellCommand::suspend,      CellCommand::unsuspend, CellCommand::abort,
-    CellCommand::clear,  CellCommand::complete,     CellCommand::claim,     CellCommand::release,
-    CellCommand::store,  CellCommand::verify,       CellCommand::prepare,   CellCommand::cancel,
-    CellCommand::query,  CellCommand::clear_result, CellCommand::rehearse,  CellCommand::set_mode};
+constexpr std::array<CellCommand, 21> all_commands{
+    CellCommand::reset,     CellCommand::start,        CellCommand::stop,      CellCommand::hold,
+    CellCommand::unhold,    CellCommand::suspend,      CellCommand::unsuspend, CellCommand::abort,
+    CellCommand::clear,     CellCommand::complete,     CellCommand::claim,     CellCommand::release,
+    CellCommand::store,     CellCommand::verify,       CellCommand::prepare,   CellCommand::cancel,
+    CellCommand::query,     CellCommand::clear_result, CellCommand::rehearse,  CellCommand::set_mode,
+    CellCommand::query_file};
 
 constexpr std::uint16_t last_pack_state = 17;
 

@@ -19,7 +19,7 @@ using namespace layout;
 
 constexpr LayoutRow<Status> status_rows[] = {
     fixed<Status, cell_magic>({0, 1, u16, "MAGIC", "0x5143"}, FieldRole::magic),
-    bound<&Status::version>({1, 1, u16, "VERSION", "0x0100, major.minor"}, FieldRole::version),
+    bound<&Status::version>({1, 1, u16, "VERSION", "0x0101, major.minor"}, FieldRole::version),
     bound<&Status::snapshot>(
         {2, 1, u16, "SNAP_BEGIN", "number of the snapshot; if it differs from SNAP_END: read again"},
         FieldRole::snap_begin),
@@ -72,7 +72,7 @@ constexpr LayoutRow<Status> status_rows[] = {
 };
 
 constexpr LayoutRow<ResultRecord> result_rows[] = {
-    bound<&ResultRecord::job_id>({200, 8, bytes, "JOB_ID", "that was asked for"}),
+    bound<&ResultRecord::job_id>({200, 8, bytes, "JOB_ID", "that was asked for; of QUERY_FILE the job found"}),
     bound<&ResultRecord::state, ResultRecord>({208, 1, u16, "JOB_STATE", "0: the cell does not know it"}),
     bound<&ResultRecord::result, ResultRecord>({209, 1, u16, "JOB_RESULT", ""}),
     bound<&ResultRecord::starts, ResultRecord>({210, 2, u32, "STARTS", "0 or 1"}),
@@ -88,18 +88,32 @@ constexpr LayoutRow<ResultRecord> result_rows[] = {
     checksum<ResultRecord>({258, 2, u32, "CRC", "CRC-32 over 200..257"}),
 };
 
+constexpr LayoutRow<Identity> identity_rows[] = {
+    fixed<Identity, cell_magic>({300, 1, u16, "MAGIC", "0x5143"}, FieldRole::magic),
+    bound<&Identity::version>({301, 1, u16, "VERSION", "0x0101"}, FieldRole::version),
+    bound<&Identity::store_id>({302, 8, bytes, "STORE_ID", "random, drawn when the store was made, never again"}),
+    bound<&Identity::boot_count>({310, 2, u32, "BOOT_COUNT", "as in STATUS"}),
+    bound<&Identity::epoch_held>({312, 2, u32, "EPOCH_HELD", "as in STATUS"}),
+    bound<&Identity::starts_total>({314, 2, u32, "STARTS_TOTAL", "as in STATUS"}),
+    bound<&Identity::store_created_ms>({316, 4, u64, "STORE_CREATED", "unix ms"}),
+    reserved<Identity>({320, 2, words, "reserved", "0"}),
+    checksum<Identity>({322, 2, u32, "CRC", "CRC-32 over 300..321"}),
+};
+
 constexpr LayoutRow<Command> command_rows[] = {
     fixed<Command, cell_magic>({0, 1, u16, "MAGIC", "0x5143"}, FieldRole::magic),
-    fixed<Command, map_version>({1, 1, u16, "VERSION", "0x0100"}, FieldRole::version),
+    fixed<Command, command_version>({1, 1, u16, "VERSION", "0x0100, the form of this block"}, FieldRole::version),
     bound<&Command::epoch>({2, 2, u32, "EPOCH", "fencing number"}),
     bound<&Command::seq>({4, 2, u32, "CMD_SEQ", "1.., strictly rising over the owner's life"}),
     bound<&Command::command>({6, 1, u16, "CMD", "see below"}),
     reserved<Command>({7, 1, u16, "CMD_FLAGS", "reserved 0"}),
-    bound<&Command::job_id>({8, 8, bytes, "JOB_ID", "0 for Reset, Clear, SET_MODE; all ones: any job (Abort)"}),
+    bound<&Command::job_id>(
+        {8, 8, bytes, "JOB_ID", "0 for Reset, Clear, SET_MODE, QUERY_FILE; all ones: any job (Abort)"}),
     bound<&Command::token>({16, 2, u32, "TOKEN", "for Start"}),
     bound<&Command::arg0>({18, 2, u32, "ARG0", "CLAIM: takeover code; SET_MODE: mode; PREPARE: receipt"}),
     bound<&Command::arg1>({20, 2, u32, "ARG1", "CLAIM: the owner's secret"}),
-    bound<&Command::file_sha256>({22, 16, bytes, "FILE_SHA256", "checked by STORE, VERIFY, PREPARE, Start"}),
+    bound<&Command::file_sha256>(
+        {22, 16, bytes, "FILE_SHA256", "checked by STORE, VERIFY, PREPARE, Start; asked for by QUERY_FILE"}),
     bound<&Command::owner>({38, 2, u32, "OWNER", "random, not 0"}),
     reserved<Command>({40, 18, words, "reserved", "0"}),
     checksum<Command>({58, 2, u32, "CRC", "CRC-32 over 0..57"}),
@@ -136,7 +150,9 @@ constexpr LayoutRow<WireTicket> ticket_rows[] = {
     bound<&WireTicket::created_ms>({183, 4, u64, "CREATED", "unix ms"}),
     bound<&WireTicket::on_link_loss>({187, 1, u16, "ON_LINK_LOSS", "0 continue, 1 hold"}),
     bound<&WireTicket::requirements>({188, 1, u16, "REQUIREMENTS", "b0 rehearsal required"}),
-    reserved<WireTicket>({189, 4, words, "reserved", "0"}),
+    bound<&WireTicket::part>({189, 1, u16, "PART", "1..PARTS; 0: undivided, and to a cell of 1.0"}),
+    bound<&WireTicket::parts>({190, 1, u16, "PARTS", "parts of the piece; 0 with PART"}),
+    reserved<WireTicket>({191, 2, words, "reserved", "0"}),
     bound<&WireTicket::cell_id>({193, 1, u16, "CELL_ID", "of the cell it is made for"}),
     bound<&WireTicket::made_for>({194, 1, u16, "MADE_FOR", "b0 a simulated cell"}),
     bound<&WireTicket::key_id>({195, 2, u32, "KEY_ID", "first 4 bytes of the SHA-256 of the public key"}),
@@ -178,6 +194,7 @@ constexpr LayoutRow<Heartbeat> heartbeat_rows[] = {
 
 constexpr std::array status_fields = fields_of(status_rows);
 constexpr std::array result_fields = fields_of(result_rows);
+constexpr std::array identity_fields = fields_of(identity_rows);
 constexpr std::array command_fields = fields_of(command_rows);
 constexpr std::array ticket_fields = fields_of(ticket_rows);
 constexpr std::array chunk_fields = fields_of(chunk_rows);
@@ -190,13 +207,17 @@ constexpr bool is_gapless(std::span<const Field> fields) {
     return true;
 }
 static_assert(is_gapless(status_fields) && is_gapless(result_fields) && is_gapless(command_fields));
+static_assert(is_gapless(identity_fields));
 static_assert(is_gapless(ticket_fields) && is_gapless(chunk_fields) && is_gapless(heartbeat_fields));
 static_assert(chunk_fields.back().address == chunk_fields.front().address + chunk_head);
 
 }  // namespace
 
 constexpr Block status_block{"STATUS", Side::input, 0, 100, false, status_fields, "what the cell says of itself"};
-constexpr Block result_block{"RESULT", Side::input, 200, 60, false, result_fields, "the answer to QUERY"};
+constexpr Block result_block{
+    "RESULT", Side::input, 200, 60, false, result_fields, "the answer to QUERY and QUERY_FILE"};
+constexpr Block identity_block{
+    "IDENTITY", Side::input, 300, 24, false, identity_fields, "which memory the cell has; since 1.1"};
 constexpr Block command_block{"COMMAND", Side::holding, 0, 60, true, command_fields, "one command"};
 constexpr Block ticket_block{"TICKET", Side::holding, 100, 100, true, ticket_fields, "the job in numbers"};
 constexpr Block signature_block{"SIGNATURE", Side::holding, 200, 32, true, signature_fields, "of the ticket"};
@@ -210,6 +231,10 @@ std::span<const LayoutRow<Status>> rows_of() {
 template <>
 std::span<const LayoutRow<ResultRecord>> rows_of() {
     return result_rows;
+}
+template <>
+std::span<const LayoutRow<Identity>> rows_of() {
+    return identity_rows;
 }
 template <>
 std::span<const LayoutRow<Command>> rows_of() {
@@ -229,8 +254,9 @@ std::span<const LayoutRow<Heartbeat>> rows_of() {
 }
 
 std::span<const Block* const> all_blocks() {
-    static constexpr std::array<const Block*, 7> blocks{&status_block,    &result_block, &command_block,  &ticket_block,
-                                                        &signature_block, &chunk_block,  &heartbeat_block};
+    static constexpr std::array<const Block*, 8> blocks{&status_block,  &result_block,   &identity_block,
+                                                        &command_block, &ticket_block,   &signature_block,
+                                                        &chunk_block,   &heartbeat_block};
     return blocks;
 }
 

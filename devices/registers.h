@@ -1,4 +1,4 @@
-// The register map of a cell, version 1.0: every block and every field, as tables.
+// The register map of a cell, version 1.1: every block and every field, as tables.
 //
 // Addresses are 0-based, as in the PDU; the encoding is that of register_writer.h. Every block fits one request. The
 // file docs/registers.md is what print_registers() returns (tests/devices/registers_test.cpp).
@@ -20,6 +20,7 @@ constexpr std::uint16_t chunk_head = 5;  // registers of CHUNK before the data
 
 extern const Block status_block;
 extern const Block result_block;
+extern const Block identity_block;  // since 1.1
 extern const Block command_block;
 extern const Block ticket_block;
 extern const Block signature_block;

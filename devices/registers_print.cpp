@@ -101,12 +101,14 @@ std::string print_machine() {
 
 std::string print_registers() {
     std::string out =
-        "# Register map of a cell, version 1.0\n\nMade by `print_registers()` from the tables in "
+        "# Register map of a cell, version 1.1\n\nMade by `print_registers()` from the tables in "
         "`devices/registers.cpp` and `devices/packml.cpp`; a test compares.\n\nModbus TCP, unit 1 or 255, functions "
         "3, 4 and 16 only. Addresses are 0-based. Numbers of 32 and 64 bits have the high word first; text has two "
         "characters a register, the first in the high byte, padded with zero bytes; there are no floats. CRC-32 is "
         "that of IEEE 802.3 over the bytes in wire order. Reads stay inside one block; holding registers read as "
-        "zero. Blocks of zeros do nothing.\n";
+        "zero. Blocks of zeros do nothing.\n\nVersion 1.1 added IDENTITY, the command QUERY_FILE and the fields PART "
+        "and PARTS of TICKET. A cell of 1.0 answers the read of IDENTITY with exception 2 and QUERY_FILE with "
+        "UNKNOWN_CMD, and wants zeros in PART and PARTS.\n";
     for (const Block* block : all_blocks()) out += print_block(*block);
     return out + print_codes() + print_machine();
 }

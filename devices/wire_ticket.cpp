@@ -67,6 +67,8 @@ WireTicket wire_ticket(const JobTicket& ticket, const TicketOrder& order) {
     t.created_ms = order.created_ms;
     t.on_link_loss = order.on_link_loss;
     t.requirements = order.rehearse ? 1 : 0;
+    t.part = order.part;
+    t.parts = order.parts;
     t.cell_id = order.cell_id;
     t.made_for = order.simulated ? 1 : 0;
     return t;

@@ -3,9 +3,10 @@
 
 #include "sim/cell_sim.h"
 
-#include <chrono>
+#include <algorithm>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <random>
 #include <thread>
 
@@ -14,17 +15,15 @@
 #include "sim/memory.h"
 #include "sim/modbus_pdu.h"
 #include "sim/modbus_server.h"
+#include "sim/panel.h"
+#include "sim/sim_clock.h"
 #include "sim/store.h"
 
 namespace qchopper {
 namespace {
 
-CellTime now() {
-    using namespace std::chrono;
-    const auto steady = duration_cast<milliseconds>(steady_clock::now().time_since_epoch()).count();
-    const auto unix_time = duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
-    return {steady, static_cast<std::uint64_t>(unix_time)};
-}
+constexpr std::int64_t off_ms = 1000;       // after a power cut by a fault
+constexpr std::int64_t clock_step_ms = 50;  // by which a virtual clock goes on at most
 
 // Where the answer of a person is delivered. Outlives the cell, because the answer may come after its end.
 struct Mailbox {
@@ -61,18 +60,89 @@ struct CellSim::Parts {
 
     Bytes answer(std::uint8_t unit, std::span<const std::uint8_t> pdu) {
         const std::lock_guard lock(mutex);
-        Bytes bytes = answer_pdu(unit, pdu, cell, now(), cell_hooks);
+        if (is_off) return {};
+        Bytes bytes = answer_pdu(unit, pdu, cell, clock.now(), cell_hooks);
+        if (!has_power()) return {};
         pass_on_pending();
         return bytes;
     }
 
-    void tick() {
+    std::vector<Delivery> send(Bytes frame) {
         const std::lock_guard lock(mutex);
-        pass_time(cell, now(), cell_hooks);
-        pass_on_pending();
+        return deliver(cell.faults, std::move(frame));
     }
 
-    // Under the lock. Passes a new pending question to another thread: the server waits for no file and no person.
+    void tick() {
+        const std::lock_guard lock(mutex);
+        tick_now();
+    }
+
+    // The rest is called under the lock.
+
+    void tick_now() {
+        if (is_off && on_at_ms && clock.now().steady_ms >= *on_at_ms) turn_on(cell.power.store);
+        if (is_off) return;
+        pass_time(cell, clock.now(), cell_hooks);
+        if (has_power()) pass_on_pending();
+    }
+
+    // False: a fault has cut it.
+    bool has_power() {
+        if (!cell.power.lost || is_off) return !is_off;
+        turn_off();
+        on_at_ms = clock.now().steady_ms + off_ms;
+        return false;
+    }
+
+    void turn_off() {
+        report("power is off");
+        is_off = true;
+        on_at_ms.reset();
+        server->set_power(false);
+    }
+
+    void turn_on(PowerCut::Store store_is) {
+        CellMemory memory;
+        try {
+            memory = memory_after(store_is, load_memory(store->memory()));
+        } catch (const InputError& fault) {
+            on_at_ms.reset();
+            return report(std::string("power stays off: ") + fault.what());
+        }
+        if (store_is == PowerCut::Store::lost) store->empty();
+        cell = power_on(cell, memory, cell.random, clock.now(), cell_hooks);
+        is_off = false;
+        handled = 0;
+        server->set_power(true);
+        report("power is on");
+    }
+
+    bool perform(const ScriptLine& line) {
+        switch (line.act) {
+            case Act::consent:
+                if (!asks()) return false;
+                consent_given(cell, cell.pending->number, line.choice == 1, clock.now(), cell_hooks);
+                return true;
+            case Act::clock:
+                clock.set_virtual(line.choice == 1);
+                return true;
+            case Act::power:
+                if (line.choice == 0 && !is_off) turn_off();
+                if (line.choice != 0 && is_off) turn_on(static_cast<PowerCut::Store>(line.choice - 1));
+                return true;
+            default:
+                qchopper::perform(cell, line, clock.now(), cell_hooks);
+                tick_now();
+                return true;
+        }
+    }
+
+    bool asks() const {
+        return !is_off && cell.pending && cell.pending->waits == Pending::Waits::consent &&
+               cell.limits.consent == Consent::ask;
+    }
+
+    // Passes a new pending question to another thread: the server waits for no file and no person.
     void pass_on_pending() {
         if (!cell.pending || cell.pending->number == handled) return;
         if (cell.pending->waits == Pending::Waits::file) {
@@ -81,6 +151,7 @@ struct CellSim::Parts {
             wake.notify_all();
         } else if (cell.pending->waits == Pending::Waits::consent && cell.limits.consent == Consent::ask) {
             handled = cell.pending->number;
+            if (options.on_question) return options.on_question(cell.pending->question);
             ask(handled, cell.pending->question);
         }
     }
@@ -120,7 +191,8 @@ struct CellSim::Parts {
             const std::uint32_t free_kib = store->free_kib();
             lock.lock();
             cell.store_free_kib = free_kib;
-            file_checked(cell, task.number, found, now(), cell_hooks);
+            if (is_off) continue;
+            file_checked(cell, task.number, found, clock.now(), cell_hooks);
         }
     }
 
@@ -154,8 +226,11 @@ struct CellSim::Parts {
     std::unique_ptr<Store> store;
     CellHooks cell_hooks;
     mutable std::mutex mutex;  // guards all below
+    SimClock clock;
     CellState cell;
-    std::uint64_t handled = 0;  // number of the question that was passed on last
+    bool is_off = false;
+    std::optional<std::int64_t> on_at_ms;  // of an end of a power cut that comes by itself
+    std::uint64_t handled = 0;             // number of the question that was passed on last
     std::optional<FileTask> check;
     bool ends = false;
     std::condition_variable wake;
@@ -186,19 +261,27 @@ void CellSim::start() {
     p.cell_hooks = p.hooks();
     std::random_device device;
     const std::uint64_t seed = (std::uint64_t{device()} << 32U) | device();
-    p.cell = boot(p.options.limits, load_memory(p.store->memory()), seed, now(), p.cell_hooks);
+    p.cell = boot(p.options.limits, load_memory(p.store->memory()), seed, p.clock.now(), p.cell_hooks);
     p.cell.store_free_kib = p.store->free_kib();
     p.mailbox->deliver = [&p](std::uint64_t number, bool yes) {
         const std::lock_guard lock(p.mutex);
-        consent_given(p.cell, number, yes, now(), p.cell_hooks);
+        if (!p.is_off) consent_given(p.cell, number, yes, p.clock.now(), p.cell_hooks);
     };
-    auto server = std::make_unique<ModbusServer>(
-        ModbusServerOptions{p.options.listen_host, p.options.port, p.options.allow},
-        [&p](std::uint8_t unit, std::span<const std::uint8_t> pdu) { return p.answer(unit, pdu); }, [&p] { p.tick(); },
-        [&p](const std::string& line) { p.report(line); });
-    server->start();
+    ModbusServerOptions listens;
+    listens.host = p.options.listen_host;
+    listens.port = p.options.port;
+    listens.allow = p.options.allow;
+    listens.deliver = [&p](Bytes frame) { return p.send(std::move(frame)); };
+    p.server = std::make_unique<ModbusServer>(
+        listens, [&p](std::uint8_t unit, std::span<const std::uint8_t> pdu) { return p.answer(unit, pdu); },
+        [&p] { p.tick(); }, [&p](const std::string& line) { p.report(line); });
+    try {
+        p.server->start();
+    } catch (...) {
+        p.server.reset();
+        throw;
+    }
     p.checker = std::thread([&p] { p.check_files(); });
-    p.server = std::move(server);
 }
 
 std::uint16_t CellSim::port() const {
@@ -224,7 +307,36 @@ void CellSim::stop() {
 
 Status CellSim::status() const {
     const std::lock_guard lock(parts_->mutex);
-    return status_of(parts_->cell, now());
+    return status_of(parts_->cell, parts_->clock.now());
+}
+
+bool CellSim::perform(const ScriptLine& line) {
+    const std::lock_guard lock(parts_->mutex);
+    return parts_->perform(line);
+}
+
+bool CellSim::holds(std::size_t choice) const {
+    const std::lock_guard lock(parts_->mutex);
+    return !parts_->is_off && qchopper::holds(parts_->cell, choice);
+}
+
+bool CellSim::is_clock_virtual() const {
+    const std::lock_guard lock(parts_->mutex);
+    return parts_->clock.is_virtual();
+}
+
+std::int64_t CellSim::steady_ms() const {
+    const std::lock_guard lock(parts_->mutex);
+    return parts_->clock.now().steady_ms;
+}
+
+// In steps, so that what is due on the way is done in its order.
+void CellSim::pass(double seconds) {
+    for (auto left_ms = static_cast<std::int64_t>(1000 * seconds); left_ms > 0; left_ms -= clock_step_ms) {
+        const std::lock_guard lock(parts_->mutex);
+        parts_->clock.pass(std::min(left_ms, clock_step_ms));
+        parts_->tick_now();
+    }
 }
 
 }  // namespace qchopper

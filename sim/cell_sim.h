@@ -14,6 +14,7 @@
 
 #include "devices/codec.h"
 #include "sim/machine.h"
+#include "sim/script.h"
 
 namespace qchopper {
 
@@ -25,9 +26,11 @@ struct CellSimOptions {
     std::filesystem::path store_folder;     // of a memory that outlives the program; empty: a temporary one
     std::uint64_t most_store_bytes = std::uint64_t{8} << 30;  // of all copies of job files together
     CellLimits limits;  // cell id, consent, speed > 0, reach, stock, tools: see cell_state.h
-    // Asks a person (Consent::ask): true is consent; empty: never. Called in a thread of its own, for as long as it
-    // takes; it may outlive the cell.
+    // Asks a person (Consent::ask): true is consent. Called in a thread of its own, for as long as it takes; it may
+    // outlive the cell. Without it and on_question nobody consents.
     std::function<bool(const std::string& question)> ask;
+    // Shows a question that perform() will answer. Called from the cell's threads.
+    std::function<void(const std::string& question)> on_question;
     std::function<void(const std::string& line)> on_message;  // a line for a log; called from the cell's threads
 };
 
@@ -45,6 +48,15 @@ class CellSim {
     void stop();                 // a second call has no effect
 
     Status status() const;  // STATUS at this moment
+
+    // The rest may be called from any thread while the cell runs. A cell that lost its power by a fault is on again one
+    // second of its clock later.
+    // A line of a script that does not wait. False: an answer for which no question is there yet.
+    bool perform(const ScriptLine& line);
+    bool holds(std::size_t choice) const;  // see panel.h
+    bool is_clock_virtual() const;
+    std::int64_t steady_ms() const;
+    void pass(double seconds);  // precondition: the clock is virtual
 
  private:
     struct Parts;

@@ -14,6 +14,7 @@
 #include "base/box.h"
 #include "base/file.h"
 #include "devices/codec.h"
+#include "sim/faults.h"
 
 namespace qchopper {
 
@@ -29,6 +30,7 @@ struct CellTool {
 // What this cell is and can do. The defaults of reach and stock are far above any bone.
 struct CellLimits {
     std::uint16_t cell_id = any_cell_id;
+    std::uint16_t version = map_version;  // of the register map that it serves; map_version_1_0: a cell of before
     Consent consent = Consent::automatic;
     double speed = 1;  // simulated seconds of a job per second
     Box reach{{-5000, -5000, -5000}, {5000, 5000, 5000}};
@@ -39,6 +41,34 @@ struct CellLimits {
     std::int64_t acting_ms = 200;              // of an acting state except Execute; a rehearsal takes five times that
 };
 
+// The block on the table, as a person sees it. unknown: nobody has said; a consent then says that it is right.
+enum class BlockOnTable { unknown, none, fresh, used, moved };
+
+// What a person at the cell sets; power cuts do not change it.
+struct Surroundings {
+    bool door_open = false;
+    bool e_stop = false;
+    bool local_control = false;
+    bool tool_broken = false;
+    BlockOnTable block = BlockOnTable::unknown;
+    bool is_safe() const { return !door_open && !e_stop; }
+};
+
+// The first alarm, until the machine is cleared; code 0: there is none.
+struct CellAlarm {
+    std::uint32_t code = 0;
+    std::uint32_t block = 0;  // of the program
+    std::string text;
+};
+
+// How the next power cut ends; `lost` from the event at which power was cut until boot().
+struct PowerCut {
+    enum class Store { stays, lost, back };
+    std::uint64_t at_event = 0;  // 0: none is due
+    Store store = Store::stays;
+    bool lost = false;
+};
+
 struct CellTime {
     std::int64_t steady_ms = 0;  // of a monotonic clock, for leases, tokens and motion
     std::uint64_t unix_ms = 0;   // for STATUS and the records only
@@ -46,6 +76,8 @@ struct CellTime {
 
 // What outlives a power cut.
 struct CellMemory {
+    Uuid store_id{};  // drawn when the memory was made; 0 in that of a cell of version 1.0
+    std::uint64_t store_created_ms = 0;
     std::uint32_t boot_count = 0;
     std::uint32_t epoch_held = 0;
     std::uint32_t starts_total = 0;
@@ -115,6 +147,14 @@ struct CellState {
     bool watchdog_expired = false;
     bool consent_present = false;
     bool warning = false;
+    CellAlarm alarm;
+    Surroundings surroundings;
+    Faults faults;
+    PowerCut power;
+    std::uint64_t steps = 0;   // lines of the log, and two for each write of the memory
+    std::int64_t jump_ms = 0;  // of the time of day
+    std::optional<std::uint16_t> frozen_heartbeat;
+    std::uint16_t heartbeat_offset = 0;
     std::optional<Pending> pending;
     std::uint64_t pending_count = 0;
     Registers ticket_draft;               // TICKET as written last; empty: none
@@ -125,7 +165,7 @@ struct CellState {
     AckResult bad_reason = AckResult::none;
     AckResult transfer_result = AckResult::none;
     ResultRecord answer;      // RESULT, if has_answer
-    bool has_answer = false;  // a QUERY was received
+    bool has_answer = false;  // a QUERY or QUERY_FILE was received
     std::uint32_t events = 0;
     std::uint32_t store_free_kib = 0;
     std::uint64_t random = 1;  // state of the generator of tokens and receipts

@@ -7,37 +7,62 @@
 #include <cmath>
 
 #include "sim/machine_parts.h"
+#include "sim/random.h"
 
 namespace qchopper {
 namespace cell {
 
+namespace {
+
+// One event: at the one named by cell.power, power is cut.
+void count_step(CellState& cell) {
+    ++cell.steps;
+    if (cell.power.at_event != 0 && cell.steps >= cell.power.at_event) cell.power.lost = true;
+}
+
+}  // namespace
+
 void log(CellState& cell, const CellHooks& hooks, const std::string& line) {
     ++cell.events;
+    count_step(cell);
     if (hooks.log) hooks.log(line);
 }
 
-bool save(const CellMemory& memory, const CellHooks& hooks) {
-    return !hooks.save || hooks.save(memory);
+bool save(CellState& cell, const CellMemory& memory, const CellHooks& hooks) {
+    count_step(cell);  // cut before the write
+    if (cell.power.lost || take(cell.faults, Fault::disk_full)) return false;
+    const bool is_saved = !hooks.save || hooks.save(memory);
+    count_step(cell);  // cut after it
+    return is_saved;
+}
+
+std::uint64_t unix_ms(const CellState& cell, CellTime now) {
+    return now.unix_ms + static_cast<std::uint64_t>(cell.jump_ms);
 }
 
 bool holds_lease(const CellState& cell, std::uint32_t owner, std::uint32_t epoch) {
     return cell.lease && cell.lease->owner == owner && cell.memory.epoch_held == epoch;
 }
 
-// SplitMix64 (G. Steele, D. Lea, C. Flood: Fast Splittable Pseudorandom Number Generators, 2014): its state is one
-// number of CellState, and a test can predict it.
 std::uint32_t random_number(CellState& cell) {
     std::uint32_t number = 0;
-    while (number == 0) {
-        std::uint64_t z = cell.random += 0x9E3779B97F4A7C15U;
-        z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
-        z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
-        number = static_cast<std::uint32_t>((z ^ (z >> 31)) >> 32);
-    }
+    while (number == 0) number = static_cast<std::uint32_t>(next_random(cell.random) >> 32);
     return number;
 }
 
 }  // namespace cell
+
+namespace {
+
+// Precondition: the memory has no id.
+void draw_store_id(CellState& cell, CellTime now) {
+    RegisterWriter drawn;
+    while (drawn.registers().size() < sizeof(Uuid) / 2) drawn.u32(cell::random_number(cell));
+    RegisterReader(drawn.registers()).bytes(cell.memory.store_id);
+    cell.memory.store_created_ms = now.unix_ms;
+}
+
+}  // namespace
 
 CellState boot(const CellLimits& limits, CellMemory memory, std::uint64_t seed, CellTime now, const CellHooks& hooks) {
     CellState cell;
@@ -46,6 +71,7 @@ CellState boot(const CellLimits& limits, CellMemory memory, std::uint64_t seed, 
     cell.random = seed;
     cell.booted = now;
     cell.state_since_ms = now.steady_ms;
+    if (cell.memory.store_id == Uuid{} && has_identity(limits.version)) draw_store_id(cell, now);
     ++cell.memory.boot_count;
     for (auto& [id, record] : cell.memory.jobs) {
         if (record.state != JobState::running && record.state != JobState::interrupted) continue;
@@ -56,7 +82,7 @@ CellState boot(const CellLimits& limits, CellMemory memory, std::uint64_t seed, 
         cell.warning = true;
         cell::log(cell, hooks, "job " + to_text(id) + " was cut off by a power cut; it is aborted for good");
     }
-    if (!cell::save(cell.memory, hooks)) cell.warning = true;
+    if (!cell::save(cell, cell.memory, hooks)) cell.warning = true;
     return cell;
 }
 
@@ -103,9 +129,13 @@ std::uint16_t flags_of(const CellState& cell) {
     set(cell.state == PackState::idle && is_free && cell.mode == UnitMode::production, flag::ready_for_ticket);
     set(cell.job.state == JobState::prepared, flag::prepared);
     set(cell.consent_present, flag::consent_present | flag::block_loaded);
+    set(cell.surroundings.block == BlockOnTable::fresh, flag::block_loaded);
     set(cell.job.is_active(), flag::job_active);
     set(cell.job.is_finished(), flag::result_waiting);
     set(cell.warning || (!is_free && !cell.job.is_signed), flag::warning);
+    set(cell.alarm.code != 0, flag::fault);
+    set(!cell.surroundings.is_safe(), flag::safety_open);
+    set(cell.surroundings.local_control, flag::local_control);
     set(cell.watchdog_expired, flag::watchdog_expired);
     set(cell.lease.has_value(), flag::lease_held);
     set(cell.store_free_kib == 0, flag::store_full);
@@ -126,6 +156,7 @@ void show_job(const CellState& cell, CellTime now, Status& s) {
     s.progress = static_cast<std::uint16_t>(std::floor(10000 * share));
     s.elapsed_s = static_cast<std::uint32_t>(run_s);
     s.remaining_s = static_cast<std::uint32_t>(std::ceil(std::max(0.0, whole_s - run_s)));
+    s.block_no = cell::blocks_so_far(cell, now);
     s.transfer_state = job.transfer;
     s.transfer_next = static_cast<std::uint32_t>(job.chunks.size());
     s.file_sha256 = job.stored_sha256;
@@ -141,12 +172,25 @@ void show_job(const CellState& cell, CellTime now, Status& s) {
     }
 }
 
+void show_alarm(const CellState& cell, Status& s) {
+    if (cell.alarm.code == 0) return;
+    s.alarms = 1;
+    s.alarm_code = cell.alarm.code;
+    s.alarm_block = cell.alarm.block;
+    s.alarm_text = cell.alarm.text;
+}
+
 }  // namespace
+
+std::uint16_t heartbeat_of(const CellState& cell, CellTime now) {
+    return static_cast<std::uint16_t>((now.steady_ms - cell.booted.steady_ms) / 500 + cell.heartbeat_offset);
+}
 
 Status status_of(const CellState& cell, CellTime now) {
     Status s;
+    s.version = cell.limits.version;
     s.snapshot = static_cast<std::uint16_t>(now.steady_ms);
-    s.heartbeat = static_cast<std::uint16_t>((now.steady_ms - cell.booted.steady_ms) / 500);
+    s.heartbeat = cell.frozen_heartbeat.value_or(heartbeat_of(cell, now));
     s.boot_count = cell.memory.boot_count;
     s.unit_mode = cell.mode;
     s.state = cell.state;
@@ -168,11 +212,18 @@ Status status_of(const CellState& cell, CellTime now) {
     s.store_free_kib = cell.store_free_kib;
     s.event_no = cell.events;
     s.starts_total = cell.memory.starts_total;
-    s.cell_time_ms = now.unix_ms;
+    s.cell_time_ms = cell::unix_ms(cell, now);
+    show_alarm(cell, s);
     s.bad_frames = cell.bad_frames;
     s.bad_reason = cell.bad_reason;
     show_job(cell, now, s);
     return s;
+}
+
+Identity identity_of(const CellState& cell) {
+    const CellMemory& memory = cell.memory;
+    return {cell.limits.version, memory.store_id,     memory.boot_count,
+            memory.epoch_held,   memory.starts_total, memory.store_created_ms};
 }
 
 }  // namespace qchopper

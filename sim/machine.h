@@ -2,7 +2,7 @@
 //
 // Functions on a value (cell_state.h). The time is an argument and never decreases from call to call; store, log and
 // files are behind CellHooks. A refused command changes nothing but the acknowledgement, and a job id is started at
-// most once, power cuts included (tests/sim/machine_test.cpp, tests/sim/packml_test.cpp). Not thread-safe.
+// most once, power cuts included (tests/sim/start_test.cpp, tests/sim/packml_test.cpp). Not thread-safe.
 
 #pragma once
 
@@ -15,7 +15,8 @@
 namespace qchopper {
 
 // The state after power on. A job that is running in `memory` was interrupted by a power cut: it becomes aborted, and
-// the machine is in Aborted; otherwise it is in Stopped. Nothing starts by itself. `seed` is for tokens and receipts.
+// the machine is in Aborted; otherwise it is in Stopped. Nothing starts by itself. A memory without store id gets one,
+// unless the cell is of version 1.0. `seed` is for tokens, receipts and that id.
 CellState boot(const CellLimits& limits, CellMemory memory, std::uint64_t seed, CellTime now, const CellHooks& hooks);
 
 // The effects of time: acting states end, the job advances, lease and token expire, automatic consent is given.
@@ -34,6 +35,9 @@ void receive_heartbeat(CellState& cell, std::span<const std::uint16_t> block, Ce
 // cell.transfer_result.
 void receive_chunk(CellState& cell, const Chunk& chunk);
 
+// CELL_HB if it does not stand still.
+std::uint16_t heartbeat_of(const CellState& cell, CellTime now);
 Status status_of(const CellState& cell, CellTime now);
+Identity identity_of(const CellState& cell);
 
 }  // namespace qchopper

@@ -2,10 +2,12 @@
 //
 // CLAIM grants a lease (C. Gray, D. Cheriton: Leases: An Efficient Fault-Tolerant Mechanism for Distributed File Cache
 // Consistency, 1989) with a fencing number, the epoch; heartbeats extend it. A start is written to the memory before
-// the machine moves. O(owners kept), at most 256; CLAIM, CANCEL and Start copy the memory: O(jobs kept).
+// the machine moves. O(owners kept), at most 256; CLAIM, CANCEL and Start copy the memory and QUERY_FILE
+// searches it: O(jobs kept).
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "sim/machine_parts.h"
 #include "sim/ticket_check.h"
@@ -36,13 +38,14 @@ AckResult reason_of(BlockFault fault) {
     return fault == BlockFault::version ? AckResult::bad_version : AckResult::bad_crc;
 }
 
-bool is_known(CellCommand command) {
+bool is_known(CellCommand command, std::uint16_t version) {
+    if (command == CellCommand::query_file && !has_identity(version)) return false;
     return std::find(all_commands.begin(), all_commands.end(), command) != all_commands.end();
 }
 
 bool needs_lease(CellCommand command) {
-    return command != CellCommand::query && command != CellCommand::stop && command != CellCommand::hold &&
-           command != CellCommand::abort;
+    return command != CellCommand::query && command != CellCommand::query_file && command != CellCommand::stop &&
+           command != CellCommand::hold && command != CellCommand::abort;
 }
 
 bool is_current(const CellState& cell, const Uuid& id) {
@@ -51,6 +54,16 @@ bool is_current(const CellState& cell, const Uuid& id) {
 
 bool is_refused(const CellState& cell, CellCommand command) {
     return transition(cell.state, command).kind == TransitionKind::refused;
+}
+
+// What the state of the machine and its surroundings refuse; OK if nothing.
+AckResult refused_here(const CellState& cell, CellCommand command) {
+    if (cell.surroundings.local_control) return AckResult::local_control;
+    if (is_refused(cell, command)) return AckResult::wrong_state;
+    const bool moves_later = command == CellCommand::prepare || command == CellCommand::start ||
+                             command == CellCommand::unhold || command == CellCommand::unsuspend ||
+                             command == CellCommand::clear;
+    return moves_later && !cell.surroundings.is_safe() ? AckResult::safety_open : AckResult::ok;
 }
 
 // The result for a job that is not the current one.
@@ -87,7 +100,7 @@ Answer claim(CellState& cell, const Command& command, CellTime now, const CellHo
     }
     CellMemory next = cell.memory;
     next.epoch_held = command.epoch;
-    if (!save(next, hooks)) return {AckResult::store_io, 0};
+    if (!save(cell, next, hooks)) return {AckResult::store_io, 0};
     cell.memory = std::move(next);
     drop_preparation(cell, AckResult::stale_epoch);
     cell.lease = Lease{command.owner, command.arg1, now.steady_ms + lease_ms, now.steady_ms, std::nullopt};
@@ -115,7 +128,12 @@ Answer machine_command(CellState& cell, const Command& command, CellTime now, co
     }
     const Transition to = transition(cell.state, what);
     if (to.kind == TransitionKind::already) return {AckResult::already, 0};
-    if (to.kind != TransitionKind::moves) return {AckResult::wrong_state, 0};
+    if (const AckResult why = refused_here(cell, what); why != AckResult::ok) return {why, 0};
+    if (what == CellCommand::unhold) {
+        if (cell.pending && cell.pending->command != what) return {AckResult::wrong_state, 0};
+        return wait_for(cell, command, Pending::Waits::consent, now,
+                        "Job " + cell.job.ticket.file_name + " is held. May it go on: is the area clear?");
+    }
     if (what == CellCommand::clear) {
         if (cell.pending && cell.pending->command != what) return {AckResult::wrong_state, 0};
         return wait_for(cell, command, Pending::Waits::consent, now,
@@ -144,12 +162,34 @@ Answer query(CellState& cell, const Command& command) {
     return {answer.state == JobState::none ? AckResult::unknown_job : AckResult::ok, 0};
 }
 
+// The later of two starts. The time of day may have jumped: epochs rise, and so do the numbers of one owner in an
+// epoch.
+bool is_later(const JobRecord& one, const JobRecord& other) {
+    return std::pair(one.start_epoch, one.start_seq) > std::pair(other.start_epoch, other.start_seq);
+}
+
+Answer query_file(CellState& cell, const Command& command) {
+    if (command.job_id != Uuid{}) return {AckResult::wrong_job, 0};
+    const std::pair<const Uuid, JobRecord>* last = nullptr;
+    std::uint32_t count = 0;
+    for (const auto& job : cell.memory.jobs) {
+        if (job.second.starts == 0 || job.second.file_sha256 != command.file_sha256) continue;
+        ++count;
+        if (last == nullptr || is_later(job.second, last->second)) last = &job;
+    }
+    cell.answer = {last == nullptr ? JobRecord{} : last->second, last == nullptr ? Uuid{} : last->first, command.seq,
+                   command.owner};
+    if (last != nullptr && is_current(cell, last->first)) cell.answer.state = cell.job.state;
+    cell.has_answer = true;
+    return {last == nullptr ? AckResult::unknown_job : AckResult::ok, count};
+}
+
 Answer set_mode(CellState& cell, const Command& command) {
     if (command.job_id != Uuid{}) return {AckResult::wrong_job, 0};
     if (command.arg0 == static_cast<std::uint32_t>(cell.mode)) return {AckResult::already, 0};
     const bool is_settable = command.arg0 >= 1 && command.arg0 <= 3 && cell.mode != UnitMode::rehearsal;
     if (!is_settable) return {AckResult::wrong_mode, 0};
-    if (is_refused(cell, command.command)) return {AckResult::wrong_state, 0};
+    if (const AckResult why = refused_here(cell, command.command); why != AckResult::ok) return {why, 0};
     drop_preparation(cell, AckResult::wrong_mode);
     cell.mode = static_cast<UnitMode>(command.arg0);
     return {};
@@ -172,7 +212,7 @@ Answer store(CellState& cell, const Command& command, const CellHooks& hooks) {
     if (cell.job.state != JobState::none)
         return {AckResult::busy_other_job, static_cast<std::uint32_t>(cell.job.state)};
     if (cell.mode != UnitMode::production) return {AckResult::wrong_mode, 0};
-    if (is_refused(cell, command.command)) return {AckResult::wrong_state, 0};
+    if (const AckResult why = refused_here(cell, command.command); why != AckResult::ok) return {why, 0};
     if (const auto fault = wrong_field(ticket.value, cell.ticket_draft, cell.limits))
         return {fault->result, fault->address};
     if (command.file_sha256 != ticket.value.file_sha256) return {AckResult::hash_mismatch, 0};
@@ -182,7 +222,7 @@ Answer store(CellState& cell, const Command& command, const CellHooks& hooks) {
     if (hooks.remove_old_copies) {
         cell.store_free_kib = hooks.remove_old_copies(cell.memory, ticket.value.file_size + 1024ULL);
     }
-    if (ticket.value.file_size / 1024 >= cell.store_free_kib)
+    if (take(cell.faults, Fault::store_full) || ticket.value.file_size / 1024 >= cell.store_free_kib)
         return {AckResult::store_full, address_of(ticket_block, "FILE_SIZE")};
     cell.job = CellJob{};
     cell.job.ticket = ticket.value;
@@ -209,7 +249,7 @@ Answer cancel(CellState& cell, const Command& command, const CellHooks& hooks) {
     if (!cell.job.is_waiting()) return {AckResult::wrong_state, 0};
     CellMemory next = cell.memory;
     next.jobs[command.job_id].state = JobState::cancelled;
-    if (!save(next, hooks)) return {AckResult::store_io, 0};
+    if (!save(cell, next, hooks)) return {AckResult::store_io, 0};
     cell.memory = std::move(next);
     drop_preparation(cell, AckResult::cancelled);
     if (cell.pending) settle(cell, AckResult::cancelled);
@@ -221,7 +261,8 @@ Answer cancel(CellState& cell, const Command& command, const CellHooks& hooks) {
 Answer clear_result(CellState& cell, const Command& command) {
     if (!is_current(cell, command.job_id)) {
         const AckResult known = not_current(cell, command.job_id);
-        return {known == AckResult::already_finished ? AckResult::already : AckResult::unknown_job, 0};
+        const bool is_over = known == AckResult::already_finished || known == AckResult::cancelled;
+        return {is_over ? AckResult::already : AckResult::unknown_job, 0};
     }
     if (!cell.job.is_finished()) return {AckResult::wrong_state, 0};
     if (is_refused(cell, command.command)) return {AckResult::wrong_state, 0};
@@ -238,7 +279,7 @@ Answer check_stored_job(const CellState& cell, const Command& command) {
     if (cell.mode != UnitMode::production && !(cell.pending && cell.pending->command == command.command)) {
         return {AckResult::wrong_mode, 0};
     }
-    if (is_refused(cell, command.command)) return {AckResult::wrong_state, 0};
+    if (const AckResult why = refused_here(cell, command.command); why != AckResult::ok) return {why, 0};
     if (cell.job.state != JobState::stored) return {AckResult::wrong_state, 0};
     if (cell.pending && cell.pending->command != command.command) return {AckResult::wrong_state, 0};
     if (command.file_sha256 != cell.job.ticket.file_sha256) return {AckResult::hash_mismatch, 0};
@@ -247,15 +288,29 @@ Answer check_stored_job(const CellState& cell, const Command& command) {
     return {};
 }
 
+std::string consent_question(const CellState& cell) {
+    const WireTicket& ticket = cell.job.ticket;
+    const auto of = [](unsigned k, unsigned n) { return std::to_string(k) + " of " + std::to_string(n); };
+    std::string question = "Job " + ticket.file_name + " (piece " + of(ticket.piece_no, ticket.piece_count);
+    if (ticket.parts > 0) question += ", part " + of(ticket.part, ticket.parts);
+    question += ticket.part > 1 ? "): is it the same block, not moved since part " + std::to_string(ticket.part - 1)
+                                : std::string("): is the block loaded");
+    question += ", and is the area clear?";
+    const auto carved = std::count_if(cell.memory.jobs.begin(), cell.memory.jobs.end(), [&](const auto& job) {
+        return job.second.starts > 0 && job.second.file_sha256 == ticket.file_sha256;
+    });
+    if (carved > 0) question += " This file was started " + std::to_string(carved) + " times before.";
+    return question;
+}
+
 Answer prepare(CellState& cell, const Command& command, CellTime now) {
     const WireTicket& ticket = cell.job.ticket;
     const bool needs_receipt = (ticket.requirements & 1U) != 0 || command.arg0 != 0;
     if (needs_receipt && (cell.job.receipt == 0 || command.arg0 != cell.job.receipt))
         return {AckResult::rehearsal_required, 0};
     if (const auto fault = does_not_fit(ticket, cell.limits)) return {fault->result, fault->address};
-    return wait_for(cell, command, Pending::Waits::consent, now,
-                    "Job " + ticket.file_name + " (piece " + std::to_string(ticket.piece_no) + " of " +
-                        std::to_string(ticket.piece_count) + "): is the block loaded and the area clear?");
+    if (cell.surroundings.tool_broken) return {AckResult::tool, address_of(ticket_block, "TOOL_NO")};
+    return wait_for(cell, command, Pending::Waits::consent, now, consent_question(cell));
 }
 
 Answer start_job(CellState& cell, const Command& command, CellTime now, const CellHooks& hooks) {
@@ -266,6 +321,7 @@ Answer start_job(CellState& cell, const Command& command, CellTime now, const Ce
     if (cell.mode != UnitMode::production) return {AckResult::wrong_mode, 0};
     const Transition to = transition(cell.state, CellCommand::start);
     if (to.kind != TransitionKind::moves) return {AckResult::wrong_state, 0};
+    if (const AckResult why = refused_here(cell, command.command); why != AckResult::ok) return {why, 0};
     if (job.state != JobState::prepared || command.token != job.token) {
         const bool is_expired = command.token != 0 && command.token == job.expired_token;
         return {is_expired ? AckResult::token_expired : AckResult::token_bad, 0};
@@ -278,11 +334,11 @@ Answer start_job(CellState& cell, const Command& command, CellTime now, const Ce
     record.starts = 1;
     record.start_epoch = command.epoch;
     record.start_seq = command.seq;
-    record.start_time_ms = now.unix_ms;
+    record.start_time_ms = unix_ms(cell, now);
     record.file_sha256 = job.stored_sha256;
     ++next.starts_total;
     assert(next.jobs.size() == cell.memory.jobs.size() + 1 && record.starts == 1);
-    if (!save(next, hooks)) return {AckResult::store_io, 0};  // before anything moves
+    if (!save(cell, next, hooks)) return {AckResult::store_io, 0};  // before anything moves
     cell.memory = std::move(next);
     job.token = 0;
     job.state = JobState::running;
@@ -302,6 +358,8 @@ Answer job_command(CellState& cell, const Command& command, CellTime now, const 
             return cancel(cell, command, hooks);
         case CellCommand::query:
             return query(cell, command);
+        case CellCommand::query_file:
+            return query_file(cell, command);
         case CellCommand::clear_result:
             return clear_result(cell, command);
         case CellCommand::set_mode:
@@ -323,7 +381,7 @@ Answer job_command(CellState& cell, const Command& command, CellTime now, const 
 
 Answer execute(CellState& cell, const Command& command, CellTime now, const CellHooks& hooks) {
     if (command.owner == 0) return {AckResult::not_owner, 0};
-    if (!is_known(command.command)) return {AckResult::unknown_cmd, 0};
+    if (!is_known(command.command, cell.limits.version)) return {AckResult::unknown_cmd, 0};
     if (command.command == CellCommand::claim) return claim(cell, command, now, hooks);
     if (needs_lease(command.command)) {
         if (command.epoch < cell.memory.epoch_held) return {AckResult::stale_epoch, cell.memory.epoch_held};

@@ -17,9 +17,11 @@ constexpr std::uint32_t most_epoch_jump = 1U << 20;
 
 // machine.cpp
 void log(CellState& cell, const CellHooks& hooks, const std::string& line);
-bool save(const CellMemory& memory, const CellHooks& hooks);  // false: it could not be written
+// False: it could not be written, or power is gone.
+bool save(CellState& cell, const CellMemory& memory, const CellHooks& hooks);
 bool holds_lease(const CellState& cell, std::uint32_t owner, std::uint32_t epoch);
-std::uint32_t random_number(CellState& cell);  // never 0
+std::uint32_t random_number(CellState& cell);                // never 0
+std::uint64_t unix_ms(const CellState& cell, CellTime now);  // after the jumps of the clock
 
 // machine_time.cpp
 // Precondition: `to` is a state, not `undefined`.
@@ -30,6 +32,10 @@ double run_so_far_s(const CellState& cell, CellTime now);
 void end_job(CellState& cell, JobState state, JobResult result, CellTime now, const CellHooks& hooks);
 // Removes token and consent, and settles what waits for consent or for a rehearsal with `why`.
 void drop_preparation(CellState& cell, AckResult why);
+// An alarm: a started job ends with `result`, a preparation is gone, the machine aborts.
+void raise_alarm(CellState& cell, const CellAlarm& alarm, JobResult result, CellTime now, const CellHooks& hooks);
+// Program blocks executed so far. No program is read: ten blocks are taken for each second.
+std::uint32_t blocks_so_far(const CellState& cell, CellTime now);
 // Ends cell.pending, if any, with this result in its acknowledgement. Precondition: `result` is not PENDING.
 void settle(CellState& cell, AckResult result, std::uint32_t detail = 0);
 

@@ -6,10 +6,13 @@
 #include <cmath>
 
 #include "sim/machine_parts.h"
+#include "sim/panel.h"
 #include "sim/ticket_check.h"
 
 namespace qchopper {
 namespace cell {
+
+constexpr double blocks_per_s = 10;
 
 double run_so_far_s(const CellState& cell, CellTime now) {
     const double whole_s = cell.job.ticket.estimated_time_s;
@@ -37,9 +40,28 @@ void end_job(CellState& cell, JobState state, JobResult result, CellTime now, co
     JobRecord& record = cell.memory.jobs[cell.job.ticket.job_id];
     record.state = state;
     record.result = result;
-    record.end_time_ms = now.unix_ms;
-    if (!save(cell.memory, hooks)) cell.warning = true;
+    record.end_time_ms = unix_ms(cell, now);
+    record.last_block = blocks_so_far(cell, now);
+    if (cell.surroundings.block == BlockOnTable::fresh) cell.surroundings.block = BlockOnTable::used;
+    if (!save(cell, cell.memory, hooks)) cell.warning = true;
     log(cell, hooks, "job " + to_text(cell.job.ticket.job_id) + " " + name(state) + ": " + name(result));
+}
+
+std::uint32_t blocks_so_far(const CellState& cell, CellTime now) {
+    return static_cast<std::uint32_t>(std::floor(blocks_per_s * run_so_far_s(cell, now)));
+}
+
+void raise_alarm(CellState& cell, const CellAlarm& alarm, JobResult result, CellTime now, const CellHooks& hooks) {
+    if (cell.alarm.code == 0) {
+        cell.alarm = alarm;
+        cell.alarm.block = cell.job.is_active() ? blocks_so_far(cell, now) : 0;
+    }
+    log(cell, hooks, "alarm: " + alarm.text);
+    drop_preparation(cell, AckResult::safety_open);
+    if (transition(cell.state, CellCommand::abort).kind != TransitionKind::moves) return;
+    const bool was_active = cell.job.is_active();
+    enter_state(cell, PackState::aborting, now.steady_ms);
+    if (was_active) end_job(cell, JobState::aborted, result, now, hooks);
 }
 
 void settle(CellState& cell, AckResult result, std::uint32_t detail) {
@@ -89,10 +111,18 @@ void pass_token(CellState& cell, CellTime now, const CellHooks& hooks) {
     log(cell, hooks, "the start token has expired");
 }
 
+// What automatic consent says of the block: for a later part the one of the part before, not moved; else a fresh one.
+bool is_block_right(const CellState& cell) {
+    const BlockOnTable block = cell.surroundings.block;
+    if (cell.pending->command != CellCommand::prepare || block == BlockOnTable::unknown) return true;
+    return block == (cell.job.ticket.part > 1 ? BlockOnTable::used : BlockOnTable::fresh);
+}
+
 void pass_pending(CellState& cell, CellTime now, const CellHooks& hooks) {
     if (!cell.pending) return;
     if (cell.pending->waits == Pending::Waits::consent && cell.limits.consent != Consent::ask) {
-        consent_given(cell, cell.pending->number, cell.limits.consent == Consent::automatic, now, hooks);
+        const bool yes = cell.limits.consent == Consent::automatic && is_block_right(cell);
+        consent_given(cell, cell.pending->number, yes, now, hooks);
         return;
     }
     if (cell.pending->waits != Pending::Waits::rehearsal || now.steady_ms < cell.pending->due_ms) return;
@@ -113,14 +143,45 @@ std::int64_t state_ends_ms(const CellState& cell) {
     return cell.state_since_ms + static_cast<std::int64_t>(std::ceil(1000 * left_s / cell.limits.speed));
 }
 
+// The alarm that a fault raises in this job, if it comes before Execute ends at `ends_ms`, and when.
+struct DueAlarm {
+    Fault fault = Fault::count;
+    std::int64_t at_ms = 0;
+};
+std::optional<DueAlarm> due_alarm(const CellState& cell, std::int64_t ends_ms) {
+    std::optional<DueAlarm> first;
+    if (cell.state != PackState::execute || !cell.job.is_active()) return first;
+    for (const Fault fault : {Fault::tool_fault, Fault::e_stop_at}) {
+        const auto block = armed(cell.faults, fault);
+        if (!block) continue;
+        const double left_s = std::max(0.0, static_cast<double>(*block) / blocks_per_s - cell.job.run_s);
+        const auto at_ms =
+            cell.state_since_ms + static_cast<std::int64_t>(std::ceil(1000 * left_s / cell.limits.speed));
+        if (at_ms < ends_ms && (!first || at_ms < first->at_ms)) first = DueAlarm{fault, at_ms};
+    }
+    return first;
+}
+
+void raise_due(CellState& cell, DueAlarm due, CellTime now, const CellHooks& hooks) {
+    if (!take(cell.faults, due.fault)) return;
+    now.steady_ms = due.at_ms;
+    if (due.fault == Fault::e_stop_at) return press_e_stop(cell, true, now, hooks);
+    set_tool_broken(cell, true, now, hooks);
+}
+
 void pass_motion(CellState& cell, CellTime now, const CellHooks& hooks) {
     for (;;) {
         const PackState next = after_done(cell.state);
         if (next == PackState::undefined) return;
         const std::int64_t ends_ms = state_ends_ms(cell);
+        if (const auto due = due_alarm(cell, ends_ms); due && now.steady_ms >= due->at_ms) {
+            raise_due(cell, *due, now, hooks);
+            continue;
+        }
         if (now.steady_ms < ends_ms) return;
         const bool was_active = cell.job.is_active();
         enter_state(cell, next, ends_ms);
+        if (next == PackState::stopped) cell.alarm = {};
         if (was_active && next == PackState::complete) {
             end_job(cell, JobState::ended, cell.job.cut_short ? JobResult::stopped : JobResult::complete, now, hooks);
         }
@@ -142,19 +203,22 @@ void consent_given(CellState& cell, std::uint64_t number, bool yes, CellTime now
     if (!cell.pending || cell.pending->number != number || cell.pending->waits != Pending::Waits::consent) return;
     const CellCommand command = cell.pending->command;
     cell::log(cell, hooks, std::string("consent to ") + name(command) + (yes ? " given" : " refused"));
-    if (!yes) {
+    if (!cell.surroundings.is_safe()) {
+        cell::settle(cell, AckResult::safety_open);
+        return;
+    }
+    if (!yes || take(cell.faults, Fault::no_consent)) {
         cell::settle(cell, AckResult::no_consent);
         return;
     }
-    const bool still_fits = command == CellCommand::clear
-                                ? cell.state == PackState::aborted
-                                : cell.state == PackState::idle && cell.job.state == JobState::stored;
-    if (!still_fits) {
+    const Transition to = transition(cell.state, command);
+    const bool is_stored = command != CellCommand::prepare || cell.job.state == JobState::stored;
+    if (to.kind == TransitionKind::refused || to.kind == TransitionKind::already || !is_stored) {
         cell::settle(cell, AckResult::wrong_state);
         return;
     }
-    if (command == CellCommand::clear) {
-        cell::enter_state(cell, PackState::clearing, now.steady_ms);
+    if (to.kind == TransitionKind::moves) {
+        cell::enter_state(cell, to.to, now.steady_ms);
     } else {
         cell.job.state = JobState::prepared;
         cell.job.token = cell::random_number(cell);
@@ -162,6 +226,7 @@ void consent_given(CellState& cell, std::uint64_t number, bool yes, CellTime now
         cell.consent_present = true;
     }
     cell::settle(cell, AckResult::ok);
+    if (take(cell.faults, Fault::door_after_consent)) open_door(cell, true, now, hooks);
 }
 
 void file_checked(CellState& cell, std::uint64_t number, const FileCheck& check, CellTime now, const CellHooks& hooks) {

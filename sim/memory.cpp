@@ -15,7 +15,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int schema = 2;
+// A memory without a store id, of a cell of version 1.0, has schema 2 and no keys for it.
+constexpr int schema = 3;
+constexpr int schema_without_id = 2;
 
 // Throws std::invalid_argument, caught below.
 template <std::size_t N>
@@ -66,8 +68,13 @@ JobRecord record_from(const Json& json) {
 
 CellMemory from_text(std::string_view text) {
     const Json json = Json::parse(text);
-    if (whole<std::uint16_t>(json, "schema") != schema) throw std::invalid_argument("another schema");
+    const auto given = whole<std::uint16_t>(json, "schema");
+    if (given != schema && given != schema_without_id) throw std::invalid_argument("another schema");
     CellMemory memory;
+    if (given == schema) {
+        memory.store_id = id_from<16>(json.at("store_id").get<std::string>());
+        memory.store_created_ms = whole<std::uint64_t>(json, "store_created_ms");
+    }
     memory.boot_count = whole<std::uint32_t>(json, "boot_count");
     memory.epoch_held = whole<std::uint32_t>(json, "epoch_held");
     memory.starts_total = whole<std::uint32_t>(json, "starts_total");
@@ -82,11 +89,16 @@ CellMemory from_text(std::string_view text) {
 std::string to_json(const CellMemory& memory) {
     Json jobs = Json::object();
     for (const auto& [id, record] : memory.jobs) jobs[to_hex(id)] = to_json(record);
-    Json all = {{"schema", schema},
+    const bool has_id = memory.store_id != Uuid{};
+    Json all = {{"schema", has_id ? schema : schema_without_id},
                 {"boot_count", memory.boot_count},
                 {"epoch_held", memory.epoch_held},
                 {"starts_total", memory.starts_total},
                 {"jobs", std::move(jobs)}};
+    if (has_id) {
+        all["store_id"] = to_hex(memory.store_id);
+        all["store_created_ms"] = memory.store_created_ms;
+    }
     const std::string text = all.dump(1);
     all["sha256"] = to_hex(sha256({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
     return all.dump(1) + "\n";

@@ -13,7 +13,8 @@
 
 namespace qchopper {
 
-// `pdu` begins with the function code; it may be empty. The answer has 2 to 253 bytes.
+// `pdu` begins with the function code; it may be empty. The answer has 2 to 253 bytes; it is empty, and the connection
+// is to be closed, only by the fault close-before-effect.
 Bytes answer_pdu(std::uint8_t unit, std::span<const std::uint8_t> pdu, CellState& cell, CellTime now,
                  const CellHooks& hooks);
 

@@ -3,10 +3,8 @@
 
 #include "sim/modbus_server.h"
 
-#include <arpa/inet.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
@@ -15,12 +13,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstring>
+#include <deque>
 #include <list>
 #include <thread>
 
-#include "base/error.h"
+#include "sim/modbus_listener.h"
 
 namespace qchopper {
 namespace {
@@ -36,81 +36,32 @@ constexpr std::size_t head_bytes = 7;          // MBAP: transaction, protocol, l
 constexpr std::size_t least_length = 2;        // of unit and PDU
 constexpr std::size_t most_length = 254;
 
+// A part of an answer that is not to be sent yet.
+struct Held {
+    Clock::time_point due;
+    Bytes bytes;
+    bool then_close = false;
+};
+
 struct Connection {
     int fd = -1;
     std::string peer;
     Bytes input;
     Bytes output;
+    std::deque<Held> held;  // after what stands in `output`
+    bool ends = false;      // to be closed as soon as the output is sent
     Clock::time_point last_byte;
     Clock::time_point frame_began;   // of the frame that is not complete yet
     Clock::time_point output_moved;  // when something was last sent, or the output began to fill
-    bool is_full() const { return output.size() + 260 > output_bytes; }
+    bool is_full() const {
+        std::size_t waiting = output.size();
+        for (const Held& part : held) waiting += part.bytes.size();
+        return ends || waiting + 260 > output_bytes;
+    }
 };
 
 double since(Clock::time_point then, Clock::time_point now) {
     return std::chrono::duration<double>(now - then).count();
-}
-
-std::string numeric(const sockaddr_storage& address) {
-    char text[INET6_ADDRSTRLEN] = "";
-    if (address.ss_family == AF_INET) {
-        inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in&>(address).sin_addr, text, sizeof text);
-    } else {
-        inet_ntop(AF_INET6, &reinterpret_cast<const sockaddr_in6&>(address).sin6_addr, text, sizeof text);
-    }
-    // An IPv4 peer of an IPv6 socket.
-    const std::string whole = text;
-    return whole.starts_with("::ffff:") ? whole.substr(7) : whole;
-}
-
-bool is_loopback(const std::string& address) {
-    return address == "::1" || address.starts_with("127.");
-}
-
-struct Listener {
-    int fd = -1;
-    std::uint16_t port = 0;
-};
-
-[[noreturn]] void refuse(const ModbusServerOptions& options, const std::string& why, const std::string& to_do,
-                         InputFault fault = InputFault::use) {
-    throw InputError(fault, "cannot listen on " + options.host + ":" + std::to_string(options.port) + ": " + why,
-                     to_do);
-}
-
-Listener listen_on(const ModbusServerOptions& options) {
-    const std::string host = options.host == "localhost" ? "127.0.0.1" : options.host;
-    addrinfo wanted{};
-    wanted.ai_socktype = SOCK_STREAM;
-    wanted.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV | AI_PASSIVE;
-    addrinfo* found = nullptr;
-    in_addr v4{};
-    in6_addr v6{};
-    // inet_pton is strict: other functions accept "0" and "127.1".
-    const bool is_numeric = inet_pton(AF_INET, host.c_str(), &v4) == 1 || inet_pton(AF_INET6, host.c_str(), &v6) == 1;
-    if (!is_numeric || getaddrinfo(host.c_str(), std::to_string(options.port).c_str(), &wanted, &found) != 0) {
-        refuse(options, "this is not a numeric address", "Give an address such as 127.0.0.1.");
-    }
-    const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> guard(found, &freeaddrinfo);
-    if (!is_loopback(host) && options.allow.empty()) {
-        refuse(options, "other computers could reach it, and no list of allowed addresses is given",
-               "Listen on 127.0.0.1.");
-    }
-    const int fd = socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-    if (fd < 0) refuse(options, std::strerror(errno), "", InputFault::create);
-    const int on = 1;
-    setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-    sockaddr_storage bound{};
-    socklen_t size = sizeof bound;
-    if (bind(fd, found->ai_addr, found->ai_addrlen) != 0 || listen(fd, SOMAXCONN) != 0 ||
-        getsockname(fd, reinterpret_cast<sockaddr*>(&bound), &size) != 0) {
-        const int error = errno;
-        close(fd);
-        refuse(options, std::strerror(error), "Choose another port, or 0 for a free one.", InputFault::create);
-    }
-    const std::uint16_t port = bound.ss_family == AF_INET ? reinterpret_cast<const sockaddr_in&>(bound).sin_port
-                                                          : reinterpret_cast<const sockaddr_in6&>(bound).sin6_port;
-    return {fd, ntohs(port)};
 }
 
 }  // namespace
@@ -150,7 +101,8 @@ struct ModbusServer::Loop {
         std::size_t i = 2;
         for (auto connection = connections.begin(); connection != connections.end(); ++i) {
             const short events = waiting[i].revents;
-            bool is_alive = (events & (POLLERR | POLLNVAL)) == 0;
+            bool is_alive = is_on && (events & (POLLERR | POLLNVAL)) == 0;
+            if (is_alive) is_alive = send_due(*connection);
             if ((events & POLLHUP) != 0 && connection->is_full()) is_alive = false;
             if (is_alive && (events & POLLOUT) != 0) is_alive = flush(*connection) && answer_frames(*connection);
             if (is_alive && (events & (POLLIN | POLLHUP)) != 0) is_alive = receive(*connection);
@@ -214,17 +166,52 @@ struct ModbusServer::Loop {
         const std::size_t length = length_of(connection);
         const Bytes pdu = answer(in[6], std::span(in).subspan(head_bytes, length - 1));
         const std::size_t out_length = pdu.size() + 1;
-        Bytes& out = connection.output;
-        if (out.empty()) connection.output_moved = Clock::now();
-        out.insert(out.end(), {in[0], in[1], 0, 0, static_cast<std::uint8_t>(out_length >> 8U),
-                               static_cast<std::uint8_t>(out_length & 0xFFU), in[6]});
+        Bytes out{in[0],
+                  in[1],
+                  0,
+                  0,
+                  static_cast<std::uint8_t>(out_length >> 8U),
+                  static_cast<std::uint8_t>(out_length & 0xFFU),
+                  in[6]};
         out.insert(out.end(), pdu.begin(), pdu.end());
         connection.input.erase(connection.input.begin(),
                                connection.input.begin() + static_cast<std::ptrdiff_t>(6 + length));
         connection.frame_began = Clock::now();
+        if (pdu.empty()) return hold(connection, {{0, {}, true}});
+        hold(connection, options.deliver ? options.deliver(std::move(out)) : std::vector<Delivery>{{0, out, false}});
     }
 
-    bool flush(Connection& connection) {
+    // Behind what is held already; what is due at once goes into the output.
+    static void hold(Connection& connection, std::vector<Delivery> parts) {
+        Clock::time_point due = Clock::now();
+        if (!connection.held.empty()) due = std::max(due, connection.held.back().due);
+        for (Delivery& part : parts) {
+            due += std::chrono::milliseconds(part.after_ms);
+            connection.held.push_back({due, std::move(part.bytes), part.then_close});
+        }
+        move_due(connection);
+    }
+
+    static void move_due(Connection& connection) {
+        const auto now = Clock::now();
+        while (!connection.held.empty() && connection.held.front().due <= now) {
+            const Held& part = connection.held.front();
+            if (connection.output.empty()) connection.output_moved = now;
+            connection.output.insert(connection.output.end(), part.bytes.begin(), part.bytes.end());
+            connection.ends = connection.ends || part.then_close;
+            connection.held.pop_front();
+        }
+    }
+
+    // False: the connection is to be closed.
+    static bool send_due(Connection& connection) {
+        const bool was_held = !connection.held.empty();
+        move_due(connection);
+        if (was_held && !flush(connection)) return false;
+        return !connection.ends || !connection.output.empty();
+    }
+
+    static bool flush(Connection& connection) {
         if (connection.output.empty()) return true;
         const ssize_t sent = send(connection.fd, connection.output.data(), connection.output.size(), MSG_NOSIGNAL);
         if (sent < 0) return errno == EAGAIN || errno == EINTR;
@@ -290,6 +277,10 @@ struct ModbusServer::Loop {
             }
             if (fd < 0) return;
             const std::string peer = numeric(address);
+            if (!is_on) {
+                close(fd);
+                continue;
+            }
             if (!may_stay(peer)) {
                 count_refused(peer);
                 close(fd);
@@ -298,7 +289,7 @@ struct ModbusServer::Loop {
             const int on = 1;
             setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
             const auto now = Clock::now();
-            connections.push_back({fd, peer, {}, {}, now, now, now});
+            connections.push_back({fd, peer, {}, {}, {}, false, now, now, now});
         }
     }
 
@@ -307,6 +298,7 @@ struct ModbusServer::Loop {
     std::function<void()> on_tick;
     std::function<void(const std::string&)> on_message;
     Listener listener;
+    std::atomic<bool> is_on = true;
     int wake = -1;
     int spare = -1;
     std::list<Connection> connections;
@@ -327,10 +319,14 @@ ModbusServer::~ModbusServer() {
 
 void ModbusServer::start() {
     if (loop_->thread.joinable()) return;
-    loop_->listener = listen_on(loop_->options);
+    loop_->listener = listen_on({loop_->options.host, loop_->options.port, loop_->options.allow});
     loop_->wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     loop_->spare = open("/dev/null", O_RDONLY | O_CLOEXEC);
     loop_->thread = std::thread([this] { loop_->run(); });
+}
+
+void ModbusServer::set_power(bool is_on) {
+    loop_->is_on = is_on;
 }
 
 std::uint16_t ModbusServer::port() const {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/file.h"
+#include "sim/faults.h"
 
 namespace qchopper {
 
@@ -25,12 +26,14 @@ struct ModbusServerOptions {
     double drain_s = 2;
     double idle_s = 60;
     double tick_s = 0.02;  // longest time between two calls of on_tick
+    // What is sent for an answer with its header; empty: the answer at once. For faults on the way out.
+    std::function<std::vector<Delivery>(Bytes frame)> deliver;
 };
 
 class ModbusServer {
  public:
-    // Answers one request with a PDU of 1 to 253 bytes. All functions are called from the server's thread, and while
-    // one runs, no client is served. They must not throw. on_message may be empty.
+    // Answers one request with a PDU of 1 to 253 bytes; an empty one closes the connection. All functions are called
+    // from the server's thread, and while one runs, no client is served. They must not throw. on_message may be empty.
     using Answer = std::function<Bytes(std::uint8_t unit, std::span<const std::uint8_t> pdu)>;
 
     ModbusServer(ModbusServerOptions options, Answer answer, std::function<void()> on_tick,
@@ -43,6 +46,7 @@ class ModbusServer {
     // create): address not numeric, not allowed, or in use.
     void start();
     std::uint16_t port() const;  // after start()
+    void set_power(bool is_on);  // without power it closes all connections; may be called from any thread
     void stop();                 // closes all connections; a second call has no effect
 
  private:

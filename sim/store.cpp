@@ -95,6 +95,12 @@ std::uint32_t Store::free_kib() const {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(free_bytes() / 1024, 0xFFFFFFFFU));
 }
 
+void Store::empty() const {
+    std::error_code ignored;
+    std::filesystem::remove(memory(), ignored);
+    for (const Copy& copy : copies_in(folder_ / "jobs")) std::filesystem::remove(copy.file, ignored);
+}
+
 void Store::remove_old_copies(const CellMemory& memory, std::uint64_t bytes) const {
     if (free_bytes() >= bytes) return;
     std::map<std::string, std::uint64_t> ends;

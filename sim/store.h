@@ -26,6 +26,7 @@ class Store {
     std::filesystem::path memory() const { return folder_ / "memory.json"; }
     std::filesystem::path job(const Uuid& id) const;  // of the copy of a job's file
     std::uint32_t free_kib() const;                   // 0 if that cannot be read
+    void empty() const;                               // memory and copies are lost
     // Removes copies until so many bytes are free or none is left. Precondition: the cell has no job.
     void remove_old_copies(const CellMemory& memory, std::uint64_t bytes) const;
 

@@ -1,6 +1,7 @@
 // Checks the values of a ticket, and whether its job fits the cell.
 //
-// The address of a fault is that of the first wrong field in the register map (tests/sim/machine_test.cpp).
+// The address of a fault is that of the first wrong field in the register map (tests/sim/stored_job_test.cpp,
+// tests/sim/preparation_test.cpp).
 
 #pragma once
 

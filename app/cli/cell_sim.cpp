@@ -1,37 +1,22 @@
-// Runs a simulated cell until a signal ends the program.
-
-#include <poll.h>
-#include <unistd.h>
+// Runs a simulated cell until a signal or the command quit ends the program.
 
 #include <chrono>
 #include <iostream>
 #include <mutex>
 #include <thread>
 
+#include "app/cli/check_arguments.h"
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
 #include "app/cli/simulated_limits.h"
+#include "app/cli/standard_input_lines.h"
 #include "app/report/notices.h"
+#include "base/error.h"
 #include "devices/modbus_tcp.h"
-#include "sim/cell_sim.h"
+#include "sim/script_run.h"
 
 namespace qchopper {
 namespace {
-
-// Waits for a line on stdin, or until the program is cancelled. End of input means no.
-bool ask_on_terminal(const std::string& question) {
-    std::cerr << question << " [y/N] " << std::flush;
-    std::string line;
-    while (!Terminal::is_cancelled()) {
-        pollfd input{STDIN_FILENO, POLLIN, 0};
-        if (::poll(&input, 1, 200) <= 0) continue;
-        char c = 0;
-        if (::read(STDIN_FILENO, &c, 1) <= 0) break;
-        if (c == '\n') break;
-        line += c;
-    }
-    return line == "y" || line == "Y" || line == "yes";
-}
 
 // An address as for a connection, but port 0 is allowed: any free port.
 TcpAddress listen_address(const std::string& text) {
@@ -41,11 +26,7 @@ TcpAddress listen_address(const std::string& text) {
     return address;
 }
 
-}  // namespace
-
-int run(const CellSimArguments& arguments, Terminal& terminal) {
-    terminal.set_unchanged("No cell was started.");
-    const TcpAddress address = listen_address(arguments.listen);
+CellSimOptions options_of(const CellSimArguments& arguments, const TcpAddress& address) {
     CellSimOptions options;
     if (arguments.cell) options.limits = simulated_limits(read_cell(*arguments.cell));
     options.listen_host = address.host;
@@ -53,21 +34,75 @@ int run(const CellSimArguments& arguments, Terminal& terminal) {
     options.drop_folder = arguments.drop;
     if (arguments.store) options.store_folder = *arguments.store;
     options.limits.speed = arguments.speed;
+    options.limits.version = arguments.map == "1.0" ? map_version_1_0 : map_version;
     options.limits.consent = arguments.consent == "auto"  ? Consent::automatic
                              : arguments.consent == "ask" ? Consent::ask
                                                           : Consent::never;
-    options.ask = ask_on_terminal;
+    return options;
+}
+
+std::vector<ScriptLine> script_of(const CellSimArguments& arguments) {
+    if (!arguments.script) return {};
+    const Bytes bytes = read_file(*arguments.script, record_limit);
+    return parse_script({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, arguments.script->string());
+}
+
+// Adds what was typed since the last call; a line that is wrong is told, and the others go on.
+void add_typed(StandardInputLines& input, std::size_t& count, ScriptRun& typed, Terminal& terminal) {
+    while (const std::optional<std::string> line = input.next()) {
+        try {
+            if (const auto parsed = parse_script_line(*line, ++count, "standard input")) typed.add(*parsed);
+        } catch (const InputError& fault) {
+            terminal.error(std::string(fault.what()) + ". " + fault.to_do);
+        }
+    }
+}
+
+// Performs script and commands until one of them says quit, or a signal comes.
+void serve(CellSim& sim, const std::vector<ScriptLine>& script, Terminal& terminal) {
+    const auto show = [&](const std::string& line) { terminal.message(line); };
+    ScriptRun scripted(sim, show);
+    ScriptRun typed(sim, show);
+    scripted.add(script);
+    StandardInputLines input;
+    std::size_t count = 0;
+    while (!Terminal::is_cancelled() && scripted.step() && typed.step()) {
+        add_typed(input, count, typed, terminal);
+        // Nobody is there any more who could consent.
+        if (input.has_ended() && scripted.is_idle() && typed.is_idle()) {
+            sim.perform({0, Act::consent, 0, 0, {}});
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+}
+
+}  // namespace
+
+int run(const CellSimArguments& arguments, Terminal& terminal) {
+    terminal.set_unchanged("No cell was started.");
+    check_arguments(arguments);
+    if (arguments.list_faults) {
+        terminal.show(fault_lines(), fault_document());
+        return exit_done;
+    }
+    const TcpAddress address = listen_address(arguments.listen);
+    const std::vector<ScriptLine> script = script_of(arguments);
+    CellSimOptions options = options_of(arguments, address);
     std::mutex terminal_mutex;  // the cell sends messages from its own threads
     options.on_message = [&](const std::string& line) {
         const std::lock_guard lock(terminal_mutex);
         terminal.message(line);
+    };
+    options.on_question = [&](const std::string& question) {
+        const std::lock_guard lock(terminal_mutex);
+        std::cerr << question << " [y/N] " << std::endl;
     };
     CellSim sim(options);
     sim.start();
     const bool is_ipv6 = address.host.find(':') != std::string::npos;
     const std::string where = (is_ipv6 ? "[" + address.host + "]" : address.host) + ":" + std::to_string(sim.port());
     terminal.show({"listening " + where}, listening_document(where));
-    while (!Terminal::is_cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    serve(sim, script, terminal);
     sim.stop();
     terminal.message("simulated cell stopped");
     return exit_done;

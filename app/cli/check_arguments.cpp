@@ -138,4 +138,8 @@ void check_arguments(const SegmentArguments& a) {
     check_scan(a, action);
 }
 
+void check_arguments(const CellSimArguments& a) {
+    if (a.drop.empty() && !a.list_faults) refuse("no drop folder is named", "pass --drop FOLDER");
+}
+
 }  // namespace qchopper

@@ -11,5 +11,6 @@ namespace qchopper {
 // what read_mesh throws.
 void check_arguments(const PrepareArguments& arguments);
 void check_arguments(const SegmentArguments& arguments);
+void check_arguments(const CellSimArguments& arguments);
 
 }  // namespace qchopper

@@ -22,7 +22,7 @@ constexpr int legend_height = 70;
 constexpr int view_width = deviation_picture_width / 2;
 constexpr int view_height = deviation_picture_height - legend_height;
 constexpr double letter_height = 13;
-constexpr double letter_width = 10.2;  // at that height, about
+constexpr double letter_width = 11.6;  // at that height, about
 constexpr int square = 20;
 
 struct DeviationRange {

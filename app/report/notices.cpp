@@ -2,12 +2,14 @@
 
 #include "app/report/notices.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "app/project/value_json.h"
 #include "base/text.h"
 #include "segment/import/inspect.h"
 #include "segment/mesh/measure.h"
+#include "sim/faults.h"
 
 namespace qchopper {
 
@@ -48,6 +50,32 @@ std::string document(const WrittenSample& sample) {
 
 std::string listening_document(const std::string& address) {
     return nlohmann::ordered_json{{"schema", "qchopper-cell-sim-1"}, {"listening", address}}.dump();
+}
+
+std::vector<std::string> fault_lines() {
+    std::vector<std::string> lines;
+    for (const NamedFault& row : all_faults()) {
+        std::string line = row.name;
+        line.resize(std::max<std::size_t>(22, line.size()), ' ');
+        line.append(row.meaning);
+        if ((row.argument[0] != '\0'))
+            line += " (number: " + std::string(row.argument) + ", " + std::to_string(row.usual) + ")";
+        lines.push_back(std::move(line));
+    }
+    return lines;
+}
+
+std::string fault_document() {
+    nlohmann::ordered_json faults = nlohmann::ordered_json::array();
+    for (const NamedFault& row : all_faults()) {
+        nlohmann::ordered_json one{{"name", row.name}, {"meaning", row.meaning}};
+        if (row.argument[0] != '\0') {
+            one["number"] = row.argument;
+            one["usual"] = row.usual;
+        }
+        faults.push_back(std::move(one));
+    }
+    return nlohmann::ordered_json{{"schema", "qchopper-faults-1"}, {"faults", std::move(faults)}}.dump();
 }
 
 }  // namespace qchopper

@@ -1,4 +1,4 @@
-// Small JSON documents: an error (docs/errors.md), a specimen that was made, a simulated cell that listens.
+// Small JSON documents: an error (docs/errors.md), a specimen that was made, a simulated cell that listens, its faults.
 
 #pragma once
 
@@ -25,5 +25,9 @@ std::string document(const WrittenSample& sample);
 
 // `address`: HOST:PORT.
 std::string listening_document(const std::string& address);
+
+// The faults that a simulated cell can be told to have.
+std::vector<std::string> fault_lines();
+std::string fault_document();
 
 }  // namespace qchopper

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "sim/replay/foam_columns.h"
 #include "sim/replay/foam_map.h"
 
 namespace qchopper {
@@ -14,87 +15,17 @@ namespace {
 
 constexpr double contact_mm = 0.01;
 constexpr std::int32_t side = FoamTile::side;
-constexpr std::int32_t square = 16;  // cells of FoamTile::top
+constexpr std::int32_t square = FoamTile::top_square;
 
-std::size_t square_of(std::size_t cell) {
-    const std::size_t x = cell % side / square;
-    const std::size_t y = cell / side / square;
-    return y * (side / square) + x;
-}
-
-// The columns of a tile, made of the block and all maps.
-void make_columns(const std::vector<std::unique_ptr<FoamMap>>& maps, std::size_t direction, std::int32_t tx,
-                  std::int32_t ty, FoamTile& tile) {
-    const FoamMap& own = *maps[direction];
-    tile.low.assign(FoamTile::cells, 0);
-    tile.high.assign(FoamTile::cells, 0);
-    tile.below.clear();
-    tile.top.fill(-std::numeric_limits<float>::infinity());
-    std::vector<FoamInterval> foam;
-    for (std::size_t cell = 0; cell < FoamTile::cells; ++cell) {
-        const Vec3 from{own.middle_x(tx * side + static_cast<std::int32_t>(cell % side)),
-                        own.middle_y(ty * side + static_cast<std::int32_t>(cell / side)), 0};
-        const FoamInterval whole = own.block_on(from, {0, 0, 1});
-        foam.clear();
-        const double high = std::min<double>(whole.high, tile.cut[cell]);
-        if (whole.low < high) foam.push_back({whole.low, high});
-        const Vec3 in_block = apply(own.frame_in_block, from);
-        const Vec3 along = rotate(own.frame_in_block, {0, 0, 1});
-        for (std::size_t other = 0; other < maps.size() && !foam.empty(); ++other) {
-            if (other == direction) continue;
-            const Pose& frame = maps[other]->frame_in_block;
-            maps[other]->remove_from(foam, apply_inverse(frame, in_block), rotate_inverse(frame, along));
-        }
-        if (foam.empty()) continue;
-        for (std::size_t i = 0; i + 1 < foam.size(); ++i) {
-            tile.below.push_back(
-                {static_cast<std::uint32_t>(cell), static_cast<float>(foam[i].low), static_cast<float>(foam[i].high)});
-        }
-        tile.low[cell] = static_cast<float>(foam.back().low);
-        tile.high[cell] = static_cast<float>(foam.back().high);
-        float& top = tile.top[square_of(cell)];
-        top = std::max(top, tile.high[cell]);
-    }
-}
-
-// The next interval below of a column becomes its highest.
-void raise_next(FoamTile& tile, std::size_t cell) {
-    const auto is_before = [](const FoamTile::Below& b, std::uint32_t c) { return b.cell < c; };
-    const auto number = static_cast<std::uint32_t>(cell);
-    auto end = std::lower_bound(tile.below.begin(), tile.below.end(), number + 1, is_before);
-    while (end != tile.below.begin() && (end - 1)->cell == number && (end - 1)->low >= (end - 1)->high) --end;
-    if (end == tile.below.begin() || (end - 1)->cell != number) {
-        tile.low[cell] = tile.high[cell] = 0;
-        return;
-    }
-    FoamTile::Below& next = *(end - 1);
-    tile.low[cell] = next.low;
-    tile.high[cell] = next.high;
-    next.low = next.high = 0;
-}
-
-struct ColumnRemoval {
-    double length = 0;
-    double top = 0;  // of the highest foam
-};
-
-ColumnRemoval lower_column(FoamTile& tile, std::size_t cell, double z) {
-    ColumnRemoval removal{0, tile.high[cell]};
-    while (tile.low[cell] < tile.high[cell] && tile.high[cell] > z) {
-        const double low = std::max<double>(tile.low[cell], z);
-        removal.length += tile.high[cell] - low;
-        tile.high[cell] = static_cast<float>(low);
-        if (tile.high[cell] > tile.low[cell]) break;
-        raise_next(tile, cell);
-    }
-    return removal;
-}
+// mm below what was asked for that is made known with it: a tool that comes deeper in short moves finds it done.
+constexpr double known_below = 4;
 
 }  // namespace
 
 Foam::Foam(const Box& block, const std::vector<Vec3>& outs, double cell) : block_(block), cell_(cell) {
     assert(cell > 0);
     for (const Vec3 out : outs) maps_.push_back(std::make_unique<FoamMap>(block, out, cell));
+    for (std::size_t d = 0; d < maps_.size(); ++d) columns_.push_back(std::make_unique<FoamColumns>(maps_, d));
 }
 
 Foam::~Foam() = default;
@@ -105,22 +36,12 @@ const Pose& Foam::frame_in_block(std::size_t direction) const {
 
 namespace {
 
-// Calls work(tile, tx, ty) for the tiles of a range, with columns that are up to date.
+// Calls work(tile, tx, ty) for the tiles of a range.
 template <class Work>
-void for_tiles(const std::vector<std::unique_ptr<FoamMap>>& maps, std::size_t direction, const CellRange& cells,
-               const Work& work) {
-    FoamMap& map = *maps[direction];
-    std::uint64_t version = 1;
-    for (std::size_t other = 0; other < maps.size(); ++other) {
-        if (other != direction) version += maps[other]->version;
-    }
+void for_tiles(FoamColumns& columns, const CellRange& cells, const Work& work) {
+    columns.begin();
     for (std::int32_t ty = cells.y_begin / side; ty * side < cells.y_end; ++ty) {
-        for (std::int32_t tx = cells.x_begin / side; tx * side < cells.x_end; ++tx) {
-            FoamTile& tile = map.made_tile(tx, ty);
-            if (tile.version != version) make_columns(maps, direction, tx, ty, tile);
-            tile.version = version;
-            work(tile, tx, ty);
-        }
+        for (std::int32_t tx = cells.x_begin / side; tx * side < cells.x_end; ++tx) work(columns.tile(tx, ty), tx, ty);
     }
 }
 
@@ -128,6 +49,7 @@ void for_tiles(const std::vector<std::unique_ptr<FoamMap>>& maps, std::size_t di
 
 CutResult Foam::cut(std::size_t direction, const Cutter& cutter, double flute, Vec3 from, Vec3 to) {
     FoamMap& map = *maps_[direction];
+    FoamColumns& columns = *columns_[direction];
     const Vec3 a = apply_inverse(map.frame_in_block, from);
     const Vec3 move = apply_inverse(map.frame_in_block, to) - a;
     const SweptCutter swept(cutter, move);
@@ -137,7 +59,9 @@ CutResult Foam::cut(std::size_t direction, const Cutter& cutter, double flute, V
     const double r = cutter.radius;
     const CellRange cells = map.range(std::min(a.x, a.x + move.x) - r, std::max(a.x, a.x + move.x) + r,
                                       std::min(a.y, a.y + move.y) - r, std::max(a.y, a.y + move.y) + r);
-    for_tiles(maps_, direction, cells, [&](FoamTile& tile, std::int32_t tx, std::int32_t ty) {
+    const double least = a.z + std::min(0.0, move.z);
+    for_tiles(columns, cells, [&](FoamTile& tile, std::int32_t tx, std::int32_t ty) {
+        if (tile.most_cut <= least) return;
         const std::int32_t y_end = std::min(cells.y_end - ty * side, side);
         for (std::int32_t j = std::max(0, cells.y_begin - ty * side); j < y_end; ++j) {
             const double y = map.middle_y(ty * side + j) - a.y;
@@ -147,6 +71,11 @@ CutResult Foam::cut(std::size_t direction, const Cutter& cutter, double flute, V
             const CellRange row = map.range(x_min + a.x, x_max + a.x, 0, 0);
             const std::int32_t x_end = std::min(row.x_end - tx * side, side);
             for (std::int32_t i = std::max(0, row.x_begin - tx * side); i < x_end; ++i) {
+                if (tile.most_of_square[FoamTile::square_of_cut(i, j)] <= least) {
+                    i |= FoamTile::square - 1;
+                    continue;
+                }
+                if (tile.cut[static_cast<std::size_t>(j * side + i)] <= least) continue;
                 const double x = map.middle_x(tx * side + i) - a.x;
                 const SweptCutter::Height at = swept.height(x, y);
                 const double z = a.z + at.z;
@@ -154,7 +83,8 @@ CutResult Foam::cut(std::size_t direction, const Cutter& cutter, double flute, V
                 if (!(z < tile.cut[cell])) continue;
                 tile.lower_cut(cell, static_cast<float>(z));
                 if (!(tile.high[cell] > z && tile.low[cell] < tile.high[cell])) continue;
-                const ColumnRemoval removal = lower_column(tile, cell, z);
+                columns.know(tile, {tx, ty, cell}, z - known_below);
+                const ColumnRemoval removal = FoamColumns::lower(tile, cell, z);
                 length += removal.length;
                 if (removal.length <= contact_mm) continue;
                 const SweptCutter::Height inside = inner.height(x, y);
@@ -165,6 +95,7 @@ CutResult Foam::cut(std::size_t direction, const Cutter& cutter, double flute, V
                 if (depth > flute) result.deep_mm2 += cell_ * cell_;
             }
         }
+        tile.measure_most();
     });
     if (length > 0) ++map.version;
     result.volume = length * cell_ * cell_;
@@ -173,6 +104,7 @@ CutResult Foam::cut(std::size_t direction, const Cutter& cutter, double flute, V
 
 double Foam::disc_contact(std::size_t direction, double radius, double above, Vec3 from, Vec3 to) {
     FoamMap& map = *maps_[direction];
+    FoamColumns& columns = *columns_[direction];
     const Vec3 a = apply_inverse(map.frame_in_block, from) + Vec3{0, 0, above};
     const Vec3 move = apply_inverse(map.frame_in_block, to) + Vec3{0, 0, above} - a;
     const SweptCutter disc({ToolShape::flat, radius, 0, 0, 1}, move);
@@ -181,7 +113,7 @@ double Foam::disc_contact(std::size_t direction, double radius, double above, Ve
     double worst = 0;
     const CellRange cells = map.range(std::min(a.x, a.x + move.x) - radius, std::max(a.x, a.x + move.x) + radius,
                                       std::min(a.y, a.y + move.y) - radius, std::max(a.y, a.y + move.y) + radius);
-    for_tiles(maps_, direction, cells, [&](FoamTile& tile, std::int32_t tx, std::int32_t ty) {
+    for_tiles(columns, cells, [&](FoamTile& tile, std::int32_t tx, std::int32_t ty) {
         for (std::int32_t q = 0; q < square; ++q) {
             if (tile.top[static_cast<std::size_t>(q)] <= least + worst) continue;
             const std::int32_t x0 = q % 4 * square;
@@ -194,7 +126,10 @@ double Foam::disc_contact(std::size_t direction, double radius, double above, Ve
                     if (!(tile.low[cell] < tile.high[cell]) || tile.high[cell] <= least + worst) continue;
                     const SweptCutter::Height at =
                         disc.height(map.middle_x(tx * side + i) - a.x, map.middle_y(ty * side + j) - a.y);
-                    worst = std::max(worst, tile.high[cell] - (a.z + at.z));
+                    const double underside = a.z + at.z;
+                    if (!(tile.high[cell] - underside > worst)) continue;
+                    columns.know(tile, {tx, ty, cell}, underside + worst - known_below);
+                    if (tile.low[cell] < tile.high[cell]) worst = std::max(worst, tile.high[cell] - underside);
                 }
             }
             // Nothing may have stood as high as was thought.

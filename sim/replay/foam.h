@@ -4,8 +4,8 @@
 // lowest height to which the middle of the cell was cleared. A tool clears everything above what it cuts, so that a
 // point is foam if it lies in the block and, in the frame of every direction, below the map. Heights at the middles of
 // cells are exact; between them a wall is known to half a cell. While one direction is carved, each column of its cells
-// is a list of intervals of foam (dexels), made of the maps of the other directions when the tool first comes there and
-// made again when one of them has changed. Cells come in tiles of 64 x 64, which exist from when a tool comes there.
+// is a list of intervals of foam (dexels), from which the removals of the other directions are taken where the tool
+// comes (foam_columns.h). Cells come in tiles of 64 x 64, which exist from when a tool comes there.
 // tests/sim/replay/foam_test.cpp.
 
 #pragma once
@@ -30,6 +30,7 @@ struct CutResult {
     double deep_mm2 = 0;   // of the cells where that is more than `flute`
 };
 
+class FoamColumns;
 class FoamMap;
 
 class Foam {
@@ -61,6 +62,7 @@ class Foam {
     Box block_;
     double cell_;
     std::vector<std::unique_ptr<FoamMap>> maps_;
+    std::vector<std::unique_ptr<FoamColumns>> columns_;  // per map
 };
 
 }  // namespace qchopper

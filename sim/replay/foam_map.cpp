@@ -36,13 +36,29 @@ void subtract(std::vector<FoamInterval>& intervals, double low, double high) {
 }
 
 // The t at which from + t * along leaves the slab min..max in which it is; infinite if it does not move.
-double leaves(double from, double along, double min, double max) {
-    if (along > 0) return (max - from) / along;
-    if (along < 0) return (min - from) / along;
+double leaves(double from, double along, double per_along, double min, double max) {
+    if (along > 0) return (max - from) * per_along;
+    if (along < 0) return (min - from) * per_along;
     return infinite;
 }
 
 }  // namespace
+
+void FoamTile::measure_most() {
+    if (lowered_squares == 0) return;
+    constexpr std::size_t per_row = side / square;
+    for (std::size_t in = 0; in < most_of_square.size(); ++in) {
+        if ((lowered_squares >> in & 1) == 0) continue;
+        const float* row = &cut[in / per_row * square * side + in % per_row * square];
+        float most = -std::numeric_limits<float>::infinity();
+        for (std::int32_t j = 0; j < square; ++j, row += side) {
+            for (std::int32_t i = 0; i < square; ++i) most = row[i] > most ? row[i] : most;
+        }
+        most_of_square[in] = most;
+    }
+    lowered_squares = 0;
+    most_cut = *std::max_element(most_of_square.begin(), most_of_square.end());
+}
 
 FoamMap::FoamMap(const Box& block_box, Vec3 out, double cell)
     : frame_in_block(direction_frame(out)), block(block_box), cell_(cell) {
@@ -118,18 +134,18 @@ double FoamMap::leaves_square(const MapLine& line, std::int32_t ci, std::int32_t
                               double end) const {
     const double x0 = x_min_ + (ci / step) * step * cell_;
     const double y0 = y_min_ + (cj / step) * step * cell_;
-    const double next = std::min(leaves(line.from.x, line.along.x, x0, x0 + step * cell_),
-                                 leaves(line.from.y, line.along.y, y0, y0 + step * cell_));
+    const double next = std::min(leaves(line.from.x, line.along.x, line.per_x, x0, x0 + step * cell_),
+                                 leaves(line.from.y, line.along.y, line.per_y, y0, y0 + step * cell_));
     return std::min(std::max(next, t), end);
 }
 
-// Squares that the line passes below everything that was cut there are passed at once: tiles, then their squares, then
-// cells; so are the gaps between intervals.
+// Squares that the line passes below all that was cut there, or through air alone, are passed at once: tiles, then
+// their squares, then cells; so are the gaps between intervals.
 void FoamMap::remove_from(std::vector<FoamInterval>& intervals, Vec3 from, Vec3 along) const {
     constexpr auto side = FoamTile::side;
-    const MapLine line{from, along};
+    const MapLine line{from, along, 1 / along.x, 1 / along.y, 1 / along.z};
     const double nudge = 1e-9 * cell_;
-    const auto z_up_to = [&](double t, double next) { return from.z + along.z * (along.z > 0 ? next : t); };
+    const double per_cell = 1 / cell_;
     double t = intervals.empty() ? infinite : intervals.front().low;
     while (true) {
         const auto foam =
@@ -138,27 +154,43 @@ void FoamMap::remove_from(std::vector<FoamInterval>& intervals, Vec3 from, Vec3 
         t = std::max(t, foam->low);
         const double end = foam->high;
         const double middle = t + nudge;
-        const double i = std::floor((from.x + middle * along.x - x_min_) / cell_);
-        const double j = std::floor((from.y + middle * along.y - y_min_) / cell_);
+        const double i = std::floor((from.x + middle * along.x - x_min_) * per_cell);
+        const double j = std::floor((from.y + middle * along.y - y_min_) * per_cell);
         if (!(i >= 0 && j >= 0 && i < double(tiles_x_) * side && j < double(tiles_y_) * side)) return;
         const auto ci = static_cast<std::int32_t>(i);
         const auto cj = static_cast<std::int32_t>(j);
         const FoamTile* here = tile(ci / side, cj / side);
         double next = leaves_square(line, ci, cj, side, middle, end);
-        if (here != nullptr && here->least_cut < z_up_to(t, next)) {
-            next = leaves_square(line, ci, cj, FoamTile::square, middle, end);
-            if (here->least_of_square[FoamTile::square_of_cut(ci % side, cj % side)] < z_up_to(t, next)) {
-                next = leaves_square(line, ci, cj, 1, middle, end);
-                const double cut =
-                    here->cut[static_cast<std::size_t>(cj % side) * side + static_cast<std::size_t>(ci % side)];
-                const double crossing = along.z != 0 ? (cut - from.z) / along.z : infinite;
-                if (along.z > 0) subtract(intervals, std::max(t, crossing), next);
-                if (along.z < 0) subtract(intervals, t, std::min(next, crossing));
-                if (along.z == 0 && from.z > cut) subtract(intervals, t, next);
+        if (here != nullptr && here->least_cut < line.highest(t, next)) {
+            if (here->most_cut < line.lowest(t, next)) {
+                subtract(intervals, t, next);
+            } else {
+                next = remove_in_square(intervals, line, *here, {ci, cj}, t, end);
             }
         }
         t = next;
     }
+}
+
+// Returns where the part of the line that was done ends: in the square, or in the cell.
+double FoamMap::remove_in_square(std::vector<FoamInterval>& intervals, const MapLine& line, const FoamTile& here,
+                                 MapCell at, double t, double end) const {
+    constexpr auto side = FoamTile::side;
+    const double middle = t + 1e-9 * cell_;
+    const std::size_t square = FoamTile::square_of_cut(at.i % side, at.j % side);
+    double next = leaves_square(line, at.i, at.j, FoamTile::square, middle, end);
+    if (here.least_of_square[square] >= line.highest(t, next)) return next;
+    if (here.most_of_square[square] < line.lowest(t, next)) {
+        subtract(intervals, t, next);
+        return next;
+    }
+    next = leaves_square(line, at.i, at.j, 1, middle, end);
+    const double cut = here.cut[static_cast<std::size_t>(at.j % side) * side + static_cast<std::size_t>(at.i % side)];
+    const double crossing = line.along.z != 0 ? (cut - line.from.z) * line.per_z : infinite;
+    if (line.along.z > 0) subtract(intervals, std::max(t, crossing), next);
+    if (line.along.z < 0) subtract(intervals, t, std::min(next, crossing));
+    if (line.along.z == 0 && line.from.z > cut) subtract(intervals, t, next);
+    return next;
 }
 
 double FoamMap::distance_to_removed(Vec3 point, double most) const {

@@ -27,25 +27,37 @@ struct FoamTile {
         float high = 0;
     };
     std::vector<float> cut = std::vector<float>(cells, std::numeric_limits<float>::infinity());
-    // The highest interval of each column; low >= high: none is left.
+    // The highest interval of each column; low >= high: none is left. Of a tile that no tool came to they are empty.
     std::vector<float> low, high;
-    std::vector<Below> below;  // further ones, by cell, of each cell the highest last
+    // Above this height a column is what is left of the foam; below, foam may stand in it that another direction took.
+    std::vector<float> known_from;
+    std::array<std::vector<Below>, side> below;  // further intervals, per row by cell, of each cell the highest last
     float least_cut = std::numeric_limits<float>::infinity();
     // The least of `cut` of each square of 8 x 8 cells: lines far below it pass the square at once.
     static constexpr std::int32_t square = 8;
     std::array<float, cells / (square * square)> least_of_square = filled_with_infinity();
-    std::uint64_t version = 0;  // of the other maps when the columns were made; 0: not made
+    // The greatest of it, and of the tile, at most: lines above it pass the square through air. measure_most lowers it.
+    std::array<float, cells / (square * square)> most_of_square = filled_with_infinity();
+    float most_cut = std::numeric_limits<float>::infinity();
+    std::uint64_t lowered_squares = 0;  // a bit per square: since measure_most
+    std::uint64_t version = 0;          // of the other maps to which `known_from` refers; 0: there are no columns
     // Highest foam of each square of 16 x 16 cells; too high is allowed.
-    std::array<float, 16> top{};
+    static constexpr std::int32_t top_square = 16;
+    std::array<float, cells / (top_square * top_square)> top{};
+    static constexpr std::size_t top_of_cell(std::size_t cell) {
+        return cell / side / top_square * (side / top_square) + cell % side / top_square;
+    }
 
     // Lowers `cut` of a cell, and the least ones with it.
     void lower_cut(std::size_t cell, float height) {
         cut[cell] = height;
         least_cut = std::min(least_cut, height);
-        float& least = least_of_square[square_of_cut(static_cast<std::int32_t>(cell) % side,
-                                                     static_cast<std::int32_t>(cell) / side)];
-        least = std::min(least, height);
+        const std::size_t in =
+            square_of_cut(static_cast<std::int32_t>(cell) % side, static_cast<std::int32_t>(cell) / side);
+        least_of_square[in] = std::min(least_of_square[in], height);
+        lowered_squares |= std::uint64_t{1} << in;
     }
+    void measure_most();
     static constexpr std::size_t square_of_cut(std::int32_t x, std::int32_t y) {
         return static_cast<std::size_t>(y / square) * (side / square) + static_cast<std::size_t>(x / square);
     }
@@ -95,7 +107,18 @@ class FoamMap {
     struct MapLine {
         Vec3 from;
         Vec3 along;
+        double per_x = 0;  // 1 / along
+        double per_y = 0;
+        double per_z = 0;
+        double highest(double t, double next) const { return from.z + along.z * (along.z > 0 ? next : t); }
+        double lowest(double t, double next) const { return from.z + along.z * (along.z > 0 ? t : next); }
     };
+    struct MapCell {
+        std::int32_t i = 0;
+        std::int32_t j = 0;
+    };
+    double remove_in_square(std::vector<FoamInterval>& intervals, const MapLine& line, const FoamTile& here, MapCell at,
+                            double t, double end) const;
     double leaves_square(const MapLine& line, std::int32_t ci, std::int32_t cj, std::int32_t step, double t,
                          double end) const;
     std::size_t index(std::int32_t tx, std::int32_t ty) const { return static_cast<std::size_t>(ty) * tiles_x_ + tx; }

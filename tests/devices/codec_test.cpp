@@ -23,7 +23,7 @@ const Registers command_registers{
     0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x2062, 0x8DB7,
 };
 const Registers status_registers{
-    0x5143, 0x0100, 0x0102, 0x0304, 0x0000, 0x0003, 0x0004, 0x0006, 0x0003, 0x0A08,
+    0x5143, 0x0101, 0x0102, 0x0304, 0x0000, 0x0003, 0x0004, 0x0006, 0x0003, 0x0A08,
     0x0000, 0x0005, 0x002A, 0xFFFF, 0x0000, 0x0009, 0x0002, 0x0001, 0x0000, 0x004D,
     0x0001, 0x0203, 0x0405, 0x0607, 0x0809, 0x0A0B, 0x0C0D, 0x0E0F, 0xDEAD, 0xBEEF,
     0x0003, 0x0007, 0x1388, 0x0000, 0x003D, 0x0000, 0x003E, 0x0001, 0x0000, 0x000C,
@@ -32,7 +32,7 @@ const Registers status_registers{
     0x0000, 0x0002, 0x0000, 0x1388, 0x0002, 0x0010, 0x0000, 0x0000, 0x0021, 0xBBCC,
     0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC,
     0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0x0000, 0x0004, 0x0000, 0x0190, 0x1234,
-    0x5678, 0x89AB, 0xCDEF, 0x89AB, 0xCDEF, 0x0006, 0x1DDD, 0xE3C7, 0x0103, 0x0102,
+    0x5678, 0x89AB, 0xCDEF, 0x89AB, 0xCDEF, 0x0006, 0x0474, 0xB822, 0x0103, 0x0102,
 };
 const Registers ticket_registers{
     0x0001, 0x0001, 0x0203, 0x0405, 0x0607, 0x0809, 0x0A0B, 0x0C0D, 0x0E0F, 0xAAAA,
@@ -43,8 +43,8 @@ const Registers ticket_registers{
     0x0000, 0x0000, 0x2710, 0x0000, 0x1388, 0x0000, 0x1F59, 0x0000, 0x55F0, 0x0000,
     0x2EE0, 0x0000, 0x2710, 0x0001, 0x0003, 0x0000, 0x2EE0, 0x4650, 0x0000, 0x1770,
     0x0000, 0x0014, 0xFFFF, 0x0002, 0x0004, 0x0707, 0x0707, 0x0707, 0x0707, 0x0707,
-    0x0707, 0x0707, 0x0707, 0x0000, 0x0190, 0x1234, 0x5678, 0x0001, 0x0001, 0x0000,
-    0x0000, 0x0000, 0x0000, 0x0007, 0x0001, 0x0000, 0x0000, 0x0000, 0x2623, 0xE712,
+    0x0707, 0x0707, 0x0707, 0x0000, 0x0190, 0x1234, 0x5678, 0x0001, 0x0001, 0x0002,
+    0x0003, 0x0000, 0x0000, 0x0007, 0x0001, 0x0000, 0x0000, 0x0000, 0xE362, 0x1DAC,
 };
 const Registers result_registers{
     0x0001, 0x0203, 0x0405, 0x0607, 0x0809, 0x0A0B, 0x0C0D, 0x0E0F, 0x0005, 0x0001,
@@ -53,6 +53,11 @@ const Registers result_registers{
     0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC, 0xBBCC,
     0x0000, 0x0058, 0x0000, 0x000B, 0x89AB, 0xCDEF, 0x0000, 0x0000, 0x0000, 0x0000,
     0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x0000, 0x4133, 0xE2FE,
+};
+const Registers identity_registers{
+    0x5143, 0x0101, 0x0001, 0x0203, 0x0405, 0x0607, 0x0809, 0x0A0B, 0x0C0D, 0x0E0F,
+    0x0000, 0x0003, 0x0000, 0x0005, 0x0000, 0x0004, 0x0000, 0x0190, 0x1234, 0x5678,
+    0x0000, 0x0000, 0xDDF1, 0xD2CE,
 };
 // clang-format on
 
@@ -141,6 +146,17 @@ TEST(Codec, AResultIsTheseRegisters) {
     EXPECT_EQ(back.value, result);
 }
 
+Identity an_identity() {
+    return {0x0101, job, 3, 5, 4, 0x0190'1234'5678};
+}
+
+TEST(Codec, AnIdentityIsTheseRegisters) {
+    EXPECT_EQ(encode(an_identity()), identity_registers);
+    const Decoded<Identity> back = decode_identity(identity_registers);
+    ASSERT_TRUE(back.is_ok());
+    EXPECT_EQ(back.value, an_identity());
+}
+
 JobTicket a_ticket() {
     JobTicket ticket;
     ticket.about.piece = "piece";
@@ -162,7 +178,7 @@ JobTicket a_ticket() {
 }
 
 TicketOrder an_order() {
-    return {job, 0x0190'1234'5678, 7, true, true, Transfer::drop_folder, LinkLoss::hold};
+    return {job, 0x0190'1234'5678, 7, true, true, Transfer::drop_folder, LinkLoss::hold, 2, 3};
 }
 
 TEST(Codec, ATicketIsTheseRegisters) {
@@ -192,6 +208,9 @@ TEST(Codec, OneWrongBitAnywhereIsNeverTakenForAGoodBlock) {
     for (std::size_t bit = 0; bit < 16 * command_registers.size(); ++bit) {
         EXPECT_FALSE(decode_command(flipped(command_registers, bit)).is_ok()) << bit;
         EXPECT_FALSE(decode_result(flipped(result_registers, bit)).is_ok()) << bit;
+    }
+    for (std::size_t bit = 0; bit < 16 * identity_registers.size(); ++bit) {
+        EXPECT_FALSE(decode_identity(flipped(identity_registers, bit)).is_ok()) << bit;
     }
     for (std::size_t bit = 0; bit < 16 * ticket_registers.size(); ++bit) {
         EXPECT_FALSE(decode_ticket(flipped(ticket_registers, bit)).is_ok()) << bit;
@@ -229,6 +248,20 @@ TEST(Codec, ANewerMinorVersionIsTaken) {
     EXPECT_TRUE(decode_status(encode(status)).is_ok());
 }
 
+TEST(Codec, ACellOfTheFirstVersionIsServed) {
+    Status status = a_status();
+    status.version = map_version_1_0;
+    const Decoded<Status> back = decode_status(encode(status));
+    ASSERT_TRUE(back.is_ok());
+    EXPECT_FALSE(has_identity(back.value.version));
+    EXPECT_TRUE(has_identity(map_version));
+    EXPECT_EQ(encode(a_command())[1], map_version_1_0) << "COMMAND is the same in both";
+    TicketOrder order = an_order();
+    order.part = order.parts = 0;
+    const Registers ticket = encode(wire_ticket(a_ticket(), order));
+    EXPECT_TRUE(is_all_zero(std::span(ticket).subspan(89, 4))) << "reserved in version 1.0";
+}
+
 TEST(Codec, RandomRegistersNeverThrowAndNeverPass) {
     std::mt19937 random(1);
     for (int n = 0; n < 20000; ++n) {
@@ -238,6 +271,7 @@ TEST(Codec, RandomRegistersNeverThrowAndNeverPass) {
         EXPECT_FALSE(decode_command(registers).is_ok());
         EXPECT_FALSE(decode_ticket(registers).is_ok());
         EXPECT_FALSE(decode_result(registers).is_ok());
+        EXPECT_FALSE(decode_identity(registers).is_ok());
         const Decoded<Chunk> chunk = decode_chunk(registers);
         EXPECT_TRUE(!chunk.is_ok() || registers.size() == chunk_head + (chunk.value.data.size() + 1) / 2);
     }

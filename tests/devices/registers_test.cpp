@@ -65,6 +65,11 @@ TEST(Registers, WellKnownFieldsLieWhereTheyWereAgreed) {
     EXPECT_EQ(at(status_block, "BAD_REASON"), 98);
     EXPECT_EQ(at(result_block, "STARTS"), 210);
     EXPECT_EQ(at(result_block, "QUERY_OWNER"), 244);
+    EXPECT_EQ(at(identity_block, "STORE_ID"), 302);
+    EXPECT_EQ(at(identity_block, "STORE_CREATED"), 316);
+    EXPECT_EQ(identity_block.base + identity_block.count, 324);
+    EXPECT_EQ(at(ticket_block, "PART"), 189);
+    EXPECT_EQ(at(ticket_block, "PARTS"), 190);
     EXPECT_EQ(at(command_block, "OWNER"), 38);
     EXPECT_EQ(at(ticket_block, "FILE_NAME"), 128);
     EXPECT_EQ(at(ticket_block, "CELL_ID"), 193);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "sim/modbus_pdu.h"
+#include "sim/panel.h"
 #include "tests/sim/good_ticket.h"
 
 namespace qchopper {
@@ -33,6 +34,7 @@ void CellSteps::run(Input& input) {
     for (std::size_t n = 0; n < most_steps && !input.is_empty(); ++n) {
         const bool was_active = cell_.job.is_active();
         step(input);
+        restart_after_cut();
         demand_one_start(was_active);
         if (n % 16 == 0) demand_status();
     }
@@ -80,6 +82,10 @@ void CellSteps::step(Input& input) {
         case Step::disk:
             can_save_ = (input.u8() & 1U) != 0;
             return;
+        case Step::panel:
+            return act_on_panel(input);
+        case Step::fault:
+            return arm_fault(input);
         case Step::count:
             return;
     }
@@ -166,6 +172,33 @@ void CellSteps::write_zeros(const Block& block) {
     demand(cell_.ack.seq == before.ack.seq && cell_.bad_frames == before.bad_frames);
     demand(cell_.lease.has_value() == before.lease.has_value());
     if (&block == &ticket_block) demand(cell_.ticket_draft.empty());
+}
+
+void CellSteps::act_on_panel(Input& input) {
+    const std::span<const ActRow> rows = all_choices();
+    const ActRow& row = rows[input.u8() % rows.size()];
+    // The others are not of the machine, or would leave no question to answer.
+    constexpr Act acts[] = {Act::door, Act::e_stop, Act::panel, Act::block, Act::tool};
+    if (std::find(std::begin(acts), std::end(acts), row.act) == std::end(acts)) return;
+    perform(cell_, {0, row.act, input.u8() % row.choices.size(), 0, {}}, now_, hooks_);
+}
+
+// Faults of the answers are not among them: answers are checked here.
+void CellSteps::arm_fault(Input& input) {
+    constexpr Fault faults[] = {Fault::power_cut,  Fault::power_cut_store_lost, Fault::power_cut_store_back,
+                                Fault::disk_full,  Fault::store_full,           Fault::no_consent,
+                                Fault::tool_fault, Fault::door_after_consent,   Fault::e_stop_at,
+                                Fault::clock_jump};
+    const Fault fault = faults[input.u8() % std::size(faults)];
+    arm(cell_, {fault, input.u8()}, now_);
+}
+
+// An id may start again only if the store was lost.
+void CellSteps::restart_after_cut() {
+    if (!cell_.power.lost) return;
+    if (cell_.power.store != PowerCut::Store::stays) started_.clear();
+    disk_ = memory_after(cell_.power.store, disk_);
+    cell_ = power_on(cell_, disk_, cell_.random, now_, hooks_);
 }
 
 void CellSteps::check_file(Input& input) {

@@ -24,7 +24,9 @@ enum class Step : std::uint8_t {
     consent,  // yes or no
     zeros,    // which block
     power_cut,
-    disk,  // can it be written from now on
+    disk,   // can it be written from now on
+    panel,  // what a person does
+    fault,  // which, its number
     count
 };
 
@@ -47,6 +49,9 @@ class CellSteps {
     void write_chunk(Input& input);
     void write_zeros(const Block& block);
     void check_file(Input& input);
+    void act_on_panel(Input& input);
+    void arm_fault(Input& input);
+    void restart_after_cut();
     void demand_status();
     void demand_one_start(bool was_active);
 

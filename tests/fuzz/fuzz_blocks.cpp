@@ -55,7 +55,7 @@ void try_registers(unsigned which, unsigned bit, const Registers& registers) {
         named(w);
         w.back() = w[2];  // SNAPSHOT stands at both ends
     };
-    switch (which % 6) {
+    switch (which % 7) {
         case 0:
             return try_block(status_block, "STATUS_CRC", registers, bit, decode_status, named_twice);
         case 1:
@@ -69,6 +69,8 @@ void try_registers(unsigned which, unsigned bit, const Registers& registers) {
             if (beat.is_ok()) demand(encode(beat.value) == registers);
             return;
         }
+        case 6:
+            return try_block(identity_block, "CRC", registers, bit, decode_identity, named);
         default: {
             const Decoded<Chunk> chunk = decode_chunk(registers);
             if (!chunk.is_ok()) return;

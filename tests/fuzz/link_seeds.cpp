@@ -147,6 +147,7 @@ std::vector<Encoded> link_seeds() {
             block_seed(3, "ticket", encode(ticket)),
             block_seed(4, "heartbeat", encode(Heartbeat{1, 2, 3})),
             block_seed(5, "chunk", encode(Chunk{0, {1, 2, 3}, 9})),
+            block_seed(6, "identity", encode(Identity{map_version, Uuid{1, 2}, 3, 5, 4, 1700000000000})),
             pdu_seed("folder-job", whole_job(0), 1),
             pdu_seed("chunk-job", whole_job(2), 1),
             pdu_seed("holding-job", whole_job(4), 1),

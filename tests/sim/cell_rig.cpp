@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
+#include <ifaddrs.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -48,6 +49,7 @@ CellSimOptions quick_cell(const std::filesystem::path& drop) {
 DispatchOptions quick_dispatch(const std::filesystem::path& drop) {
     DispatchOptions options;
     options.drop_folder = drop;
+    options.again = true;  // many tests carve one file twice
     options.timings.poll_s = 0.01;
     return options;
 }
@@ -56,11 +58,25 @@ std::unique_ptr<ModbusTcpBus> connect(const CellSim& cell) {
     return std::make_unique<ModbusTcpBus>(TcpAddress{"127.0.0.1", cell.port()});
 }
 
-RawSocket::RawSocket(std::uint16_t port) : fd_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+std::string own_address() {
+    ifaddrs* all = nullptr;
+    if (getifaddrs(&all) != 0) return {};
+    const std::unique_ptr<ifaddrs, decltype(&freeifaddrs)> guard(all, &freeifaddrs);
+    for (const ifaddrs* one = all; one != nullptr; one = one->ifa_next) {
+        if (one->ifa_addr == nullptr || one->ifa_addr->sa_family != AF_INET) continue;
+        char text[INET_ADDRSTRLEN] = "";
+        inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(one->ifa_addr)->sin_addr, text, sizeof text);
+        if (!std::string(text).starts_with("127.")) return text;
+    }
+    return {};
+}
+
+RawSocket::RawSocket(std::uint16_t port, const std::string& host)
+    : fd_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(port);
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    inet_pton(AF_INET, host.c_str(), &address.sin_addr);
     if (::connect(fd_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
         throw std::runtime_error("no connection");
 }

@@ -30,10 +30,13 @@ DispatchOptions quick_dispatch(const std::filesystem::path& drop);
 
 std::unique_ptr<ModbusTcpBus> connect(const CellSim& cell);
 
-// A TCP connection to 127.0.0.1 that sends any bytes.
+// The first IPv4 address of this computer that is not of loopback; empty: there is none.
+std::string own_address();
+
+// A TCP connection that sends any bytes.
 class RawSocket {
  public:
-    explicit RawSocket(std::uint16_t port);
+    explicit RawSocket(std::uint16_t port, const std::string& host = "127.0.0.1");
     ~RawSocket();
     RawSocket(const RawSocket&) = delete;
     RawSocket& operator=(const RawSocket&) = delete;

@@ -13,6 +13,8 @@ namespace {
 
 CellMemory a_memory() {
     CellMemory memory;
+    memory.store_id = Uuid{1, 2, 3};
+    memory.store_created_ms = 1700000000000U;
     memory.boot_count = 3;
     memory.epoch_held = 0xFFFFFFFE;
     memory.starts_total = 17;
@@ -38,6 +40,15 @@ TEST(Memory, LoadingGivesBackWhatWasSaved) {
     EXPECT_EQ(load_memory(file), a_memory());
     save_memory(file, {});
     EXPECT_EQ(load_memory(file), CellMemory{});
+}
+
+TEST(Memory, ThatOfACellOfTheFirstVersionHasNoStoreId) {
+    CellMemory memory = a_memory();
+    memory.store_id = {};
+    memory.store_created_ms = 0;
+    const std::string text = to_json(memory);
+    EXPECT_EQ(text.find("store_"), std::string::npos);
+    EXPECT_EQ(memory_from_json(text, "m"), memory);
 }
 
 TEST(Memory, AFileThatIsNotThereIsANewCell) {

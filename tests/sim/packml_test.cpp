@@ -19,34 +19,35 @@ using bench::job_a;
 using bench::job_b;
 
 // A number: OK, and the machine goes there. ok: OK and it stays. pe PENDING, al ALREADY, -- WRONG_STATE,
-// bo BUSY_OTHER_JOB, af ALREADY_FINISHED. The cell has a prepared job in Idle; a finished one in Clearing, Stopped,
-// Aborting, Aborted, Resetting and Complete; a running or held one elsewhere. STORE brings another job.
+// bo BUSY_OTHER_JOB, af ALREADY_FINISHED, uj UNKNOWN_JOB. The cell has a prepared job in Idle; a finished one in
+// Clearing, Stopped, Aborting, Aborted, Resetting and Complete; a running or held one elsewhere. STORE brings another
+// job.
 constexpr const char* expected_table = R"(
-              Re St Sp Ho Uh Su Us Ab Cl Co  CL RE ST VE PR CA QU CR RH SM
-1  Clearing   -- af -- -- -- -- -- 8  al --  ok ok bo af af af ok ok af --
-2  Stopped    15 af -- -- -- -- -- 8  al --  ok ok bo af af af ok ok af ok
-3  Starting   -- al 7  10 -- -- -- 8  -- --  ok ok bo -- -- -- ok -- -- --
-4  Idle       al 3  -- -- -- -- -- 8  -- --  ok ok bo al al ok ok -- -- ok
-5  Suspended  -- al 7  10 -- al 14 8  -- --  ok ok bo -- -- -- ok -- -- --
-6  Execute    -- al 7  10 -- 13 -- 8  -- 16  ok ok bo -- -- -- ok -- -- --
-7  Stopping   -- al al -- -- -- -- 8  -- --  ok ok bo -- -- -- ok -- -- --
-8  Aborting   -- af -- -- -- -- -- al -- --  ok ok bo af af af ok -- af --
-9  Aborted    -- af -- -- -- -- -- al pe --  ok ok bo af af af ok ok af ok
-10 Holding    -- al 7  al -- -- -- 8  -- --  ok ok bo -- -- -- ok -- -- --
-11 Held       -- al 7  al 12 -- -- 8  -- --  ok ok bo -- -- -- ok -- -- --
-12 Unholding  -- al 7  10 al -- -- 8  -- --  ok ok bo -- -- -- ok -- -- --
-13 Suspending -- al 7  10 -- al -- 8  -- --  ok ok bo -- -- -- ok -- -- --
-14 Unsuspending -- al 7 10 -- -- al 8 -- --  ok ok bo -- -- -- ok -- -- --
-15 Resetting  al af -- -- -- -- -- 8  -- --  ok ok bo af af af ok ok af --
-16 Completing -- al 7  -- -- -- -- 8  -- al  ok ok bo -- -- -- ok -- -- --
-17 Complete   15 af -- -- -- -- -- 8  -- --  ok ok bo af af af ok ok af --
+              Re St Sp Ho Uh Su Us Ab Cl Co  CL RE ST VE PR CA QU CR RH SM QF
+1  Clearing   -- af -- -- -- -- -- 8  al --  ok ok bo af af af ok ok af -- ok
+2  Stopped    15 af -- -- -- -- -- 8  al --  ok ok bo af af af ok ok af ok ok
+3  Starting   -- al 7  10 -- -- -- 8  -- --  ok ok bo -- -- -- ok -- -- -- ok
+4  Idle       al 3  -- -- -- -- -- 8  -- --  ok ok bo al al ok ok -- -- ok uj
+5  Suspended  -- al 7  10 -- al 14 8  -- --  ok ok bo -- -- -- ok -- -- -- ok
+6  Execute    -- al 7  10 -- 13 -- 8  -- 16  ok ok bo -- -- -- ok -- -- -- ok
+7  Stopping   -- al al -- -- -- -- 8  -- --  ok ok bo -- -- -- ok -- -- -- ok
+8  Aborting   -- af -- -- -- -- -- al -- --  ok ok bo af af af ok -- af -- ok
+9  Aborted    -- af -- -- -- -- -- al pe --  ok ok bo af af af ok ok af ok ok
+10 Holding    -- al 7  al -- -- -- 8  -- --  ok ok bo -- -- -- ok -- -- -- ok
+11 Held       -- al 7  al pe -- -- 8  -- --  ok ok bo -- -- -- ok -- -- -- ok
+12 Unholding  -- al 7  10 al -- -- 8  -- --  ok ok bo -- -- -- ok -- -- -- ok
+13 Suspending -- al 7  10 -- al -- 8  -- --  ok ok bo -- -- -- ok -- -- -- ok
+14 Unsuspending -- al 7 10 -- -- al 8 -- --  ok ok bo -- -- -- ok -- -- -- ok
+15 Resetting  al af -- -- -- -- -- 8  -- --  ok ok bo af af af ok ok af -- ok
+16 Completing -- al 7  -- -- -- -- 8  -- al  ok ok bo -- -- -- ok -- -- -- ok
+17 Complete   15 af -- -- -- -- -- 8  -- --  ok ok bo af af af ok ok af -- ok
 )";
 
-std::array<std::array<std::string, 20>, last_pack_state + 1> expected() {
-    std::array<std::array<std::string, 20>, last_pack_state + 1> table;
+std::array<std::array<std::string, 21>, last_pack_state + 1> expected() {
+    std::array<std::array<std::string, 21>, last_pack_state + 1> table;
     std::istringstream in(expected_table);
     std::string word;
-    for (int head = 0; head < 20; ++head) in >> word;
+    for (int head = 0; head < 21; ++head) in >> word;
     for (std::uint16_t n = 1; n <= last_pack_state; ++n) {
         int number = 0;
         in >> number >> word;
@@ -74,6 +75,7 @@ std::unique_ptr<Bench> cell_in(PackState state) {
     bench.cell.job.state = is_active ? JobState::running : JobState::ended;
     bench.cell.memory.jobs[job_a].state = bench.cell.job.state;
     bench.cell.memory.jobs[job_a].starts = 1;
+    bench.cell.memory.jobs[job_a].file_sha256 = bench::good_digest();
     return whole;
 }
 
@@ -85,6 +87,8 @@ AckResult send(Bench& bench, CellCommand command) {
             return bench.send(command);
         case CellCommand::set_mode:
             return bench.send(command, {}, 0, 2);
+        case CellCommand::query_file:
+            return bench.send(command);
         case CellCommand::claim:
             return bench.claim();
         case CellCommand::store:
@@ -102,11 +106,12 @@ AckResult result_of(const std::string& word) {
     if (word == "al") return AckResult::already;
     if (word == "pe") return AckResult::pending;
     if (word == "bo") return AckResult::busy_other_job;
+    if (word == "uj") return AckResult::unknown_job;
     if (word == "af") return AckResult::already_finished;
     return AckResult::ok;
 }
 
-TEST(PackML, EveryCommandInEveryStateDoesWhatTheTableSays) {
+TEST(Fault, F44_EveryCommandInEveryStateDoesWhatTheTableSays) {
     const auto table = expected();
     for (std::uint16_t n = 1; n <= last_pack_state; ++n) {
         for (std::size_t c = 0; c < all_commands.size(); ++c) {
@@ -122,7 +127,7 @@ TEST(PackML, EveryCommandInEveryStateDoesWhatTheTableSays) {
     }
 }
 
-TEST(PackML, StartMovesNothingInAnyStateButIdle) {
+TEST(Fault, F43_StartMovesNothingInAnyStateButIdle) {
     for (std::uint16_t n = 1; n <= last_pack_state; ++n) {
         if (static_cast<PackState>(n) == PackState::idle) continue;
         const auto whole = cell_in(PackState::idle);
@@ -149,7 +154,7 @@ TEST(PackML, NumbersThatAreNoStateOrNoCommandMeetARefusal) {
         }
     }
     for (std::uint16_t n = 1; n <= last_pack_state; ++n) {
-        for (const std::uint16_t c : {0, 11, 99, 110, 65535}) {
+        for (const std::uint16_t c : {0, 11, 99, 111, 65535}) {
             EXPECT_EQ(transition(static_cast<PackState>(n), static_cast<CellCommand>(c)).kind, TransitionKind::refused);
         }
     }

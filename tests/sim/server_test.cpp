@@ -1,6 +1,9 @@
 #include "sim/modbus_server.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -34,7 +37,7 @@ bool is_served(const RawSocket& socket, std::uint16_t transaction = 0x0102) {
            bytes[10] == 0x43;
 }
 
-TEST(Server, AFrameSplitAtAnyByteGetsTheSameAnswer) {
+TEST(Fault, F54_AFrameSplitAtAnyByteGetsTheSameAnswer) {
     const Cell cell;
     const RawSocket socket(cell.sim.port());
     const Bytes whole = frame(0x0A0B, read_request(4, 0, 3));
@@ -52,7 +55,7 @@ TEST(Server, AFrameSplitAtAnyByteGetsTheSameAnswer) {
     }
 }
 
-TEST(Server, TenPipelinedRequestsGetTenAnswersInOrderThoughOneIsBad) {
+TEST(Fault, F53_TenPipelinedRequestsGetTenAnswersInOrderThoughOneIsBad) {
     const Cell cell;
     const RawSocket socket(cell.sim.port());
     Bytes all;
@@ -85,7 +88,7 @@ TEST(Server, ManyRequestsOfAClientThatReadsAreAllServed) {
     }
 }
 
-TEST(Server, WhatIsNotModbusIsClosed) {
+TEST(Fault, F49_F52_WhatIsNotModbusIsClosed) {
     const Cell cell;
     const auto is_closed = [&](Bytes bytes) {
         const RawSocket socket(cell.sim.port());
@@ -110,7 +113,7 @@ TEST(Server, WhatIsNotModbusIsClosed) {
     EXPECT_TRUE(is_served(RawSocket(cell.sim.port())));
 }
 
-TEST(Server, AHalfFrameIsClosedAfterTwoSecondsAndAByteNowAndThenDoesNotHelp) {
+TEST(Fault, F50_AHalfFrameIsClosedAfterTwoSecondsAndAByteNowAndThenDoesNotHelp) {
     const Cell cell;
     const RawSocket half(cell.sim.port());
     const RawSocket slow(cell.sim.port());
@@ -129,7 +132,7 @@ TEST(Server, AHalfFrameIsClosedAfterTwoSecondsAndAByteNowAndThenDoesNotHelp) {
     EXPECT_TRUE(half.is_closed_within(0.3));
 }
 
-TEST(Server, ASlowClientDoesNotStallTheOthers) {
+TEST(Fault, F49_F50_ASlowClientDoesNotStallTheOthers) {
     const Cell cell;
     const RawSocket slow(cell.sim.port());
     const RawSocket deaf(cell.sim.port());
@@ -182,14 +185,14 @@ TEST(Server, RefusedConnectionsAreCountedInOneLine) {
     EXPECT_NE(lines[0].find("40 connections refused, the last from 127.0.0.1"), std::string::npos) << lines[0];
 }
 
-TEST(Server, ManyConnectionsLeaveNoDescriptorBehind) {
+TEST(Fault, F51_ManyConnectionsLeaveNoDescriptorBehind) {
     const Cell cell;
     const auto open_files = [] {
         const std::filesystem::directory_iterator all("/proc/self/fd");
         return std::distance(begin(all), end(all));
     };
     const auto before = open_files();
-    for (int n = 0; n < 500; ++n) {
+    for (int n = 0; n < 10000; ++n) {
         const RawSocket socket(cell.sim.port());
         if (n % 50 == 0) socket.send({1, 2, 3});
     }
@@ -201,7 +204,7 @@ TEST(Server, ManyConnectionsLeaveNoDescriptorBehind) {
     EXPECT_TRUE(served);
 }
 
-TEST(Server, RandomStreamsDoNotHurtTheCell) {
+TEST(Fault, F52_RandomStreamsDoNotHurtTheCell) {
     const Cell cell;
     std::mt19937 random(3);
     for (int n = 0; n < 50; ++n) {
@@ -233,7 +236,7 @@ TEST(Server, SilenceIsClosedInTheEnd) {
     EXPECT_TRUE(socket.is_closed_within(1));
 }
 
-TEST(Server, AClientThatNeverReadsIsClosed) {
+TEST(Fault, F50_AClientThatNeverReadsIsClosed) {
     ModbusServerOptions options;
     options.drain_s = 0.3;
     const Bytes long_answer(253, 4);
@@ -254,7 +257,7 @@ TEST(Server, AClientThatNeverReadsIsClosed) {
     writer.join();
 }
 
-TEST(Server, OutsideOfLoopbackOnlyWithAList) {
+TEST(Fault, F55_OutsideOfLoopbackOnlyWithAList) {
     const auto start = [](const std::string& host, std::vector<std::string> allow) {
         ModbusServerOptions options;
         options.host = host;
@@ -291,6 +294,61 @@ TEST(Server, WithAListTheLastPlaceIsKeptForThoseOnIt) {
         ASSERT_TRUE(is_served(*sockets.back())) << n;
     }
     EXPECT_TRUE(RawSocket(server.port()).is_closed_within(1));
+}
+
+TEST(Fault, F51_OfFiftyClientsAtOnceEightAreServedAndTheOthersClosed) {
+    const Cell cell;
+    std::vector<std::unique_ptr<RawSocket>> sockets;
+    for (int n = 0; n < 50; ++n) sockets.push_back(std::make_unique<RawSocket>(cell.sim.port()));
+    const auto served = std::count_if(sockets.begin(), sockets.end(), [](const auto& one) { return is_served(*one); });
+    EXPECT_EQ(served, 8);
+}
+
+TEST(Fault, F55_APeerThatIsNotOnTheListIsRefusedAndLogged) {
+    std::mutex mutex;
+    std::string log;
+    ModbusServerOptions options;
+    options.host = "::";
+    options.allow = {"192.0.2.1"};
+    ModbusServer server(
+        options,
+        [](std::uint8_t, std::span<const std::uint8_t>) {
+            return Bytes{4, 2, 0x51, 0x43};
+        },
+        [] {},
+        [&](const std::string& line) {
+            const std::lock_guard lock(mutex);
+            log += line;
+        });
+    try {
+        server.start();
+    } catch (const InputError&) {
+        GTEST_SKIP() << "no IPv6 here";
+    }
+    const std::string own = rig::own_address();
+    if (own.empty()) GTEST_SKIP() << "this computer has no address but loopback";
+    EXPECT_TRUE(RawSocket(server.port(), own).is_closed_within(2));
+    EXPECT_TRUE(is_served(RawSocket(server.port()))) << "loopback always may";
+    server.stop();
+    EXPECT_NE(log.find("1 connection refused, the last from " + own), std::string::npos) << log;
+}
+
+// The server waits by poll(), which has no limit for descriptors.
+TEST(Fault, F57_ADescriptorOf1024OrMoreIsServedLikeAnyOther) {
+    rlimit limit{};
+    ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &limit), 0);
+    const rlimit before = limit;
+    limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, 1200);
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &limit), 0);
+    if (limit.rlim_cur < 1100) GTEST_SKIP() << "this process may not open so many files";
+    std::vector<int> taken;
+    while (taken.empty() || taken.back() < 1024) taken.push_back(open("/dev/null", O_RDONLY | O_CLOEXEC));
+    {
+        const Cell cell;
+        EXPECT_TRUE(is_served(RawSocket(cell.sim.port())));
+    }
+    for (const int fd : taken) close(fd);
+    setrlimit(RLIMIT_NOFILE, &before);
 }
 
 TEST(Server, APortInUseIsAnErrorThatNamesIt) {

@@ -357,6 +357,8 @@ std::vector<Case> links() {
          no_start},
         {"DispatchWithoutProject", exit_missing, dispatch(deaf().text(), "no.qch"), {"no.qch"}, {}, no_start},
         {"CellSimWithoutDropFolder", exit_missing, {"cell-sim", "--drop", "no"}, {"drop folder no"}, {}, no_cell},
+        {"CellSimWithoutAnyFolder", exit_use, {"cell-sim"}, {"--drop FOLDER"}, {}, no_cell},
+        {"CellSimWithoutItsScript", exit_missing, {"cell-sim", "--drop", ".", "--script", "no"}, {"no"}, {}, no_cell},
         {"CellSimForEverybody",
          exit_use,
          {"cell-sim", "--drop", ".", "--listen", "0.0.0.0:0"},
