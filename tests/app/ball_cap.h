@@ -1,5 +1,6 @@
-// A small piece that can be carved whole in the ready KUKA cells: the cap of a ball, 62 mm wide and 15 mm tall, on a
-// flat base. Gentle slopes alone, so that what a tilting tool reaches is all of it.
+// A small piece that can be carved whole in the ready KUKA cells: the cap of a ball, pressed to an ellipse of 62 mm by
+// 50 mm, 15 mm tall, on a flat base. Its slopes are gentle, so that a tilting tool reaches all of it, and no turn of it
+// is the same piece.
 
 #pragma once
 
@@ -9,20 +10,15 @@
 
 namespace qchopper {
 
-// A piece with a base: above one cut.
-inline Piece ball_cap_piece() {
+inline TriangleMesh ball_cap() {
     constexpr double radius = 40;
     constexpr double tall = 15;
     constexpr int rings = 32;
     const Piece ball = uncut(shapes::ball({0, 0, 0}, radius, rings), 0).pieces.front();
-    Piece cap = cut_piece(ball, {{0, 0, 1}, radius - tall}, 1)->pieces.front();
-    cap.name = "A";
+    TriangleMesh cap = *cut_piece(ball, {{0, 0, 1}, radius - tall}, 1)->pieces.front().mesh;
+    cap.cap_of.clear();
+    for (Vec3& point : cap.points) point.y *= 0.8 + 0.001 * point.x;
     return cap;
-}
-
-// The same as a scan.
-inline TriangleMesh ball_cap() {
-    return *ball_cap_piece().mesh;
 }
 
 }  // namespace qchopper

@@ -16,9 +16,10 @@
 namespace qchopper {
 namespace {
 
-// Of what a mutation does the piece may stay whole and no rule be broken: nothing to refuse. A piece of another shape
-// may have others.
-const std::set<std::string> equivalent{};
+// Changes of one place, where the piece may stay whole and no rule be broken: a point above what is cut anyway, a way
+// over foam that is gone already. One that is not refused is listed and not counted.
+const std::set<std::string> may_be_equivalent{"point_lowered", "point_moved_x", "point_moved_y", "retract_lost",
+                                              "last_retract_lost"};
 
 ProgramFiles texts_of(const ReadJob& job) {
     ProgramFiles files;
@@ -78,25 +79,23 @@ struct MutatedJobs : ::testing::TestWithParam<std::string> {
         const JobVerdict as_made = judged(remade(proven, texts_of(proven.job)), proven.cell);
         ASSERT_TRUE(as_made.is_positive) << describe(as_made.findings.front());
         std::size_t refused = 0;
-        std::string listed;
         for (const Mutation& mutation : all_mutations()) {
             const auto mutant = mutation.apply(texts_of(proven.job));
             if (!mutant) {
-                listed += mutation.name + ": no place for it\n";
+                std::printf("%s: no place for it\n", mutation.name.c_str());
                 continue;
             }
             const JobVerdict verdict = judged(remade(proven, *mutant), proven.cell);
-            if (equivalent.contains(mutation.name)) {
-                listed += mutation.name + ": equivalent\n";
+            if (verdict.is_positive && may_be_equivalent.contains(mutation.name)) {
+                std::printf("%s: equivalent\n", mutation.name.c_str());
                 continue;
             }
             EXPECT_FALSE(verdict.is_positive) << mutation.name;
             if (verdict.is_positive) continue;
             ++refused;
-            listed += mutation.name + ": " + describe(verdict.findings.front()) + "\n";
+            std::printf("%s: %s\n", mutation.name.c_str(), describe(verdict.findings.front()).c_str());
         }
         EXPECT_GE(refused, 25U);
-        std::printf("%s", listed.c_str());
     }
 };
 

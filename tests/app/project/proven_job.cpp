@@ -18,7 +18,7 @@ ProvenJob made(const std::string& cell_name) {
     ProvenJob made;
     made.cell = read_cell_file(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / (cell_name + ".toml"));
     JobInput input;
-    input.piece = ball_cap_piece();
+    input.piece = uncut(ball_cap(), 0).pieces.front();
     input.program_version = version;
     input.cell = made.cell.cell;
     Setups setups(input.cell);

@@ -195,6 +195,22 @@ bool lose_retract(Lines& lines) {
     return false;
 }
 
+// All of them.
+bool lose_retracts(Lines& lines) {
+    bool is_changed = false;
+    while (lose_retract(lines)) is_changed = true;
+    return is_changed;
+}
+
+bool lower_every_tenth(Lines& lines) {
+    const std::vector<std::size_t> places = lin_places(lines);
+    bool is_changed = false;
+    for (std::size_t k = 9; k < places.size(); k += 10) {
+        is_changed |= change_number(lines[places[k]], "Z", [](double z) { return z - 5; });
+    }
+    return is_changed;
+}
+
 // A chunk that ends above begins below: its last move up is left out.
 bool lose_last_retract(Lines& lines) {
     const std::vector<std::size_t> places = lin_places(lines);
@@ -350,9 +366,11 @@ void add_geometry(std::vector<Mutation>& all) {
     all.push_back(everywhere("all_2_mm_higher", each_component("lin ", {"Z"}, plus(2))));
     all.push_back(everywhere("all_2_mm_aside", each_component("lin ", {"X"}, plus(2))));
     all.push_back(in_one_chunk("point_lowered", shifted_point("Z", -5)));
+    all.push_back(everywhere("every_tenth_point_lowered", lower_every_tenth));
     all.push_back(in_one_chunk("point_moved_x", shifted_point("X", 15)));
     all.push_back(in_one_chunk("point_moved_y", shifted_point("Y", 15)));
     all.push_back(in_one_chunk("retract_lost", lose_retract));
+    all.push_back(everywhere("all_retracts_lost", lose_retracts));
     all.push_back(in_one_chunk("last_retract_lost", lose_last_retract));
     all.push_back(in_one_chunk("moves_reversed", reverse_moves));
     all.push_back(in_one_chunk("every_second_move_lost", lose_every_second));
