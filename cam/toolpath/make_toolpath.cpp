@@ -24,10 +24,11 @@ namespace {
 
 constexpr double cells_per_radius = 6;  // of the tool of the roughing, in the maps of foam
 constexpr double border_cells = 6;
-constexpr double surface_spacing = 1;  // mm, between points that are asked what is left over them
-constexpr double clear_of_table = 2;   // mm
-constexpr double upright = 0.9999;     // cosine of the tilt of a direction from above
-constexpr double skin_cells = 2.5;     // by which foam may be known as more than it is
+constexpr double surface_spacing = 1;       // mm, between points that are asked what is left over them
+constexpr double clear_of_table = 2;        // mm
+constexpr double finishing_border = 0.075;  // mm, of the cells of finishing (TipOptions::border)
+constexpr double upright = 0.9999;          // cosine of the tilt of a direction from above
+constexpr double skin_cells = 2.5;          // by which foam may be known as more than it is
 
 // Height along a direction, in setup coordinates, in which the tool comes and goes (carving_poses.h).
 double retract_height(const Setup& setup, Vec3 out, double clearance) {
@@ -112,7 +113,7 @@ class ToolpathMaker {
         operation.allowance = is_large ? settings_.allowance : settings_.fine_allowance;
         operation.rounding = std::min(settings_.roughing_rounding, operation.allowance / 1.5);
         const HeightMap piece = target(direction, coarse_cell_, 0);
-        HeightMap tip = tip_surface(piece, tool, operation.allowance);
+        HeightMap tip = tip_surface(piece, tool, {operation.allowance});
         raise_to_holder(tip, piece, body_of(tool_index), setup_.piece_in_setup);
         CarvingSpace space = space_of(piece, operation);
         space.tip_limit = &tip;
@@ -162,7 +163,8 @@ class ToolpathMaker {
     FinishingRegion finishing_region(const Operation& operation, double floor_z, HeightMap& tip) {
         const CarvingTool& tool = machine_.tools[operation.tool];
         const HeightMap piece = target(operation.direction, settings_.cell, floor_z);
-        tip = tip_surface(piece, tool);
+        // Edges are cut into by at most 0.11 mm by that, which with what paths between cells cut is below 0.25 mm.
+        tip = tip_surface(piece, tool, {0, finishing_border});
         raise_to_holder(tip, piece, body_of(operation.tool), setup_.piece_in_setup);
         const bool is_fine = operation.kind == OperationKind::fine_finishing;
         const double near = operation.scallop + settings_.cell;
