@@ -25,7 +25,8 @@ namespace {
 constexpr double cells_per_radius = 6;  // of the tool of the roughing, in the maps of foam
 constexpr double border_cells = 6;
 constexpr double surface_spacing = 1;       // mm, between points that are asked what is left over them
-constexpr double clear_of_table = 2;        // mm
+constexpr double clear_of_table = 2;        // mm, of all points of a tool
+constexpr double rim_clear_of_table = 1.1;  // mm; the check tool_to_table of cam/setup asks for 1
 constexpr double finishing_border = 0.075;  // mm, of the cells of finishing (TipOptions::border)
 constexpr double upright = 0.9999;          // cosine of the tilt of a direction from above
 constexpr double skin_cells = 2.5;          // by which foam may be known as more than it is
@@ -80,6 +81,16 @@ class ToolpathMaker {
     void report() {
         context_.check_cancelled();
         context_.progress("operations of the toolpath", done_++, total_);
+    }
+
+    // The height below which no point of a ball comes. It goes below the base, so that it carves the sides down to it,
+    // but not into the table: from above by its radius, and tilted, where it comes under what leans over, as far as its
+    // rim, were it a cylinder, stays clear of the table, because poses are judged with that.
+    double finishing_floor(Vec3 out, double radius) const {
+        const double lowest = clear_of_table - setup_.spoil;
+        if (out.z > upright) return std::max(-radius, lowest);
+        const double rim = radius * (std::sqrt(std::max(0.0, 1 - out.z * out.z)) + out.z - 1);
+        return std::max(lowest, rim_clear_of_table - setup_.spoil + rim);
     }
 
     Vec3 out_of(std::size_t direction) const {
@@ -137,11 +148,7 @@ class ToolpathMaker {
         operation.step = finishing_step(tool, options);
         operation.scallop = options.scallop;
         operation.rounding = settings_.rounding;
-        // The ball goes below the base, so that it carves the sides down to it, but not into the table. From above, its
-        // radius is enough.
-        const double lowest = clear_of_table - setup_.spoil;
-        const bool is_upright = out_of(direction).z > upright;
-        const double floor_z = is_upright ? std::max(-0.5 * tool.diameter, lowest) : lowest;
+        const double floor_z = finishing_floor(out_of(direction), 0.5 * tool.diameter);
         HeightMap tip;
         const FinishingRegion region = finishing_region(operation, floor_z, tip);
         const bool is_empty = std::all_of(region.begin(), region.end(), [](float low) { return low == not_finished; });
