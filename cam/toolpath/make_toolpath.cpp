@@ -12,7 +12,6 @@
 
 #include "base/error.h"
 #include "cam/setup/holder_limit.h"
-#include "cam/setup/work_envelope.h"
 #include "cam/toolpath/finishing.h"
 #include "cam/toolpath/finishing_region.h"
 #include "cam/toolpath/in_process_stock.h"
@@ -25,26 +24,18 @@ namespace {
 
 constexpr double cells_per_radius = 6;  // of the tool of the roughing, in the maps of foam
 constexpr double border_cells = 6;
-constexpr double surface_spacing = 1;  // mm, between points that are asked what is left over them
-constexpr double clear_of_table = 2;   // mm
-constexpr double upright = 0.9999;     // cosine of the tilt of a direction from above
-constexpr double skin_cells = 2.5;     // by which foam may be known as more than it is
+constexpr double surface_spacing = 1;       // mm, between points that are asked what is left over them
+constexpr double clear_of_table = 2;        // mm, of all points of a tool
+constexpr double rim_clear_of_table = 1.1;  // mm; the check tool_to_table of cam/setup asks for 1
+constexpr double finishing_border = 0.075;  // mm, of the cells of finishing (TipOptions::border)
+constexpr double upright = 0.9999;          // cosine of the tilt of a direction from above
+constexpr double skin_cells = 2.5;          // by which foam may be known as more than it is
 
 // Height along a direction, in setup coordinates, in which the tool comes and goes (carving_poses.h).
 double retract_height(const Setup& setup, Vec3 out, double clearance) {
     const Vec3 half{0.5 * setup.block.size.x, 0.5 * setup.block.size.y, 0};
     const double top = std::max(0.0, out.z) * (setup.block.size.z - setup.spoil);
     return std::abs(out.x) * half.x + std::abs(out.y) * half.y + top + clearance;
-}
-
-// The lowest plane that a ball may touch: clear of the table, and so that the cylinder with a flat end as which the
-// work envelope takes the tool (machine_bodies.h) is clear of it too. A tip on that plane is higher by R (1 - cos
-// tilt), the lowest corner of the cylinder lower than the tip by R sin tilt.
-double lowest_floor(const CarvingTool& tool, Vec3 out, double spoil) {
-    const double clear_of_corner = rule_of(PoseCheck::tool_to_table).needed + 0.1;  // mm
-    const double sine = std::sqrt(std::max(0.0, 1 - out.z * out.z));
-    const double corner = 0.5 * tool.diameter * (sine + out.z - 1);
-    return std::max(clear_of_table, corner + clear_of_corner) - spoil;
 }
 
 class ToolpathMaker {
@@ -92,6 +83,16 @@ class ToolpathMaker {
         context_.progress("operations of the toolpath", done_++, total_);
     }
 
+    // The height below which no point of a ball comes. It goes below the base, so that it carves the sides down to it,
+    // but not into the table: from above by its radius, and tilted, where it comes under what leans over, as far as its
+    // rim, were it a cylinder, stays clear of the table, because poses are judged with that.
+    double finishing_floor(Vec3 out, double radius) const {
+        const double lowest = clear_of_table - setup_.spoil;
+        if (out.z > upright) return std::max(-radius, lowest);
+        const double rim = radius * (std::sqrt(std::max(0.0, 1 - out.z * out.z)) + out.z - 1);
+        return std::max(lowest, rim_clear_of_table - setup_.spoil + rim);
+    }
+
     Vec3 out_of(std::size_t direction) const {
         return rotate(setup_.piece_in_setup, setup_.reach.directions[direction].out);
     }
@@ -123,7 +124,7 @@ class ToolpathMaker {
         operation.allowance = is_large ? settings_.allowance : settings_.fine_allowance;
         operation.rounding = std::min(settings_.roughing_rounding, operation.allowance / 1.5);
         const HeightMap piece = target(direction, coarse_cell_, 0);
-        HeightMap tip = tip_surface(piece, tool, operation.allowance);
+        HeightMap tip = tip_surface(piece, tool, {operation.allowance});
         raise_to_holder(tip, piece, body_of(tool_index), setup_.piece_in_setup);
         CarvingSpace space = space_of(piece, operation);
         space.tip_limit = &tip;
@@ -147,11 +148,7 @@ class ToolpathMaker {
         operation.step = finishing_step(tool, options);
         operation.scallop = options.scallop;
         operation.rounding = settings_.rounding;
-        // The ball goes below the base, so that it carves the sides down to it, but not into the table. From above, its
-        // radius is enough.
-        const Vec3 out = out_of(direction);
-        const double floor_z =
-            std::max(out.z > upright ? -0.5 * tool.diameter : -setup_.spoil, lowest_floor(tool, out, setup_.spoil));
+        const double floor_z = finishing_floor(out_of(direction), 0.5 * tool.diameter);
         HeightMap tip;
         const FinishingRegion region = finishing_region(operation, floor_z, tip);
         const bool is_empty = std::all_of(region.begin(), region.end(), [](float low) { return low == not_finished; });
@@ -173,7 +170,8 @@ class ToolpathMaker {
     FinishingRegion finishing_region(const Operation& operation, double floor_z, HeightMap& tip) {
         const CarvingTool& tool = machine_.tools[operation.tool];
         const HeightMap piece = target(operation.direction, settings_.cell, floor_z);
-        tip = tip_surface(piece, tool);
+        // Edges are cut into by at most 0.11 mm by that, which with what paths between cells cut is below 0.25 mm.
+        tip = tip_surface(piece, tool, {0, finishing_border});
         raise_to_holder(tip, piece, body_of(operation.tool), setup_.piece_in_setup);
         const bool is_fine = operation.kind == OperationKind::fine_finishing;
         const double near = operation.scallop + settings_.cell;

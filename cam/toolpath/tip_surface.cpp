@@ -48,15 +48,20 @@ RoundProfile profile_of(const CarvingTool& tool, double allowance) {
     return {radius, (tool.shape == ToolShape::flat ? 0 : tool.corner_radius) + allowance, 0};
 }
 
-// The distance of the nearest point of a cell from the middle of one that lies so many cells beside.
-double nearest(std::size_t columns, std::size_t rows, double cell) {
-    const auto past = [cell](std::size_t n) { return n == 0 ? 0 : cell * (static_cast<double>(n) - 0.5); };
+// The distance of the nearest point of a cell, without a border of it, from the middle of one that lies so many cells
+// beside.
+double nearest(std::size_t columns, std::size_t rows, double cell, double border) {
+    const auto past = [&](std::size_t n) { return n == 0 ? 0 : cell * (static_cast<double>(n) - 0.5) + border; };
     return std::hypot(past(columns), past(rows));
 }
 
-void check_allowance(double allowance) {
-    if (allowance >= 0 && std::isfinite(allowance)) return;
-    throw InputError(InputFault::use, "allowance is not a length from zero on", "give another value");
+void check(const TipOptions& options) {
+    const auto check_length = [](double length, const std::string& name) {
+        if (length >= 0 && std::isfinite(length)) return;
+        throw InputError(InputFault::use, name + " is not a length from zero on", "give another value");
+    };
+    check_length(options.allowance, "allowance");
+    check_length(options.border, "border of a cell");
 }
 
 }  // namespace
@@ -66,14 +71,18 @@ double tool_profile(const CarvingTool& tool, double r) {
     return profile_of(tool, 0).height(r);
 }
 
-TipDilation::TipDilation(const HeightMap& target, const CarvingTool& tool, double allowance) {
-    check_allowance(allowance);
-    const RoundProfile profile = profile_of(tool, allowance);
-    for (std::size_t row = 0; nearest(0, row, target.cell) <= profile.radius; ++row) {
+TipDilation::TipDilation(const HeightMap& target, const CarvingTool& tool, const TipOptions& options) {
+    check(options);
+    const RoundProfile profile = profile_of(tool, options.allowance);
+    const double border = std::min(options.border, 0.5 * target.cell);
+    const auto distance = [&](std::size_t column, std::size_t row) {
+        return nearest(column, row, target.cell, border);
+    };
+    for (std::size_t row = 0; distance(0, row) <= profile.radius; ++row) {
         std::vector<float> drops;
-        for (std::size_t column = 0; nearest(column, row, target.cell) <= profile.radius; ++column) {
-            const double above = profile.height(nearest(column, row, target.cell));
-            drops.push_back(static_cast<float>(allowance - above));
+        for (std::size_t column = 0; distance(column, row) <= profile.radius; ++column) {
+            const double above = profile.height(distance(column, row));
+            drops.push_back(static_cast<float>(options.allowance - above));
         }
         drop_.push_back(drops);
     }
@@ -169,8 +178,8 @@ HeightMap filled(const HeightMap& map, const TipDilation& dilation) {
 
 }  // namespace
 
-HeightMap tip_surface(const HeightMap& target, const CarvingTool& tool, double allowance) {
-    return filled(target, TipDilation(target, tool, allowance));
+HeightMap tip_surface(const HeightMap& target, const CarvingTool& tool, const TipOptions& options) {
+    return filled(target, TipDilation(target, tool, options));
 }
 
 HeightMap remaining_surface(const HeightMap& tip, const CarvingTool& tool) {

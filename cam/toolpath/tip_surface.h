@@ -39,12 +39,20 @@ Vec3 setup_to_map(const Setup& setup, const HeightMap& map, Vec3 point);
 // gives the shapes; ball, flat, bull, cone). Precondition: r >= 0.
 double tool_profile(const CarvingTool& tool, double r);
 
+struct TipOptions {
+    double allowance = 0;  // that stays on the target
+    // A cell is taken without a border so wide, as far as it is wide enough. A map that is the highest over each cell
+    // holds smooth ground above itself already; an edge or a peak at the border of a cell is cut into by up to
+    // sqrt(2) * border.
+    double border = 0;
+};
+
 // The least height at which the tip may stand over cells of a map: dilation of the map by the tool, each cell taken as
 // its point nearest to the tool axis. Cells beside the map count as `nothing`.
 class TipDilation {
  public:
-    // The map must outlive it. Throws InputError (use) if the allowance is negative or not finite. O(cells).
-    TipDilation(const HeightMap& target, const CarvingTool& tool, double allowance = 0);
+    // The map must outlive it. Throws InputError (use) if an option is negative or not finite. O(cells).
+    TipDilation(const HeightMap& target, const CarvingTool& tool, const TipOptions& options = {});
 
     // The tip heights of the cells [first, end) of a row, in `tip`. O(cells * (radius / cell)^2) at most; terms that
     // cannot be the largest are left out.
@@ -68,7 +76,7 @@ class TipDilation {
 
 // The least height at which the tip may stand over each cell so that the tool, up to its flute and shank with its whole
 // diameter, stays at least `allowance` away from the target. On several threads; the result does not depend on them.
-HeightMap tip_surface(const HeightMap& target, const CarvingTool& tool, double allowance = 0);
+HeightMap tip_surface(const HeightMap& target, const CarvingTool& tool, const TipOptions& options = {});
 
 // The surface that remains where the tip has stood at its least height over the middle of every cell (erosion of the
 // tip surface by the tool): nothing that the tool reaches from this direction can be lower. Cells beside the map are

@@ -117,7 +117,7 @@ TEST(TargetMap, ValuesThatAreNoLengthsAreRefused) {
           TargetOptions{1, no_number, 0}, TargetOptions{1e-5, 0, 0}}) {
         EXPECT_THROW(target_map(setup, mesh, 0, options), InputError);
     }
-    EXPECT_THROW(tip_surface(target_map(setup, mesh, 0, {}), ball_tool(12), -1), InputError);
+    EXPECT_THROW(tip_surface(target_map(setup, mesh, 0, {}), ball_tool(12), {-1}), InputError);
 }
 
 TEST(ToolProfile, Shapes) {
@@ -199,12 +199,34 @@ TEST(TipSurface, EqualsTheDefinition) {
     }
 }
 
+TEST(TipSurface, ABorderOfCellsCutsIntoAPeakByItsDiagonalAtMost) {
+    HeightMap map = random_map(81, 81, 0.25, 7);
+    std::fill(map.height.begin(), map.height.end(), -100.0F);
+    map.height[40 * map.columns + 40] = 0;
+    const CarvingTool tool = ball_tool(12);
+    const double border = 0.075;
+    const HeightMap tip = tip_surface(map, tool, {0, border});
+    double deepest = 0;
+    for (std::size_t row = 0; row < map.rows; ++row) {
+        for (std::size_t column = 0; column < map.columns; ++column) {
+            // The point of the peak's cell that is nearest to the axis.
+            const auto past = [&](std::size_t a) { return std::max(0.0, std::abs(static_cast<double>(a) - 40) - 0.5); };
+            const double aside = map.cell * std::hypot(past(column), past(row));
+            const double below = static_cast<double>(tip.at(column, row)) + 6;
+            deepest = std::max(deepest, 6 - std::hypot(aside, below));
+        }
+    }
+    EXPECT_LE(deepest, std::sqrt(2.0) * border + 1e-6);
+    EXPECT_GT(deepest, border);
+    EXPECT_THROW(tip_surface(map, tool, {0, -0.1}), InputError);
+}
+
 TEST(TipSurface, DoesNotDependOnThreads) {
     const HeightMap map = random_map(300, 200, 0.5, 8);
-    const HeightMap tip = tip_surface(map, ball_tool(12), 1.5);
+    const HeightMap tip = tip_surface(map, ball_tool(12), {1.5});
     for (const std::size_t threads : {1, 2, 4}) {
         const ThreadLimit limit(threads);
-        EXPECT_EQ(tip_surface(map, ball_tool(12), 1.5).height, tip.height);
+        EXPECT_EQ(tip_surface(map, ball_tool(12), {1.5}).height, tip.height);
     }
 }
 
@@ -213,7 +235,7 @@ TEST(TipSurface, AllowanceIsADistance) {
     const TriangleMesh mesh = shapes::ball({0, 0, 10}, 10, 64);
     const auto setup = setup_of(mesh, 20);
     const HeightMap map = target_map(setup, mesh, 0, {0.25, -5, 0});
-    const HeightMap tip = tip_surface(map, ball_tool(12), 2);
+    const HeightMap tip = tip_surface(map, ball_tool(12), {2});
     for (std::size_t k = 0; k < 60; ++k) {
         const std::size_t column = map.columns / 2 + k;
         const double x = 0.25 * (static_cast<double>(column) + 0.5) - apply(map.piece_in_map, Vec3{0, 0, 0}).x;
