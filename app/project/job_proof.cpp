@@ -177,7 +177,8 @@ JobProof prove(const ProofInput& input, const Context& context) {
     if (!program) return proof;
     compare_chunks(input, *program, proof);
     if (proof.chunks.empty()) return proof;
-    const ReplayOptions options;
+    ReplayOptions options;
+    options.cell = input.replay_cell;
     try {
         ReplayScene scene = scene_of(input);
         const std::optional<CarvedStock> before = stock_before(input);
