@@ -111,27 +111,44 @@ ReplayScene scene_of(const ProofInput& input) {
     scene.target = &input.mesh;
     scene.is_base = base_of(setup, input.mesh);
     scene.scallop = input.program.scallop_mm;
+    scene.is_last = input.program.part.number == input.program.part.count;
     return scene;
 }
 
-std::vector<ProofFigure> figures_of(const ReplayReport& report, double cell) {
+// What the part before left; nothing for the first. Throws InputError (mesh).
+std::optional<CarvedStock> stock_before(const ProofInput& input) {
+    if (input.program.part.number == 1) return std::nullopt;
+    if (input.stock == nullptr) throw InputError(InputFault::mesh, "what the part before leaves is not known");
+    return read_stock(*input.stock, "stock.bin");
+}
+
+// Before the last part the piece is not there yet, and nothing is said of its surface.
+bool is_of_surface(const ProofFigure& figure) {
+    return figure.key == "within_tolerance_percent" || figure.key == "reachable_percent" ||
+           figure.key == "max_leftover_mm" || figure.key == "leftover_cm3";
+}
+
+std::vector<ProofFigure> figures_of(const ReplayReport& report, double cell, bool is_last) {
     const double percent = 100;
     const double cm3 = 1e-3;
-    return {{"max_gouge_mm", "largest gouge", report.largest_gouge, "mm", 3},
-            {"gouge_cm3", "gouged volume", report.volumes.gouge_mm3 * cm3, "cm3", 3},
-            {"within_tolerance_percent", "within tolerance, of the reachable surface", percent * report.share_within(),
-             "%", 2},
-            {"reachable_percent", "reachable surface", percent * report.share_reachable(), "%", 1},
-            {"max_leftover_mm", "largest leftover on the reachable surface", report.leftover.largest, "mm", 2},
-            {"leftover_cm3", "foam that stays around the piece", report.volumes.leftover_mm3 * cm3, "cm3", 1},
-            {"rapids_in_foam", "rapid moves in foam",
-             static_cast<double>(report.counts[static_cast<std::size_t>(FindingKind::rapid_in_foam)]), "", 0},
-            {"holder_contacts", "contacts of the holder",
-             static_cast<double>(report.counts[static_cast<std::size_t>(FindingKind::holder_contact)]), "", 0},
-            {"air_percent", "length at feed that removes nothing", percent * report.share_air(), "%", 1},
-            {"path_m", "path", report.time.line_mm / 1000, "m", 1},
-            {"time_s", "time", report.time.seconds, "s", 0},
-            {"cell_mm", "cells of the replay", cell, "mm", 2}};
+    std::vector<ProofFigure> figures{
+        {"max_gouge_mm", "largest gouge", report.largest_gouge, "mm", 3},
+        {"gouge_cm3", "gouged volume", report.volumes.gouge_mm3 * cm3, "cm3", 3},
+        {"within_tolerance_percent", "within tolerance, of the reachable surface", percent * report.share_within(), "%",
+         2},
+        {"reachable_percent", "reachable surface", percent * report.share_reachable(), "%", 1},
+        {"max_leftover_mm", "largest leftover on the reachable surface", report.leftover.largest, "mm", 2},
+        {"leftover_cm3", "foam that stays around the piece", report.volumes.leftover_mm3 * cm3, "cm3", 1},
+        {"rapids_in_foam", "rapid moves in foam",
+         static_cast<double>(report.counts[static_cast<std::size_t>(FindingKind::rapid_in_foam)]), "", 0},
+        {"holder_contacts", "contacts of the holder",
+         static_cast<double>(report.counts[static_cast<std::size_t>(FindingKind::holder_contact)]), "", 0},
+        {"air_percent", "length at feed that removes nothing", percent * report.share_air(), "%", 1},
+        {"path_m", "path", report.time.line_mm / 1000, "m", 1},
+        {"time_s", "time", report.time.seconds, "s", 0},
+        {"cell_mm", "cells of the replay", cell, "mm", 2}};
+    if (!is_last) std::erase_if(figures, is_of_surface);
+    return figures;
 }
 
 void add_findings(const ParsedProgram& program, const ReplayReport& report, JobProof& proof) {
@@ -160,10 +177,15 @@ JobProof prove(const ProofInput& input, const Context& context) {
     if (!program) return proof;
     compare_chunks(input, *program, proof);
     if (proof.chunks.empty()) return proof;
-    const ReplayOptions options;
+    ReplayOptions options;
+    options.cell = input.replay_cell;
     try {
-        const ReplayReport report = replay(*program, scene_of(input), options, context);
-        proof.figures = figures_of(report, options.cell);
+        ReplayScene scene = scene_of(input);
+        const std::optional<CarvedStock> before = stock_before(input);
+        if (before) scene.before = &*before;
+        const ReplayReport report = replay(*program, scene, options, context);
+        proof.figures = figures_of(report, options.cell, scene.is_last);
+        if (!scene.is_last) proof.stock_left = to_bytes(report.left);
         proof.deviation = report.deviation;
         proof.time_s = report.time.seconds;
         proof.length_mm = report.time.line_mm;

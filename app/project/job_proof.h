@@ -24,6 +24,8 @@ struct ProofInput {
     const TriangleMesh& mesh;         // of piece.stl, welded: setup coordinates
     const JobProgram& program;        // its chunks are compared with what is read, unless there are none
     const std::map<std::string, std::string>& texts;  // of all its files
+    const Bytes* stock = nullptr;                     // stock.bin of a part but the first
+    double replay_cell = 0.25;                        // mm; that of the stock
 };
 
 struct JobProof {
@@ -34,6 +36,7 @@ struct JobProof {
     std::vector<float> deviation;  // mm, per triangle: positive where foam stays, negative where it is cut into
     double time_s = 0;
     double length_mm = 0;
+    Bytes stock_left;  // stock.bin for the next part, if there is one and the program could be replayed
     bool is_proven() const { return findings.empty() && !figures.empty(); }
 };
 

@@ -81,10 +81,14 @@ PiecePrograms make_programs(const Piece& piece, const Carving& carving, std::uin
     const TriangleMesh mesh = job_mesh(to_stl(apply(setup.piece_in_setup, *piece.mesh)), piece.name);
     const std::vector<Pose> frames = frames_of(setup, cell);
     PiecePrograms programs;
+    Bytes stock;  // what the part before left
     for (const ProgramPart& part : parts) {
         ProvenProgram proven;
         proven.input = program_of(part, programs.parts.size() + 1, parts.size(), toolpath);
-        proven.proof = prove({cell, setup, frames, mesh, proven.input.program, proven.input.texts}, context);
+        proven.input.stock = std::move(stock);
+        proven.proof =
+            prove({cell, setup, frames, mesh, proven.input.program, proven.input.texts, &proven.input.stock}, context);
+        stock = std::move(proven.proof.stock_left);
         add_proof(proven.input, proven.proof, mesh);
         programs.parts.push_back(std::move(proven));
     }

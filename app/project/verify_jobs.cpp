@@ -65,10 +65,13 @@ std::map<std::string, std::string> texts_of(const ReadJob& job) {
 }
 
 void add_proof(const ReadJob& job, const std::string& job_file, const Cell& cell, JobVerdict& verdict,
-               const Context& context) {
+               const Context& context, Bytes* stock_left) {
     const TriangleMesh mesh = job_mesh(job.files.at("piece.stl"), job_file + ": piece.stl");
     const std::map<std::string, std::string> texts = texts_of(job);
-    JobProof proof = prove({cell, job.setup, job.setup_in_cell, mesh, *job.program, texts}, context);
+    const auto stock = job.files.find("stock.bin");
+    const Bytes* before = stock != job.files.end() ? &stock->second : nullptr;
+    JobProof proof = prove({cell, job.setup, job.setup_in_cell, mesh, *job.program, texts, before}, context);
+    if (stock_left != nullptr) *stock_left = std::move(proof.stock_left);
     verdict.figures = std::move(proof.figures);
     verdict.findings.insert(verdict.findings.end(), proof.findings.begin(), proof.findings.end());
     verdict.findings_left_out = proof.findings_left_out;
@@ -114,6 +117,31 @@ std::optional<VerdictFinding> fault_against_piece(const ReadJob& job, const std:
     return std::nullopt;
 }
 
+// The part of a piece that was verified last.
+struct PartBefore {
+    std::string piece;
+    std::uint16_t number = 0;
+    Sha256 sha256;
+    Bytes stock;  // what it left
+};
+
+// What speaks against a part coming after the one that was verified before it.
+std::optional<VerdictFinding> fault_against_part_before(const ReadJob& job, const PartBefore& before) {
+    if (!job.program || job.program->part.number == 1) return std::nullopt;
+    const JobPart& part = job.program->part;
+    const std::string number = std::to_string(part.number - 1);
+    if (before.piece != job.piece || before.number + 1 != part.number) {
+        return finding("other_part", "part " + number + " of the program is missing before this one");
+    }
+    if (part.before != before.sha256) {
+        return finding("other_part", "the job was made for another part " + number + " than is there");
+    }
+    if (before.stock.empty() || job.files.at("stock.bin") != before.stock) {
+        return finding("other_stock", "stock.bin is not what part " + number + " leaves");
+    }
+    return std::nullopt;
+}
+
 VerifiedJob written(const fs::path& file, JobVerdict verdict) {
     verdict.is_positive = verdict.findings.empty();
     write_verdict(file, verdict);
@@ -127,13 +155,14 @@ CellFile read_cell_file(const fs::path& path) {
 }
 
 JobVerdict judge_job(const ReadJob& job, const std::string& job_file, const CellFile& cell,
-                     const std::string& program_version, const Context& context) {
+                     const std::string& program_version, const Context& context, Bytes* stock_left) {
+    if (stock_left != nullptr) stock_left->clear();
     JobVerdict verdict = without_findings(job, job_file, cell, program_version);
     verdict.findings = faults_against_cell(job, cell.cell);
     if (!job.program) {
         verdict.findings.push_back(finding("no_program", "the job holds no robot program: " + job.no_program_because));
     } else if (verdict.findings.empty()) {
-        add_proof(job, job_file, cell.cell, verdict, context);
+        add_proof(job, job_file, cell.cell, verdict, context, stock_left);
     }
     shorten(verdict);
     verdict.is_positive = verdict.findings.empty();
@@ -159,11 +188,18 @@ VerifyAnswer verify_project(const fs::path& folder, const std::optional<std::str
     const Segmentation& segmentation = project.segmentation();
     const StageTimer stage(context, "jobs verified");
     VerifyAnswer verified;
+    PartBefore before;
     for (const PieceJob& job : ordered.jobs) {
         context.progress("jobs verified", verified.size(), ordered.jobs.size());
         const fs::path file = folder / "jobs" / job_file_name(job.piece, job.part);
         const ReadJob read = parse_job(job.file, file.string());
-        JobVerdict verdict = judge_job(read, file.string(), cell, program_version, context);
+        Bytes stock_left;
+        JobVerdict verdict = judge_job(read, file.string(), cell, program_version, context, &stock_left);
+        if (const auto of_part = fault_against_part_before(read, before)) {
+            verdict.findings.insert(verdict.findings.begin(), *of_part);
+        }
+        before = {read.piece, read.program ? read.program->part.number : std::uint16_t{1}, read.file_sha256,
+                  std::move(stock_left)};
         const auto index = piece_named(segmentation, job.piece);
         const auto fault = index ? fault_against_piece(read, file.string(), segmentation.pieces[*index])
                                  : finding("other_piece", "the project has no piece " + job.piece);

@@ -71,6 +71,7 @@ struct ProgramInput {
     std::vector<ProofFigure> figures;          // of the replay
     std::vector<std::string> findings;         // one sentence each; empty if it is proven
     Bytes deviation_picture;                   // PNG; empty: none
+    Bytes stock;                               // stock.bin, of a part but the first: what the part before left
 };
 
 }  // namespace qchopper

@@ -19,6 +19,7 @@ constexpr std::uint64_t largest_text = 16u << 20;  // of manifest and ticket, wh
 constexpr const char* manifest_name = "manifest.json";
 constexpr const char* ticket_name = "ticket.json";
 constexpr const char* envelope_name = "envelope.json";
+constexpr const char* stock_name = "stock.bin";
 
 std::string_view as_text(const Bytes& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -43,6 +44,10 @@ void check_entries(const ReadJob& job, const std::string& source) {
                                "setup-2.png", "setup.html", ticket_name};
     for (const char* name : names) {
         if (!job.files.contains(name)) refuse(source, std::string(name) + " is missing");
+    }
+    const bool continues = job.program && job.program->part.number > 1;
+    if (continues != job.files.contains(stock_name)) {
+        refuse(source, std::string(stock_name) + (continues ? " is missing" : " belongs to a later part"));
     }
     for (const std::string& fault :
          {fault_of_program_files(job.program, job.files), fault_of_templates(job.caps, job.files)}) {

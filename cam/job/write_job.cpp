@@ -104,6 +104,7 @@ Bytes job_file(const JobInput& input) {
     }
     if (input.program) {
         for (const auto& [name, text] : input.program->texts) files[name] = to_bytes(text);
+        if (input.program->program.part.number > 1) files["stock.bin"] = input.program->stock;
         if (!input.program->deviation_picture.empty()) files["deviation.png"] = input.program->deviation_picture;
     }
     for (const DrawnCap& cap : input.caps) {

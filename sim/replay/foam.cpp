@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/error.h"
 #include "sim/replay/foam_columns.h"
 #include "sim/replay/foam_map.h"
 
@@ -22,7 +23,7 @@ constexpr double known_below = 2;
 
 }  // namespace
 
-Foam::Foam(const Box& block, const std::vector<Vec3>& outs, double cell) : block_(block), cell_(cell) {
+Foam::Foam(const Box& block, const std::vector<Vec3>& outs, double cell) : block_(block), outs_(outs), cell_(cell) {
     assert(cell > 0);
     for (const Vec3 out : outs) maps_.push_back(std::make_unique<FoamMap>(block, out, cell));
     for (std::size_t d = 0; d < maps_.size(); ++d) columns_.push_back(std::make_unique<FoamColumns>(maps_, d));
@@ -144,6 +145,70 @@ double Foam::disc_contact(std::size_t direction, double radius, double above, Ve
         }
     });
     return worst;
+}
+
+namespace {
+
+// In units of 0.01 mm, up; what is off by rounding of such a height alone stays.
+std::int32_t rounded_up(float height) {
+    constexpr double per_mm = 100;
+    constexpr double slack = 0.01;
+    if (std::isinf(height)) return StockTile::not_cut;
+    return static_cast<std::int32_t>(std::ceil(per_mm * height - slack));
+}
+
+StockMap stock_of(const FoamMap& map, Vec3 out) {
+    StockMap stock{out, {}};
+    for (std::int32_t ty = 0; ty < map.tiles_y(); ++ty) {
+        for (std::int32_t tx = 0; tx < map.tiles_x(); ++tx) {
+            const FoamTile* tile = map.tile(tx, ty);
+            if (tile == nullptr || std::isinf(tile->least_cut)) continue;
+            StockTile& cells = stock.tiles.emplace_back(StockTile{tx, ty, {}});
+            cells.height.reserve(FoamTile::cells);
+            for (const float height : tile->cut) cells.height.push_back(rounded_up(height));
+        }
+    }
+    return stock;
+}
+
+bool is_equal(Vec3 a, Vec3 b) {
+    return norm(a - b) <= 1e-6;
+}
+
+[[noreturn]] void refuse_stock(const char* why) {
+    throw InputError(InputFault::mesh, std::string("the stock that the part before left is of ") + why,
+                     "write the jobs of the piece again with qchopper prepare");
+}
+
+void lower(FoamMap& map, const StockMap& stock) {
+    for (const StockTile& cells : stock.tiles) {
+        if (cells.tx >= map.tiles_x() || cells.ty >= map.tiles_y()) refuse_stock("another block");
+        FoamTile& tile = map.made_tile(cells.tx, cells.ty);
+        for (std::size_t cell = 0; cell < FoamTile::cells; ++cell) {
+            if (cells.height[cell] == StockTile::not_cut) continue;
+            tile.lower_cut(cell, static_cast<float>(0.01 * cells.height[cell]));
+        }
+        tile.measure_most();
+    }
+    ++map.version;
+}
+
+}  // namespace
+
+CarvedStock Foam::stock() const {
+    CarvedStock stock{block_, cell_, {}, {}};
+    for (std::size_t d = 0; d < maps_.size(); ++d) stock.maps.push_back(stock_of(*maps_[d], outs_[d]));
+    return stock;
+}
+
+void Foam::start_from(const CarvedStock& stock) {
+    if (!is_equal(stock.block.min, block_.min) || !is_equal(stock.block.max, block_.max)) refuse_stock("another block");
+    if (stock.cell != cell_) refuse_stock("other cells");
+    if (stock.maps.size() != maps_.size()) refuse_stock("other directions");
+    for (std::size_t d = 0; d < maps_.size(); ++d) {
+        if (!is_equal(stock.maps[d].out, outs_[d])) refuse_stock("other directions");
+    }
+    for (std::size_t d = 0; d < maps_.size(); ++d) lower(*maps_[d], stock.maps[d]);
 }
 
 bool Foam::is_foam(Vec3 p) const {

@@ -19,6 +19,7 @@
 #include "base/pose.h"
 #include "sim/replay/cutter.h"
 #include "sim/replay/foam_interval.h"
+#include "sim/replay/stock.h"
 
 namespace qchopper {
 
@@ -54,12 +55,19 @@ class Foam {
     // of cells count at their middles, so that it is too large by at most 0.71 cells. Not for the block's underside.
     double distance_to_removed(Vec3 point, double most) const;
 
+    // What is left, without the tools that were used.
+    CarvedStock stock() const;
+    // Goes on from there. Precondition: nothing has been cut. Throws InputError (mesh) if it is the stock of another
+    // block, other directions or other cells.
+    void start_from(const CarvedStock& stock);
+
     const Pose& frame_in_block(std::size_t direction) const;
     const Box& block() const { return block_; }
     double cell() const { return cell_; }
 
  private:
     Box block_;
+    std::vector<Vec3> outs_;
     double cell_;
     std::vector<std::unique_ptr<FoamMap>> maps_;
     std::vector<std::unique_ptr<FoamColumns>> columns_;  // per map

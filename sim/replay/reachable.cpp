@@ -179,13 +179,24 @@ SurfaceMap closing_of(const ReplayScene& scene, std::size_t direction, const Car
     return map;
 }
 
+std::vector<StockTool> used_tools(const ReplayScene& scene) {
+    std::vector<StockTool> used;
+    if (scene.before != nullptr) used = scene.before->tools;
+    for (const SceneChunk& chunk : scene.chunks) {
+        used.push_back({chunk.tool, static_cast<std::uint32_t>(chunk.direction)});
+    }
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    return used;
+}
+
 std::vector<std::optional<std::size_t>> finest_tools(const ReplayScene& scene) {
     const std::vector<CarvingTool>& tools = scene.cell->machine->tools;
     std::vector<std::optional<std::size_t>> finest(scene.directions.size());
-    for (const SceneChunk& chunk : scene.chunks) {
+    for (const StockTool& used : used_tools(scene)) {
         for (std::size_t i = 0; i < tools.size(); ++i) {
-            if (tools[i].number != chunk.tool) continue;
-            std::optional<std::size_t>& best = finest[chunk.direction];
+            if (tools[i].number != used.tool || used.direction >= finest.size()) continue;
+            std::optional<std::size_t>& best = finest[used.direction];
             if (!best || tools[i].diameter < tools[*best].diameter) best = i;
         }
     }

@@ -33,8 +33,11 @@ struct SurfaceMap {
 SurfaceMap closing_of(const ReplayScene& scene, std::size_t direction, const CarvingTool& tool, double cell,
                       const Context& context);
 
-// The finest tool that each direction of the program has a chunk for: index in CellMachine::tools, of equal ones the
-// first; nothing for a direction without a chunk.
+// The tools that the program uses along each direction, and those that parts before it used: ascending, each once.
+std::vector<StockTool> used_tools(const ReplayScene& scene);
+
+// The finest tool that each direction of the program has a chunk for, parts before included: index in
+// CellMachine::tools, of equal ones the first; nothing for a direction without a chunk.
 std::vector<std::optional<std::size_t>> finest_tools(const ReplayScene& scene);
 
 }  // namespace qchopper

@@ -9,6 +9,7 @@
 #include "sim/program/rounded_corner.h"
 #include "sim/replay/gouge.h"
 #include "sim/replay/machine_walk.h"
+#include "sim/replay/reachable.h"
 
 namespace qchopper {
 namespace {
@@ -75,16 +76,18 @@ void judge_leftover(const ReplayReport& report, const ReplayOptions& options, Fi
                    fixed(at.x, 1) + " " + fixed(at.y, 1) + " " + fixed(at.z, 1);
         });
     }
-    if (report.carving.cuts == 0) {
-        log.add(FindingKind::no_cut, {}, 0, 0, [] { return "the program removes nothing"; });
-    }
+}
+
+void judge_cuts(const ReplayReport& report, FindingLog& log) {
+    if (report.carving.cuts > 0) return;
+    log.add(FindingKind::no_cut, {}, 0, 0, [] { return "the program removes nothing"; });
 }
 
 double largest_radius(const ReplayScene& scene) {
     double radius = 0;
-    for (const SceneChunk& chunk : scene.chunks) {
+    for (const StockTool& used : used_tools(scene)) {
         for (const CarvingTool& tool : scene.cell->machine->tools) {
-            if (tool.number == chunk.tool) radius = std::max(radius, 0.5 * tool.diameter);
+            if (tool.number == used.tool) radius = std::max(radius, 0.5 * tool.diameter);
         }
     }
     return radius;
@@ -92,6 +95,7 @@ double largest_radius(const ReplayScene& scene) {
 
 std::vector<float> deviations(const GougeFigures& gouges, const LeftoverFigures& leftover) {
     std::vector<float> deviation = leftover.distance;
+    deviation.resize(gouges.depth.size(), 0);
     for (std::size_t t = 0; t < deviation.size(); ++t) {
         if (gouges.depth[t] > deviation[t]) deviation[t] = -gouges.depth[t];
     }
@@ -111,18 +115,24 @@ ReplayReport replay(const ParsedProgram& program, const ReplayScene& scene, cons
     std::vector<Vec3> outs;
     for (const SceneDirection& direction : scene.directions) outs.push_back(direction.out);
     Foam foam(scene.block, outs, options.cell);
+    if (scene.before != nullptr) foam.start_from(*scene.before);
     report.carving = carve_foam(foam, path, scene, options.is_worst, log, context);
     const GougeFigures gouges = find_gouges(path, scene, options.gouge_floor, context);
     report.largest_gouge = gouges.largest;
     report.gouge_place = gouges.place;
     report.gouge_at = gouges.at;
-    report.leftover = measure_leftover(foam, scene, gouges.depth, options.leftover, context);
+    if (scene.is_last) report.leftover = measure_leftover(foam, scene, gouges.depth, options.leftover, context);
     const VolumeOptions volumes{options.volume_cell, 2 * largest_radius(scene), options.most_gouge,
                                 scene.scallop + options.leftover.too_much + options.cell};
     report.volumes = measure_volumes(foam, scene, volumes, context);
     report.deviation = deviations(gouges, report.leftover);
     judge_gouge(report, options, log);
-    judge_leftover(report, options, log);
+    if (scene.is_last) judge_leftover(report, options, log);
+    judge_cuts(report, log);
+    if (!scene.is_last) {
+        report.left = foam.stock();
+        report.left.tools = used_tools(scene);
+    }
     report.findings = log.findings();
     report.counts = log.counts();
     report.is_good = report.findings.empty();

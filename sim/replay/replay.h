@@ -43,10 +43,12 @@ struct ReplayReport {
     Vec3 gouge_at;
     double largest_rounding = 0;  // deviation of a rounded corner from its point
     VolumeFigures volumes;
-    LeftoverFigures leftover;
+    LeftoverFigures leftover;  // of the last part: the piece must be there after it
     CarveFigures carving;
     PathTime time;
-    std::vector<float> deviation;  // per triangle of the target: leftover above 0, gouge below; of the base 0
+    // Per triangle of the target: leftover above 0, gouge below; of the base 0. Leftover only after the last part.
+    std::vector<float> deviation;
+    CarvedStock left;  // after every part but the last
     double share_within() const { return ratio(leftover.within_mm2, leftover.reachable_mm2); }
     double share_reachable() const { return ratio(leftover.reachable_mm2, leftover.area_mm2); }
     double share_air() const { return ratio(carving.air_mm, carving.feed_mm); }
@@ -54,7 +56,8 @@ struct ReplayReport {
 };
 
 // Throws InputError (use) if the scene is not one: no cell with a robot, no direction, a chunk with a tool or a
-// direction that is not there, a block or a target without size. Throws Cancelled.
+// direction that is not there, a block or a target without size; InputError (mesh) if the stock before is of another
+// block or other directions. Throws Cancelled.
 ReplayReport replay(const ParsedProgram& program, const ReplayScene& scene, const ReplayOptions& options = {},
                     const Context& context = {});
 

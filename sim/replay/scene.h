@@ -13,6 +13,7 @@
 #include "base/pose.h"
 #include "cam/cell/cell.h"
 #include "segment/mesh/triangle_mesh.h"
+#include "sim/replay/stock.h"
 
 namespace qchopper {
 
@@ -38,6 +39,10 @@ struct ReplayScene {
     std::vector<bool> is_base;             // per triangle of the target; empty: none
     double scallop = 0.25;                 // the scallop height that was set
     double start_table_angle = 0;          // the joints at the start are CellMachine::start
+    // Of a program in parts, each replayed for itself: what the part before left, nullptr for the first; and whether
+    // the piece must be there after this one.
+    const CarvedStock* before = nullptr;
+    bool is_last = true;
 };
 
 }  // namespace qchopper

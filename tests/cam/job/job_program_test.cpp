@@ -79,8 +79,10 @@ TEST(JobProgram, PartsNameTheJobBefore) {
     JobInput input = job_with_program();
     JobPart& part = input.program->program.part;
     part = {2, 3, sha256({})};
+    input.program->stock = {1, 2, 3};
     const ReadJob job = parse_job(job_file(input), "AB.qjob");
     EXPECT_EQ(job.program->part, part);
+    EXPECT_EQ(job.files.at("stock.bin"), input.program->stock);
     EXPECT_EQ(job.ticket.part, 2);
     EXPECT_EQ(job.ticket.parts, 3);
     part.before.reset();

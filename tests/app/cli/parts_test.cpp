@@ -1,0 +1,121 @@
+// A piece whose program exceeds the controller's memory: jobs in parts, each proven from what the one before left.
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/hex.h"
+#include "base/sha256.h"
+#include "base/zip.h"
+#include "sim/replay/stock.h"
+#include "tests/app/cli/program.h"
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string replaced(std::string text, const std::string& old, const std::string& by) {
+    const std::size_t at = text.find(old);
+    EXPECT_NE(at, std::string::npos) << old;
+    return at == std::string::npos ? text : text.replace(at, old.size(), by);
+}
+
+struct Parts : ::testing::Test {
+    program::Folder folder;
+    program::Ended run(const program::Arguments& arguments) const { return program::run(arguments, {folder.path}); }
+    void SetUp() override { ASSERT_EQ(run({"sample", "vertebra", "--faces", "2000", "-o", "v.ply"}).code, 0); }
+
+    // A small vertebra for a controller of so many bytes.
+    void prepare(const std::string& memory, const std::string& project) {
+        const std::string cell = program::bytes_in(fs::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
+        program::put(folder.path / "cell.toml", replaced(cell, "memory_bytes = 3000000", "memory_bytes = " + memory));
+        const program::Ended made = run({"prepare", "v.ply", "--units", "mm", "--scale", "0.15", "--cell", "cell.toml",
+                                         "--min-cuts", "0", "-o", project});
+        ASSERT_EQ(made.code, 0) << made.err;
+    }
+    fs::path job(const std::string& name) const { return folder.path / "p.qch" / "jobs" / name; }
+    json verdict(const std::string& project, const std::string& name) const {
+        return json::parse(program::bytes_in(folder.path / project / "jobs" / (name + ".verdict.json")));
+    }
+    std::vector<std::string> kinds(const std::string& name) const {
+        std::vector<std::string> kinds;
+        for (const json& finding : verdict("p.qch", name)["findings"]) kinds.push_back(finding["kind"]);
+        return kinds;
+    }
+};
+
+std::map<std::string, double> figures(const json& verdict) {
+    std::map<std::string, double> values;
+    for (const json& figure : verdict["figures"]) values[figure["key"]] = figure["value"];
+    return values;
+}
+
+// A job whose stock.bin names another tool, whole but for that, and the project's record of it.
+void change_stock(const fs::path& job, const fs::path& project) {
+    const std::string old = program::bytes_in(job);
+    std::map<std::string, Bytes> files = unzip({old.begin(), old.end()}, "job");
+    CarvedStock stock = read_stock(files.at("stock.bin"), "stock.bin");
+    ++stock.tools.back().tool;
+    const Bytes changed = to_bytes(stock);
+    const Bytes& manifest = files.at("manifest.json");
+    const std::string listed =
+        replaced({manifest.begin(), manifest.end()}, to_hex(sha256(files.at("stock.bin"))), to_hex(sha256(changed)));
+    ASSERT_EQ(changed.size(), files.at("stock.bin").size());
+    files["stock.bin"] = changed;
+    files["manifest.json"] = {listed.begin(), listed.end()};
+    const Bytes written = zip(files);
+    program::put(job, {written.begin(), written.end()});
+    program::put(project, replaced(program::bytes_in(project), to_hex(sha256(Bytes{old.begin(), old.end()})),
+                                   to_hex(sha256(written))));
+}
+
+TEST_F(Parts, TheLastOneHasTheFiguresOfTheUndividedProgram) {
+    prepare("3000000", "whole.qch");
+    ASSERT_FALSE(fs::exists(folder.path / "whole.qch" / "jobs" / "A.p2.qjob"));
+    std::map<std::string, double> whole = figures(verdict("whole.qch", "A"));
+    prepare("500000", "two.qch");
+    ASSERT_FALSE(fs::exists(folder.path / "two.qch" / "jobs" / "A.p3.qjob"));
+    prepare("350000", "three.qch");
+    ASSERT_TRUE(fs::exists(folder.path / "three.qch" / "jobs" / "A.p3.qjob"));
+    ASSERT_FALSE(fs::exists(folder.path / "three.qch" / "jobs" / "A.p4.qjob"));
+    for (const auto& [project, name] :
+         std::vector<std::pair<std::string, std::string>>{{"two.qch", "A.p2"}, {"three.qch", "A.p3"}}) {
+        std::map<std::string, double> last = figures(verdict(project, name));
+        EXPECT_NEAR(last["within_tolerance_percent"], whole["within_tolerance_percent"], 0.2) << name;
+        EXPECT_NEAR(last["reachable_percent"], whole["reachable_percent"], 1e-9) << name;
+        EXPECT_NEAR(last["max_leftover_mm"], whole["max_leftover_mm"], 0.25) << name;
+        EXPECT_NEAR(last["leftover_cm3"], whole["leftover_cm3"], 0.02 * whole["leftover_cm3"]) << name;
+        EXPECT_EQ(last["rapids_in_foam"], 0) << name;
+        EXPECT_FALSE(figures(verdict(project, "A")).contains("reachable_percent")) << "of the first part";
+        EXPECT_EQ(verdict(project, "A")["findings"].size(), 0U);
+    }
+}
+
+TEST_F(Parts, AreVerifiedInTheirOrder) {
+    prepare("350000", "p.qch");
+    const program::Contents before = program::contents(folder.path);
+    run({"verify", "p.qch"});
+    EXPECT_EQ(program::difference(before, program::contents(folder.path)), "") << "the same verdicts";
+    EXPECT_EQ(run({"verify", "p.qch/jobs/A.p2.qjob"}).code, 0) << "by the stock that it carries";
+
+    // Swapped, and missing.
+    const std::string second = program::bytes_in(job("A.p2.qjob"));
+    program::put(job("A.p2.qjob"), program::bytes_in(job("A.p3.qjob")));
+    EXPECT_NE(run({"verify", "p.qch"}).code, 0);
+    fs::remove(job("A.p2.qjob"));
+    EXPECT_NE(run({"verify", "p.qch"}).code, 0);
+    program::put(job("A.p2.qjob"), second);
+
+    change_stock(job("A.p2.qjob"), folder.path / "p.qch" / "project.json");
+    EXPECT_NE(run({"verify", "p.qch"}).code, 0);
+    EXPECT_TRUE(kinds("A").empty());
+    ASSERT_FALSE(kinds("A.p2").empty());
+    EXPECT_EQ(kinds("A.p2").front(), "other_stock");
+    ASSERT_FALSE(kinds("A.p3").empty());
+    EXPECT_EQ(kinds("A.p3").front(), "other_part") << "it names another file as part 2";
+}
+
+}  // namespace
+}  // namespace qchopper
