@@ -3,13 +3,10 @@
 
 #include "devices/dispatch.h"
 
-#include <errno.h>
-#include <sys/random.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <cstring>
+#include <exception>
 #include <thread>
 
 #include "base/error.h"
@@ -18,86 +15,42 @@
 #include "devices/drop_folder.h"
 #include "devices/first_contact.h"
 #include "devices/hand_off.h"
+#include "devices/random.h"
 
 namespace qchopper {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-void fill_random(std::span<std::uint8_t> bytes) {
-    for (std::size_t done = 0; done < bytes.size();) {
-        const ssize_t got = getrandom(bytes.data() + done, bytes.size() - done, 0);
-        if (got > 0) done += static_cast<std::size_t>(got);
-        if (got < 0 && errno != EINTR) {
-            throw InputError(InputFault::io, "the operating system gives no random numbers; nothing was sent", "");
-        }
-    }
-}
-
-// Never 0.
-std::uint32_t random_number() {
-    std::array<std::uint8_t, 4> bytes{};
-    std::uint32_t number = 0;
-    while (number == 0) {
-        fill_random(bytes);
-        std::memcpy(&number, bytes.data(), bytes.size());
-    }
-    return number;
-}
-
-// UUID version 4 (RFC 9562).
-Uuid random_id() {
-    Uuid id{};
-    fill_random(id);
-    id[6] = static_cast<std::uint8_t>((id[6] & 0x0F) | 0x40);
-    id[8] = static_cast<std::uint8_t>((id[8] & 0x3F) | 0x80);
-    return id;
-}
-
 std::uint64_t unix_ms() {
     const auto now = std::chrono::system_clock::now().time_since_epoch();
     return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
 }
 
-// The job file in the drop folder: written under its staging name, then renamed. A file that was not renamed is
-// removed.
-class StagedFile {
- public:
-    StagedFile() = default;
-    ~StagedFile() {
-        std::error_code ignored;
-        if (!staged_.empty()) std::filesystem::remove(staged_, ignored);
-    }
-    StagedFile(const StagedFile&) = delete;
-    StagedFile& operator=(const StagedFile&) = delete;
+std::string lower(std::string text) {
+    for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return text;
+}
 
-    void stage(const std::filesystem::path& folder, const std::string& file_name, const Uuid& job_id,
-               const Bytes& bytes) {
-        use_.emplace(folder);
-        staged_ = folder / staging_name(file_name, job_id);
-        target_ = folder / file_name;
-        write_file(staged_, bytes);
-    }
-    // Returns the reason if it fails, else "".
-    std::string put() {
-        std::error_code error;
-        std::filesystem::rename(staged_, target_, error);
-        if (error) return "cannot put " + target_.string() + " into the drop folder: " + error.message();
-        staged_.clear();
-        return {};
-    }
-    bool is_staged() const { return !staged_.empty(); }
+// Names of points: "start_intent" for the row before START, "start_sent" for its frame.
+std::string name_of(const JournalEvent& event) {
+    if (event.kind == JournalKind::command) return lower(name(event.command)) + "_intent";
+    return event.kind == JournalKind::claim ? "claim_intent" : lower(name(event.kind));
+}
 
- private:
-    std::optional<DropFolderUse> use_;
-    std::filesystem::path staged_;
-    std::filesystem::path target_;
-};
+std::string name_of(const HandOffAction& action) {
+    constexpr const char* names[] = {"read_status",   "read_result",  "read_identity",
+                                     "write_command", "write_ticket", "write_signature",
+                                     "write_chunk",   "heartbeat",    "stage_file",
+                                     "put_file",      "wait",         "finish"};  // in the order of Kind
+    if (action.kind == HandOffAction::Kind::write_command) return lower(name(action.command.command)) + "_sent";
+    return names[static_cast<std::size_t>(action.kind)];
+}
 
 class Dispatcher {
  public:
-    Dispatcher(RegisterBus& bus, const JobTicket& ticket, const Bytes& file, HandOffPlan plan, const Context& context)
-        : bus_(bus), file_(file), plan_(std::move(plan)), context_(context), file_name_(ticket.file_name) {
+    Dispatcher(RegisterBus& bus, const Bytes& file, const HandOffPlan& plan, const Context& context)
+        : bus_(bus), file_(file), plan_(plan), context_(context), file_name_(plan.ticket.file_name) {
         const HandOffTimings& timings = plan_.options.timings;
         bus_.leave_when(context_.cancelled, plan_.options.stop_when_cancelled ? timings.answer_s : timings.leave_s);
     }
@@ -105,20 +58,26 @@ class Dispatcher {
     Dispatcher(const Dispatcher&) = delete;
     Dispatcher& operator=(const Dispatcher&) = delete;
 
-    JobOutcome run() {
-        write_journal("CREATED job=" + to_text(plan_.ticket.job_id) + " sha256=" + to_hex(plan_.ticket.file_sha256));
+    // `first`: CREATED or RESUMED.
+    JobOutcome run(const JournalEvent& first) {
+        keep(first);
         report("job " + to_text(plan_.ticket.job_id) + ": " + file_name_);
         HandOff state;
         HandOffInput input;
         for (;;) {
-            input.cancelled = is_cancelled();
-            HandOffTransition turn = advance(plan_, std::move(state), input, now_s());
+            input.cancelled = is_cancelled() || journal_fault_;
+            input.request = requested();
+            HandOffTransition turn = next(state, input);
             state = std::move(turn.state);
             for (const std::string& line : turn.lines) report(line);
-            write_journal(turn.action.journal);
+            if (!turn.request_answer.empty() && plan_.options.answer_request) {
+                plan_.options.answer_request(turn.request_answer);
+            }
             if (turn.action.kind == HandOffAction::Kind::finish) break;
             input = act(turn.action, state, input.cancelled);
+            pass("after_" + name_of(turn.action));
         }
+        if (state.verdict == StartVerdict::not_started && journal_fault_) std::rethrow_exception(journal_fault_);
         if (state.fault) throw DeviceError(*state.fault, state.why, state.to_do);
         return outcome(state);
     }
@@ -129,9 +88,39 @@ class Dispatcher {
     double now_s() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
     bool is_cancelled() const { return context_.cancelled != nullptr && context_.cancelled->load(); }
 
-    void write_journal(const std::string& row) const {
-        if (!row.empty() && plan_.options.journal) plan_.options.journal(row);
+    // One turn, with its events kept in the journal. If they cannot be kept, nothing is started: the turn is taken back
+    // and the caller's request to stop put in its place. What has started already is followed without a journal.
+    HandOffTransition next(const HandOff& state, HandOffInput& input) {
+        HandOffTransition turn = advance(plan_, state, input, now_s());
+        const bool is_start =
+            turn.action.kind == Kind::write_command && turn.action.command.command == CellCommand::start;
+        try {
+            if (journal_fault_ && is_start && !state.start_sent) std::rethrow_exception(journal_fault_);
+            for (const JournalEvent& event : turn.journal) keep(event);
+        } catch (const InputError& error) {
+            report(error.what());
+            journal_fault_ = std::current_exception();
+            if (state.start_sent || state.is_started) return turn;
+            input.cancelled = true;
+            input.request = CellCommand::none;
+            turn = advance(plan_, state, input, now_s());
+        }
+        return turn;
     }
+
+    void keep(const JournalEvent& event) {
+        if (!plan_.options.journal || journal_fault_) return;
+        const std::string point = name_of(event);
+        pass("before_" + point);
+        plan_.options.journal(event);
+        pass("after_" + point);
+    }
+
+    void pass(const std::string& point) const {
+        if (plan_.options.at_point) plan_.options.at_point(point);
+    }
+
+    CellCommand requested() const { return plan_.options.request ? plan_.options.request() : CellCommand::none; }
 
     void report(const std::string& line) {
         char time[32];
@@ -147,6 +136,8 @@ class Dispatcher {
                 return read_status();
             case Kind::read_result:
                 return read_result_block(bus_);
+            case Kind::read_identity:
+                return read_identity_block(bus_);
             case Kind::write_command:
                 return write(command_block.base, encode(action.command));
             case Kind::write_ticket:
@@ -230,6 +221,9 @@ class Dispatcher {
         out.elapsed_s = state.elapsed_s;
         out.refusal = state.refusal;
         out.cancelled = state.is_cancelled;
+        out.carved_before = state.carved_before.has_value();
+        out.carved_complete = out.carved_before && state.carved_before->result == JobResult::complete;
+        out.store_is_lost = state.store_is_lost;
         if (state.status) out.cell_id = state.status->cell_id;
         if (state.status) out.simulated = state.status->has(flag::simulated);
         out.took_s = now_s();
@@ -240,12 +234,13 @@ class Dispatcher {
     }
 
     RegisterBus& bus_;
-    const Bytes& file_;  // of the caller
+    const Bytes& file_;  // of the caller; empty if the job is only followed
     HandOffPlan plan_;
     const Context& context_;
     std::string file_name_;
     StagedFile staged_;
     std::vector<std::string> log_;
+    std::exception_ptr journal_fault_;  // of the first event that could not be kept
     Clock::time_point began_ = Clock::now();
 };
 
@@ -254,6 +249,16 @@ void check_file(const JobTicket& ticket, const Bytes& file) {
     throw InputError(InputFault::use,
                      ticket.file_name + " is not the file that its ticket names (size or SHA-256); nothing was sent",
                      "Prepare the project again.");
+}
+
+HandOffPlan plan_of(const WireTicket& ticket, const DispatchOptions& options) {
+    HandOffPlan plan{ticket, options.past.owner, options.past.secret, options};
+    if (plan.owner == 0) {
+        plan.owner = random_number();
+        plan.secret = random_number();
+        plan.options.past.seq = 0;
+    }
+    return plan;
 }
 
 }  // namespace
@@ -274,9 +279,26 @@ JobOutcome dispatch_job(RegisterBus& bus, const JobTicket& ticket, const Bytes& 
     order.rehearse = options.rehearse;
     order.transfer = options.drop_folder.empty() ? Transfer::chunks : Transfer::drop_folder;
     order.on_link_loss = options.on_link_loss;
+    order.part = options.has_parts ? ticket.about.part : std::uint16_t{0};
+    order.parts = options.has_parts ? ticket.about.parts : std::uint16_t{0};
     check_file(ticket, file);
-    HandOffPlan plan{wire_ticket(ticket, order), random_number(), random_number(), options};
-    return Dispatcher(bus, ticket, file, std::move(plan), context).run();
+    const HandOffPlan plan = plan_of(wire_ticket(ticket, order), options);
+    JournalEvent created;
+    created.kind = JournalKind::created;
+    created.job_id = order.job_id;
+    created.file_sha256 = ticket.file_sha256;
+    created.ticket = encode(plan.ticket);
+    return Dispatcher(bus, file, plan, context).run(created);
+}
+
+JobOutcome adopt_job(RegisterBus& bus, const WireTicket& ticket, const DispatchOptions& options,
+                     const Context& context) {
+    HandOffPlan plan = plan_of(ticket, options);
+    plan.adopts = true;
+    JournalEvent resumed;
+    resumed.kind = JournalKind::resumed;
+    resumed.job_id = ticket.job_id;
+    return Dispatcher(bus, {}, plan, context).run(resumed);
 }
 
 }  // namespace qchopper

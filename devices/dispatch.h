@@ -9,6 +9,7 @@
 #include "base/context.h"
 #include "base/file.h"
 #include "cam/job/ticket.h"
+#include "devices/blocks.h"
 #include "devices/bus.h"
 #include "devices/dispatch_options.h"
 #include "devices/job_outcome.h"
@@ -17,13 +18,21 @@ namespace qchopper {
 
 // `file` holds the bytes of the job file. Throws DeviceError while nothing was started: unreachable, no cell of this
 // register map, another cell, busy. Throws InputError if `file` does not match the ticket's size and SHA-256, if the
-// ticket cannot be encoded, or if the file cannot be written into the drop folder. Passes on what options.journal
-// throws. Refusals of the job and everything after START are a JobOutcome.
+// ticket cannot be encoded, or if the file cannot be written into the drop folder. If options.journal throws
+// an InputError before START, the job is cancelled and the error passed on. Refusals of the job and everything after
+// START are a JobOutcome.
 //
 // Once context.cancelled is set this returns within timings.leave_s. Before START the job is cancelled and the lease
 // released, and the outcome states whether the cell has confirmed that. After START the job runs on by itself, unless
 // options.stop_when_cancelled: then Stop is sent, and this returns within timings.answer_s.
 JobOutcome dispatch_job(RegisterBus& bus, const JobTicket& ticket, const Bytes& file, const DispatchOptions& options,
                         const Context& context);
+
+// Takes up a job of an earlier dispatcher, named by its ticket: claims the cell, queries the job, and follows it to its
+// end if it has started; otherwise cancels it, which makes its START void. options.past is what the journal knows. The
+// same errors and the same end on request, except that UNKNOWN may stand before an error: then the job stays open in
+// the journal.
+JobOutcome adopt_job(RegisterBus& bus, const WireTicket& ticket, const DispatchOptions& options,
+                     const Context& context);
 
 }  // namespace qchopper

@@ -12,6 +12,7 @@
 
 #include "cam/job/ticket.h"
 #include "devices/codes.h"
+#include "devices/journal_event.h"
 
 namespace qchopper {
 
@@ -26,6 +27,21 @@ struct HandOffTimings {
     double leave_s = 2;           // from the request to stop to the end of the hand-off, whatever the cell does
 };
 
+// What the journal of the cell says of its memory and of the job.
+struct HandOffPast {
+    std::optional<SeenStore> store;  // as the cell showed it last
+    bool store_is_lost = false;      // and nobody has accepted the new one
+    std::uint32_t epoch = 0;         // the highest one used in CLAIM
+    // The same owner goes on while its lease may live; owner 0: draw a new one.
+    std::uint32_t owner = 0;
+    std::uint32_t secret = 0;
+    std::uint32_t seq = 0;  // its last CMD_SEQ
+    // Of a job that is taken up.
+    bool is_stored = false;
+    bool start_may_have_arrived = false;
+    bool is_started = false;
+};
+
 struct DispatchOptions {
     std::uint16_t cell_id = 0xFFFF;     // any other cell is refused
     bool want_simulated = true;         // a cell whose FLAGS differ from this is refused
@@ -34,9 +50,19 @@ struct DispatchOptions {
     bool rehearse = false;             // REHEARSE before PREPARE
     bool stop_when_cancelled = false;  // a request to stop while the job runs also stops the machine
     HandOffTimings timings;
-    std::optional<Uuid> job_id;  // empty: a new random one
-    // Called with one line before an action; if it throws, the action is not done. May be empty.
-    std::function<void(const std::string& row)> journal;
+    bool again = false;               // also a file that the cell has carved before
+    std::uint32_t takeover_code = 0;  // given at the cell's panel: ends the lease of another dispatcher
+    bool has_parts = true;            // the cell knows PART and PARTS (map 1.1); else both are sent as 0
+    std::optional<Uuid> job_id;       // empty: a new random one
+    HandOffPast past;
+    // Keeps an event before the action that follows from it; if it throws, the action is not done. May be empty.
+    std::function<void(const JournalEvent& event)> journal;
+    // Asked for a command that another program wants to be passed to the cell, none if there is none; and told how it
+    // ended. May be empty.
+    std::function<CellCommand()> request;
+    std::function<void(const std::string& answer)> answer_request;
+    // Told the name of each point in the course of a dispatch, for tests that end the process there. May be empty.
+    std::function<void(const std::string& point)> at_point;
 };
 
 }  // namespace qchopper

@@ -63,4 +63,24 @@ DropFolderUse::~DropFolderUse() {
     if (lock_ >= 0) ::close(lock_);
 }
 
+StagedFile::~StagedFile() {
+    std::error_code ignored;
+    if (!staged_.empty()) fs::remove(staged_, ignored);
+}
+
+void StagedFile::stage(const fs::path& folder, const std::string& file_name, const Uuid& job_id, const Bytes& bytes) {
+    use_.emplace(folder);
+    staged_ = folder / staging_name(file_name, job_id);
+    target_ = folder / file_name;
+    write_file(staged_, bytes);
+}
+
+std::string StagedFile::put() {
+    std::error_code error;
+    fs::rename(staged_, target_, error);
+    if (error) return "cannot put " + target_.string() + " into the drop folder: " + error.message();
+    staged_.clear();
+    return {};
+}
+
 }  // namespace qchopper

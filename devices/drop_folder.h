@@ -7,8 +7,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
+#include "base/file.h"
 #include "cam/job/ticket.h"
 
 namespace qchopper {
@@ -28,6 +30,28 @@ class DropFolderUse {
 
  private:
     int lock_;  // descriptor of the folder, or -1
+};
+
+// The job file in the drop folder: written under its staging name, then renamed. A file that was not renamed is removed
+// when this ends.
+class StagedFile {
+ public:
+    StagedFile() = default;
+    ~StagedFile();
+    StagedFile(const StagedFile&) = delete;
+    StagedFile& operator=(const StagedFile&) = delete;
+
+    // Throws what write_file throws.
+    void stage(const std::filesystem::path& folder, const std::string& file_name, const Uuid& job_id,
+               const Bytes& bytes);
+    // Renames it to its name. Returns the reason if that fails, else "".
+    std::string put();
+    bool is_staged() const { return !staged_.empty(); }
+
+ private:
+    std::optional<DropFolderUse> use_;
+    std::filesystem::path staged_;
+    std::filesystem::path target_;
 };
 
 }  // namespace qchopper

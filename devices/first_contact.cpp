@@ -63,6 +63,10 @@ HandOffInput read_result_block(RegisterBus& bus) {
     return read(bus, result_block, &HandOffInput::result, decode_result);
 }
 
+HandOffInput read_identity_block(RegisterBus& bus) {
+    return read(bus, identity_block, &HandOffInput::identity, decode_identity);
+}
+
 std::optional<double> pause_before_next_contact(const HandOffInput& failed, int tries, double since_s) {
     const bool is_foreign = failed.fault == BlockFault::magic || failed.fault == BlockFault::version;
     if (is_foreign || lacks_registers(failed)) return std::nullopt;

@@ -34,6 +34,7 @@ ContactFailure contact_failure(const HandOffInput& failed);
 // it counts as lost, with the fault found.
 HandOffInput read_status_block(RegisterBus& bus);
 HandOffInput read_result_block(RegisterBus& bus);
+HandOffInput read_identity_block(RegisterBus& bus);
 // How a call ended, without the registers that were read.
 HandOffInput input_from(const BusAnswer& answer);
 

@@ -15,10 +15,9 @@
 
 namespace qchopper::hand_off {
 
-HandOffAction plain(Kind kind, std::string journal) {
+HandOffAction plain(Kind kind) {
     HandOffAction action;
     action.kind = kind;
-    action.journal = std::move(journal);
     return action;
 }
 
@@ -38,7 +37,26 @@ HandOffAction pause(StepContext& context) {
     return wait_until(until_s);
 }
 
-HandOffAction send(StepContext& context, CellCommand command, std::string journal) {
+namespace {
+
+void keep_intent(StepContext& context) {
+    const Command& command = context.h.command;
+    const bool is_claim = command.command == CellCommand::claim;
+    const bool is_start = command.command == CellCommand::start;
+    JournalEvent& event = context.keep(is_claim   ? JournalKind::claim
+                                       : is_start ? JournalKind::start_intent
+                                                  : JournalKind::command);
+    event.command = command.command;
+    event.epoch = command.epoch;
+    event.seq = command.seq;
+    event.owner = command.owner;
+    event.secret = command.arg1;
+    event.token = command.token;
+}
+
+}  // namespace
+
+HandOffAction send(StepContext& context, CellCommand command) {
     HandOff& h = context.h;
     h.command.epoch = h.epoch;
     h.command.seq = ++h.seq;
@@ -48,7 +66,8 @@ HandOffAction send(StepContext& context, CellCommand command, std::string journa
     h.has_pending = false;
     h.sent_s = context.now_s;
     h.step_since_s = context.now_s;
-    HandOffAction action = plain(Kind::write_command, std::move(journal));
+    keep_intent(context);
+    HandOffAction action = plain(Kind::write_command);
     action.command = h.command;
     return action;
 }
@@ -66,7 +85,10 @@ HandOffAction finish(StepContext& context, StartVerdict verdict, const std::stri
     }
     context.h.step = HandOffStep::finished;
     context.report(std::string(describe(verdict)) + ": " + context.h.why);
-    return plain(Kind::finish, "CLOSED " + std::string(describe(verdict)));
+    end_request(context, "the dispatcher ended before the cell answered");
+    keep_store(context);
+    context.keep(JournalKind::closed).verdict = verdict;
+    return plain(Kind::finish);
 }
 
 HandOffAction give_up(StepContext& context, const std::string& why, const std::string& to_do) {
@@ -78,19 +100,20 @@ HandOffAction give_up(StepContext& context, const std::string& why, const std::s
 
 HandOffAction fail(StepContext& context, DeviceFault fault, const std::string& why, const std::string& to_do) {
     context.h.fault = fault;
-    return finish(context, StartVerdict::not_started, why, to_do);
+    return give_up(context, why, to_do);
 }
 
 HandOffAction withdraw(StepContext& context, const std::string& why, const std::string& to_do) {
     context.set_reason(why, to_do);
     if (context.h.is_stored) return enter(context, HandOffStep::cancel);
     if (context.h.claim_sent) return enter(context, HandOffStep::release);
-    return finish(context, StartVerdict::not_started, why, to_do);
+    return give_up(context, why, to_do);
 }
 
 HandOffAction fence(StepContext& context, const std::string& why) {
     if (context.is_leaving()) return leave_at_once(context);
     if (++context.h.fences > most_fences) return give_up(context, why + ", repeatedly");
+    end_request(context, why + ": ask the cell");
     context.report(why + "; claiming the cell again, then querying the job");
     return enter(context, HandOffStep::claim);
 }
@@ -126,6 +149,12 @@ HandOffAction back_out(StepContext& context, const std::string& why, const std::
     return enter(context, HandOffStep::release);
 }
 
+// A factor of 1 to 1.25, another one for each dispatcher, so that two do not come back in step.
+double jitter(const StepContext& context) {
+    const std::uint32_t mixed = (context.plan.owner ^ static_cast<std::uint32_t>(context.h.lost_times)) * 2654435761U;
+    return 1 + 0.25 * static_cast<double>(mixed >> 16U) / 65536;
+}
+
 HandOffAction on_lost(StepContext& context) {
     HandOff& h = context.h;
     h.deferred.reset();
@@ -143,7 +172,7 @@ HandOffAction on_lost(StepContext& context) {
     }
     const double pause_s = back_off_s[std::min<std::size_t>(h.lost_times++, std::size(back_off_s) - 1)];
     if (context.is_leaving()) return wait_until(std::min(context.now_s + back_off_s[0], h.leave_by_s));
-    return wait_until(context.now_s + pause_s);
+    return wait_until(context.now_s + pause_s * jitter(context));
 }
 
 HandOffAction on_exception(StepContext& context) {
@@ -155,6 +184,12 @@ HandOffAction on_exception(StepContext& context) {
     }
     h.deferred.reset();
     if (!h.status) return try_contact_again(context);
+    if (h.last.kind == Kind::read_identity) {
+        return give_up(context,
+                       "the cell refuses to show its IDENTITY: exception " + std::to_string(context.in.exception) +
+                           " (" + context.in.why + ")",
+                       "Tell the integrator of the cell.");
+    }
     const std::string why =
         "the cell refused a request: exception " + std::to_string(context.in.exception) + " (" + context.in.why + ")";
     const bool may_have_started = h.start_sent && !h.is_started;
@@ -177,17 +212,25 @@ void note_status(StepContext& context) {
     }
     if (has_started(fresh.job_state) && fresh.job_id == context.job_id() && !h.is_started) {
         h.is_started = true;
+        context.keep(JournalKind::started).epoch = h.epoch;
         if (h.start_sent) context.report("the job has started");
     }
     if (fresh.job_id == context.job_id()) h.elapsed_s = fresh.elapsed_s;
     h.status = fresh;
 }
 
+HandOffAction drop_request(StepContext& context) {
+    end_request(context, "the cell did not answer in time: ask the cell");
+    context.h.waits_for_ack = false;
+    return watch(context);
+}
+
 HandOffAction wait_for_ack(StepContext& context) {
     HandOff& h = context.h;
     const Status& status = context.status();
     const double waited_s = context.now_s - h.step_since_s;
-    const bool asks_person = h.command.command == CellCommand::prepare || h.command.command == CellCommand::clear;
+    const bool asks_person = h.command.command == CellCommand::prepare || h.command.command == CellCommand::clear ||
+                             h.command.command == CellCommand::unhold;
     const bool works_long = h.command.command == CellCommand::verify || h.command.command == CellCommand::rehearse;
     const double bound_s = works_long ? 10 * context.timings().answer_s : context.timings().answer_s;
     if (status.ack_owner == context.plan.owner && status.ack_seq == h.seq) {
@@ -201,6 +244,7 @@ HandOffAction wait_for_ack(StepContext& context) {
         if (!h.has_pending && asks_person) context.report("waiting for consent at the cell");
         h.has_pending = true;
         if (waited_s > (asks_person ? context.timings().consent_s : bound_s)) {
+            if (h.request != CellCommand::none) return drop_request(context);
             return withdraw(context, std::string(name(h.command.command)) + " was not completed at the cell in time",
                             "Make sure that an operator is at the cell.");
         }
@@ -209,6 +253,7 @@ HandOffAction wait_for_ack(StepContext& context) {
     // STATUS may hold the acknowledgement of another client by now; the state of the job proves the start as well.
     if (h.step == HandOffStep::start && h.is_started) return acknowledged(context);
     if (waited_s > bound_s && !(h.has_pending && asks_person)) {
+        if (h.request != CellCommand::none) return drop_request(context);
         if (h.step == HandOffStep::start) return fence(context, "the cell does not acknowledge START");
         return give_up(context, std::string("the cell does not acknowledge ") + name(h.command.command));
     }
@@ -267,6 +312,8 @@ HandOffAction after_answer(StepContext& context) {
             return context.in.status ? on_status(context) : plain(Kind::read_status);
         case Kind::read_result:
             return context.in.result ? on_result(context) : pause(context);
+        case Kind::read_identity:
+            return context.in.identity ? on_identity(context) : plain(Kind::read_identity);
         default:
             return plain(Kind::read_status);
     }
@@ -278,11 +325,21 @@ HandOffAction next_action(StepContext& context) {
     HandOff& h = context.h;
     if (!h.has_begun) {
         h.has_begun = true;
+        const HandOffPast& past = context.plan.options.past;
+        h.epoch = past.epoch;
+        h.seq = past.seq;
+        h.store = h.kept_store = past.store;
+        h.is_stored = past.is_stored;
+        h.start_sent = past.start_may_have_arrived;
+        h.is_started = past.is_started;
         if (!context.in.cancelled) return plain(Kind::read_status);
     }
     const std::uint32_t boots = h.status ? h.status->boot_count : 0;
     const bool was_lost = h.lost_since_s >= 0;
     if (context.in.status) note_status(context);
+    if (context.in.status && h.step > HandOffStep::check_cell) {
+        if (const std::optional<HandOffAction> end = compare_counters(context)) return *end;
+    }
     if (context.in.cancelled || context.is_leaving()) {
         if (const std::optional<HandOffAction> way_out = leave(context)) return *way_out;
     }
@@ -297,15 +354,21 @@ HandOffAction next_action(StepContext& context) {
     if (context.in.status && h.step > HandOffStep::claim && !context.is_leaving()) {
         if (was_lost) {
             h.lost_since_s = -1;
-            if (h.step != HandOffStep::release) return fence(context, "the effect of the last request is unknown");
+            h.claim_reason = "the effect of the last request is unknown";
+            if (h.step != HandOffStep::release) return ask_identity(context);
         }
         if (context.in.status->boot_count != boots && h.step != HandOffStep::release) {
-            return fence(context, "the cell was restarted");
+            h.claim_reason = "the cell was restarted";
+            return ask_identity(context);
         }
     }
     if (context.in.status && was_lost) {
         h.lost_since_s = -1;
         if (!context.is_leaving()) h.waits_for_ack = false;  // lost during CLAIM: claim with a higher number
+        if (h.step == HandOffStep::claim && !context.is_leaving()) return ask_identity(context);
+    }
+    if (context.in.request != CellCommand::none) {
+        if (const std::optional<HandOffAction> action = take_request(context)) return *action;
     }
     return after_answer(context);
 }
@@ -316,11 +379,11 @@ namespace qchopper {
 
 HandOffTransition advance(const HandOffPlan& plan, HandOff state, const HandOffInput& input, double now_s) {
     HandOffTransition result;
-    hand_off::StepContext context{plan, state, input, now_s, result.lines};
+    hand_off::StepContext context{plan, state, input, now_s, result};
     HandOffAction action = hand_off::next_action(context);
     const bool is_due = state.is_owner && now_s - state.heartbeat_s >= plan.options.timings.heartbeat_s;
     if (is_due && action.kind != HandOffAction::Kind::finish && action.kind != HandOffAction::Kind::wait &&
-        state.lost_since_s < 0) {
+        action.kind != HandOffAction::Kind::read_identity && state.lost_since_s < 0) {
         state.deferred = action;
         action = hand_off::plain(HandOffAction::Kind::heartbeat);
         action.heartbeat = {state.epoch, plan.owner, ++state.heartbeat_counter};
@@ -328,15 +391,16 @@ HandOffTransition advance(const HandOffPlan& plan, HandOff state, const HandOffI
     }
     state.last = action;
     result.state = std::move(state);
-    result.action = std::move(action);
+    result.action = action;
     return result;
 }
 
 const char* name(HandOffStep step) {
-    constexpr const char* names[] = {"check the cell", "stage the file",  "claim",  "ask before", "make ready",
-                                     "write ticket",   "write signature", "store",  "deliver",    "verify",
-                                     "rehearse",       "prepare",         "start",  "run",        "ask after",
-                                     "clear result",   "reset",           "cancel", "release",    "finished"};
+    constexpr const char* names[] = {
+        "check the cell", "stage the file",  "claim",   "ask before", "ask for the file", "make ready",
+        "write ticket",   "write signature", "store",   "deliver",    "verify",           "rehearse",
+        "prepare",        "start",           "run",     "ask after",  "clear result",     "reset",
+        "cancel",         "release",         "finished"};
     return names[static_cast<std::size_t>(step)];
 }
 

@@ -1,7 +1,7 @@
 // The hand-off of one job as a pure state machine: the state, the last answer and the time give the next action.
 //
-// Seconds of a monotonic clock. Nothing here reads or writes anything outside: dispatch.h performs the actions, writes
-// the journal row of an action before it, and returns the answers. A token is used by one START only, whose frame may
+// Seconds of a monotonic clock. Nothing here reads or writes anything outside: dispatch.h keeps the events of a turn in
+// the journal, then performs its action, and returns the answer. A token is used by one START only, whose frame may
 // be repeated unchanged, after a CLAIM and a QUERY of the same epoch. The verdict is UNKNOWN wherever neither the start
 // nor its impossibility is certain (tests/devices/hand_off_test.cpp).
 
@@ -18,11 +18,6 @@ namespace qchopper {
 // Of one of the enumerators.
 const char* name(HandOffStep step);
 
-struct HandOffTransition {
-    HandOff state;
-    HandOffAction action;
-    std::vector<std::string> lines;  // for the operator
-};
 // One turn. `input` is the answer to the action of the turn before, at first HandOffInput{}; now_s never decreases.
 // After the action `finish` there is no further turn: the outcome is in `state`, or the error state.fault.
 HandOffTransition advance(const HandOffPlan& plan, HandOff state, const HandOffInput& input, double now_s);

@@ -1,6 +1,6 @@
 // What the sources of the hand-off share: one turn of it, and the functions that each of them defines for the others.
 //
-// For hand_off.cpp, hand_off_leave.cpp, hand_off_result.cpp and hand_off_steps.cpp only. Every function that returns an
+// For the sources hand_off*.cpp only. Every function that returns an
 // action changes context.h to the state that the action belongs to.
 
 #pragma once
@@ -19,9 +19,16 @@ struct StepContext {
     HandOff& h;              // changed in place
     const HandOffInput& in;  // the answer to h.last
     double now_s;
-    std::vector<std::string>& lines;  // for the operator
+    HandOffTransition& turn;  // its lines, events and answer are added to
 
-    void report(const std::string& line) { lines.push_back(line); }
+    void report(const std::string& line) { turn.lines.push_back(line); }
+    // The event to be filled in; of this job.
+    JournalEvent& keep(JournalKind kind) {
+        turn.journal.emplace_back();
+        turn.journal.back().kind = kind;
+        turn.journal.back().job_id = plan.ticket.job_id;
+        return turn.journal.back();
+    }
     void set_reason(const std::string& why, const std::string& to_do) {
         h.why = why;
         h.to_do = to_do;
@@ -52,12 +59,12 @@ constexpr bool has_started(JobState state) {
 
 // hand_off.cpp
 HandOffAction next_action(StepContext& context);
-HandOffAction plain(Kind kind, std::string journal = {});
+HandOffAction plain(Kind kind);
 HandOffAction wait_until(double until_s);
 // Until the next read of STATUS, or the next heartbeat if that is due first.
 HandOffAction pause(StepContext& context);
 // `command` with the members of h.command that were set before, under a new CMD_SEQ.
-HandOffAction send(StepContext& context, CellCommand command, std::string journal = {});
+HandOffAction send(StepContext& context, CellCommand command);
 HandOffAction finish(StepContext& context, StartVerdict verdict, const std::string& why, const std::string& to_do = {});
 // Finishes with the verdict that the state proves: STARTED, UNKNOWN if a START may have arrived, else NOT STARTED.
 HandOffAction give_up(StepContext& context, const std::string& why, const std::string& to_do = {});
@@ -67,6 +74,22 @@ HandOffAction fail(StepContext& context, DeviceFault fault, const std::string& w
 HandOffAction withdraw(StepContext& context, const std::string& why, const std::string& to_do);
 // CLAIM with a new epoch, which makes every earlier command void, then QUERY. Gives up after most_fences.
 HandOffAction fence(StepContext& context, const std::string& why);
+
+// hand_off_identity.cpp
+// Reads IDENTITY, or compares the counters of STATUS with a cell of map 1.0; then continues with the step, or claims
+// the cell again if context.h.claim_reason is set.
+HandOffAction ask_identity(StepContext& context);
+HandOffAction on_identity(StepContext& context);
+// CELL_STORE_LOST, if the counters of the last STATUS are lower than those seen before; otherwise they are noted.
+std::optional<HandOffAction> compare_counters(StepContext& context);
+// Keeps the counters as they were last seen.
+void keep_store(StepContext& context);
+
+// hand_off_request.cpp
+// The command that another program asks for: sent now, or answered why not.
+std::optional<HandOffAction> take_request(StepContext& context);
+// The request that is under way has ended. Does nothing without one.
+void end_request(StepContext& context, const std::string& answer);
 
 // hand_off_leave.cpp
 // The caller has asked to stop: the action that follows from that, or nothing if the hand-off ends already.

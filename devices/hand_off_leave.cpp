@@ -60,7 +60,7 @@ HandOffAction leave_running_job(StepContext& context) {
     h.leave_by_s = context.now_s + context.timings().answer_s;
     h.command = Command{};
     h.command.job_id = context.job_id();
-    return send(context, CellCommand::stop, "STOP job=" + to_text(context.job_id()));
+    return send(context, CellCommand::stop);
 }
 
 }  // namespace qchopper::hand_off

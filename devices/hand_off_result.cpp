@@ -12,7 +12,7 @@ using enum HandOffStep;
 bool answers_our_query(const StepContext& context) {
     const ResultRecord& result = *context.in.result;
     return result.query_owner == context.plan.owner && result.query_seq == context.h.command.seq &&
-           result.job_id == context.job_id();
+           (result.job_id == context.job_id() || context.h.step == ask_file);
 }
 
 bool is_over(JobState state) {
@@ -46,11 +46,40 @@ std::string contradiction_in(const StepContext& context) {
 HandOffAction report_end(StepContext& context) {
     HandOff& h = context.h;
     const ResultRecord& result = *h.result;
+    JournalEvent& event = context.keep(JournalKind::result);
+    event.job_state = result.state;
+    event.job_result = result.result;
+    event.starts = result.starts;
     h.why = result.state == JobState::ended && result.result == JobResult::complete
                 ? "the job ran to its end"
                 : std::string("the job started and was ") + name(result.state) + " (" + name(result.result) + ")";
     if (result.state == JobState::aborted) h.to_do = "Look at the cell; a new dispatch is a new job.";
-    return enter(context, clear_result);
+    return enter(context, h.claim_sent ? clear_result : release);
+}
+
+// The cell has no record of a job whose START may have arrived. With IDENTITY it is certain that it has not lost one.
+bool may_have_forgotten(const StepContext& context) {
+    return context.in.result->state == JobState::none && context.h.start_sent &&
+           !has_identity(context.status().version);
+}
+
+// The answer to QUERY_FILE: a job other than ours has been started with this file.
+HandOffAction on_file_result(StepContext& context) {
+    HandOff& h = context.h;
+    const ResultRecord& result = *context.in.result;
+    if (result.job_id == context.job_id()) {
+        return contradict(context, "QUERY does not know the job as started, and QUERY_FILE does");
+    }
+    const std::string before = "job " + to_text(result.job_id) + ", which is " + name(result.state) + " (" +
+                               name(result.result) +
+                               "); started with this file so far: " + std::to_string(context.status().ack_detail);
+    if (context.plan.options.again) {
+        context.report("the file is carved again: " + before);
+        return enter(context, make_ready);
+    }
+    h.carved_before = result;
+    return withdraw(context, "the cell has carved this file before: " + before,
+                    "Pass --again if it is to be carved once more.");
 }
 
 // Another client may have sent a QUERY in between.
@@ -74,14 +103,27 @@ std::optional<HandOffAction> check_state_before(StepContext& context) {
         return withdraw(context, "the cell has carved another file under this job id", "Dispatch it as a new job.");
     }
     if (started) context.report("the cell has started this job before; continuing with its result");
+    if (!started && may_have_forgotten(context)) {
+        context.set_reason("the cell has no record of the job, and a cell of map 1.0 cannot show whether it lost it",
+                           look_first);
+        return enter(context, release);
+    }
     if (!started && h.start_sent) {
         h.start_sent = false;
+        context.keep(JournalKind::start_void);
         if (++h.attempts > 2) return withdraw(context, "START did not reach the cell, three times", "");
         context.report("START did not reach the cell and no longer can; preparing the job again");
     }
     if (result.state == JobState::cancelled) {
         h.refusal = AckResult::cancelled;
         return withdraw(context, "the job was cancelled in the cell", "Dispatch it as a new job.");
+    }
+    if (!started && h.is_taken_over) {
+        return finish(context, StartVerdict::not_started, "another dispatcher has taken the cell over",
+                      "Try again when it has finished.");
+    }
+    if (!started && context.plan.adopts && !h.is_started) {
+        return withdraw(context, "an earlier dispatcher ended before the job was started", "");
     }
     return std::nullopt;
 }
@@ -97,8 +139,9 @@ HandOffAction contradict(StepContext& context, const std::string& what) {
 
 HandOffAction on_result(StepContext& context) {
     HandOff& h = context.h;
-    assert(h.step == ask_before || h.step == ask_after);
+    assert(h.step == ask_before || h.step == ask_file || h.step == ask_after);
     if (!answers_our_query(context)) return query_again(context);
+    if (h.step == ask_file) return on_file_result(context);
     if (const std::string what = contradiction_in(context); !what.empty()) return contradict(context, what);
     const ResultRecord& result = *context.in.result;
     if (h.step == ask_before) {
@@ -109,7 +152,8 @@ HandOffAction on_result(StepContext& context) {
         h.to_do = "Look at the cell: its memory was lost.";
         return enter(context, release);
     }
-    if (!has_started(result.state)) return enter(context, make_ready);
+    if (!has_started(result.state)) return enter(context, h.step == ask_before ? ask_file : make_ready);
+    if (!h.is_started) context.keep(JournalKind::started).epoch = result.start_epoch;
     h.is_started = true;
     h.result = result;
     if (is_over(result.state)) return report_end(context);

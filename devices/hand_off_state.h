@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "devices/blocks.h"
 #include "devices/device_error.h"
@@ -20,6 +21,7 @@ enum class HandOffStep : std::uint8_t {
     stage_file,
     claim,
     ask_before,
+    ask_file,
     make_ready,
     write_ticket,
     write_signature,
@@ -44,12 +46,15 @@ struct HandOffPlan {
     std::uint32_t owner = 0;   // random, not 0
     std::uint32_t secret = 0;  // random; proves to the cell that a second CLAIM is of the same owner
     DispatchOptions options;
+    // The job of an earlier dispatcher: followed if it has started, else cancelled, never started.
+    bool adopts = false;
 };
 
 struct HandOffAction {
     enum class Kind : std::uint8_t {
         read_status,
         read_result,
+        read_identity,
         write_command,
         write_ticket,
         write_signature,
@@ -65,7 +70,6 @@ struct HandOffAction {
     Heartbeat heartbeat;       // of heartbeat
     std::uint32_t offset = 0;  // of write_chunk, in bytes
     double until_s = 0;        // of wait
-    std::string journal;       // a row to be kept before the action is done; empty: none
 };
 
 // The state. The first is HandOff{}.
@@ -84,10 +88,13 @@ struct HandOff {
     std::uint32_t chunk_done = 0;  // XFER_NEXT of the last STATUS that was used
     int chunks_in_flight = 0;      // since then
 
-    std::optional<Status> status;  // last good one
-    double step_since_s = 0;       // start of the step, of its last command or of its last progress
-    double sent_s = 0;             // when the command was sent last
-    double heartbeat_s = 0;        // when the last heartbeat was sent
+    std::optional<Status> status;         // last good one
+    std::optional<SeenStore> store;       // as last seen
+    std::optional<SeenStore> kept_store;  // as in the journal
+    std::string claim_reason;             // why the cell is to be claimed again, once its IDENTITY is read
+    double step_since_s = 0;              // start of the step, of its last command or of its last progress
+    double sent_s = 0;                    // when the command was sent last
+    double heartbeat_s = 0;               // when the last heartbeat was sent
     std::uint16_t heartbeat_counter = 0;
     double cell_heartbeat_s = 0;  // when the cell's heartbeat changed last
     double lost_since_s = -1;     // -1: the link is not lost
@@ -99,21 +106,27 @@ struct HandOff {
     int ready_commands = 0;  // acknowledged since the cell was to be made ready
     int odd_answers = 0;     // RESULTs since the last one that helped
     int tokenless = 0;       // PREPAREs that were acknowledged without a token
+    double progress_s = -1;  // when progress was last kept
 
     bool claim_sent = false;  // and not refused: the cell may hold a lease of ours
     bool is_owner = false;    // CLAIM was granted
     bool file_is_staged = false;
-    bool is_stored = false;   // STORE was sent: the cell may hold our job
-    bool start_sent = false;  // under the present epoch; the start may have happened
+    bool is_stored = false;         // STORE was sent: the cell may hold our job
+    bool start_sent = false;        // under the present epoch; the start may have happened
+    std::uint32_t start_boots = 0;  // BOOT_COUNT when START was sent first
     bool start_acknowledged = false;
-    bool is_started = false;          // STATUS or RESULT has shown it
-    bool contradicts_itself = false;  // the cell: the verdict is UNKNOWN
-    bool has_pending = false;         // PENDING was answered
-    bool is_frozen = false;           // and reported
-    bool is_cancelled = false;        // the outcome is due to the request to stop
-    bool is_given_back = false;       // the cell has answered CANCEL or RELEASE
-    double leave_by_s = -1;           // once the caller has asked to stop: the latest end of the hand-off
-    bool reset_sent = false;          // at the end
+    bool is_started = false;                    // STATUS or RESULT has shown it
+    bool contradicts_itself = false;            // the cell: the verdict is UNKNOWN
+    bool has_pending = false;                   // PENDING was answered
+    bool is_frozen = false;                     // and reported
+    bool is_cancelled = false;                  // the outcome is due to the request to stop
+    bool is_given_back = false;                 // the cell has answered CANCEL or RELEASE
+    double leave_by_s = -1;                     // once the caller has asked to stop: the latest end of the hand-off
+    bool reset_sent = false;                    // at the end
+    bool is_taken_over = false;                 // another dispatcher holds the lease
+    bool store_is_lost = false;                 // CELL_STORE_LOST
+    CellCommand request = CellCommand::none;    // of another program; sent, and not yet answered
+    std::optional<ResultRecord> carved_before;  // the last job of this file, if that is why it is not started
 
     double elapsed_s = 0;                // of the job, from the last STATUS that shows it
     std::optional<ResultRecord> result;  // of a job that has started
@@ -122,6 +135,15 @@ struct HandOff {
     std::optional<DeviceFault> fault;  // finished with an error before anything was started
     std::string why;
     std::string to_do;
+};
+
+// One turn of advance().
+struct HandOffTransition {
+    HandOff state;
+    HandOffAction action;
+    std::vector<std::string> lines;     // for the operator
+    std::vector<JournalEvent> journal;  // to be kept before the action is done
+    std::string request_answer;         // how a request ended; empty: it has not
 };
 
 }  // namespace qchopper

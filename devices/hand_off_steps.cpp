@@ -4,6 +4,7 @@
 // each turn, and O(bytes / 232) turns for a file in chunks.
 
 #include <algorithm>
+#include <cstdio>
 
 #include "devices/hand_off.h"
 #include "devices/hand_off_context.h"
@@ -23,6 +24,7 @@ using enum HandOffStep;
 constexpr StepRow step_rows[] = {
     {claim, CellCommand::claim, false, ask_before, "the cell is claimed"},
     {ask_before, CellCommand::query, true, make_ready, ""},
+    {ask_file, CellCommand::query_file, false, make_ready, ""},
     {store, CellCommand::store, true, deliver, "the cell has accepted the ticket"},
     {verify, CellCommand::verify, true, prepare, "the cell has the job file, and it is the right one (SHA-256)"},
     {rehearse, CellCommand::rehearse, true, prepare, "the rehearsal in the cell has passed"},
@@ -41,22 +43,6 @@ const StepRow* row_of(HandOffStep step) {
     return row == std::end(step_rows) ? nullptr : row;
 }
 
-std::string journal_row(const StepContext& context, HandOffStep step) {
-    const std::string numbers =
-        " epoch=" + std::to_string(context.h.epoch) + " seq=" + std::to_string(context.h.seq + 1);
-    const std::string job = " job=" + to_text(context.job_id());
-    switch (step) {
-        case claim:
-            return "EPOCH" + numbers + " owner=" + std::to_string(context.plan.owner);
-        case start:
-            return "START_INTENT" + job + numbers + " token=" + std::to_string(context.h.command.token);
-        case clear_result:
-            return "RESULT" + job + " " + name(context.h.result ? context.h.result->state : JobState::none);
-        default:
-            return std::string("COMMAND ") + name(step) + job + numbers;
-    }
-}
-
 HandOffAction send_step(StepContext& context, const StepRow& row) {
     HandOff& h = context.h;
     h.command = Command{};
@@ -68,8 +54,12 @@ HandOffAction send_step(StepContext& context, const StepRow& row) {
         case claim:
             if (++h.claims > most_claims) return give_up(context, "the link is lost at every CLAIM");
             h.epoch = std::max(h.epoch, context.status().epoch_held) + 1;
+            h.command.arg0 = context.plan.options.takeover_code;
             h.command.arg1 = context.plan.secret;
             h.claim_sent = true;
+            break;
+        case ask_file:
+            h.command.file_sha256 = context.plan.ticket.file_sha256;
             break;
         case store:
             h.is_stored = true;
@@ -80,11 +70,20 @@ HandOffAction send_step(StepContext& context, const StepRow& row) {
         case start:
             h.command.token = context.status().token;
             h.start_sent = true;
+            h.start_boots = context.status().boot_count;
             break;
         default:
             break;
     }
-    return send(context, row.command, journal_row(context, row.step));
+    return send(context, row.command);
+}
+
+// ", held by dispatcher 0x1234ABCD", or nothing if the cell shows no lease.
+std::string holder(const Status& status) {
+    if (status.owner_held == 0) return {};
+    char text[48];
+    std::snprintf(text, sizeof text, ", held by dispatcher 0x%08X", status.owner_held);
+    return text;
 }
 
 // After the end of the job: Reset and RELEASE. Nothing here changes the verdict.
@@ -114,16 +113,16 @@ HandOffAction clear_other_job(StepContext& context) {
     const Status& status = context.status();
     context.h.command = Command{};
     context.h.command.job_id = status.job_id;
-    const std::string job = " job=" + to_text(status.job_id);
-    if (status.job_state == JobState::ended || status.job_state == JobState::aborted) {
+    if (status.job_state == JobState::ended || status.job_state == JobState::aborted ||
+        status.job_state == JobState::cancelled) {
         context.report("the cell still shows the end of job " + to_text(status.job_id) + " (" +
                        name(status.job_result) + "); it is cleared from STATUS, the cell keeps its record");
-        return send(context, CellCommand::clear_result, "CLEAR_OTHER" + job);
+        return send(context, CellCommand::clear_result);
     }
     if (status.job_state == JobState::stored || status.job_state == JobState::prepared) {
         context.report("the cell holds job " + to_text(status.job_id) +
                        " of another dispatcher without lease; it is cancelled");
-        return send(context, CellCommand::cancel, "CANCEL_OTHER" + job);
+        return send(context, CellCommand::cancel);
     }
     context.h.fault = DeviceFault::busy;
     return withdraw(context, "the cell is busy with job " + to_text(status.job_id) + "; nothing was started",
@@ -139,8 +138,11 @@ HandOffAction enter(StepContext& context, HandOffStep step) {
     h.waits_for_ack = false;
     switch (step) {
         case stage_file:
-            if (context.plan.ticket.transfer == Transfer::chunks) return enter(context, claim);
+            if (context.plan.ticket.transfer == Transfer::chunks || context.plan.adopts) return enter(context, claim);
             return plain(Kind::stage_file);
+        case ask_file:
+            if (!has_identity(context.status().version)) return enter(context, make_ready);
+            return send_step(context, *row_of(ask_file));
         case make_ready:
             // A decision to withdraw holds also after a lost link.
             if (!h.why.empty()) return enter(context, h.is_stored ? cancel : release);
@@ -183,7 +185,11 @@ HandOffAction check_identity(StepContext& context) {
     }
     context.report("cell " + std::to_string(status.cell_id) + (status.has(flag::simulated) ? " (SIMULATED)" : "") +
                    " is in " + name(status.state));
-    return enter(context, stage_file);
+    if (!has_identity(status.version)) {
+        context.report(
+            "it follows map 1.0: a cell of 1.0 cannot show that it lost its memory, nor that it carved a file before");
+    }
+    return ask_identity(context);
 }
 
 HandOffAction make_idle(StepContext& context) {
@@ -204,11 +210,11 @@ HandOffAction make_idle(StepContext& context) {
         case PackState::stopped:
         case PackState::complete:
             context.h.command = Command{};
-            return send(context, CellCommand::reset, "RESET");
+            return send(context, CellCommand::reset);
         case PackState::aborted:
             context.report("the machine is aborted; the operator at the cell must consent to clear it");
             context.h.command = Command{};
-            return send(context, CellCommand::clear, "CLEAR");
+            return send(context, CellCommand::clear);
         default:
             break;
     }
@@ -265,6 +271,11 @@ HandOffAction watch(StepContext& context) {
     }
     h.odd_answers = 0;
     if (context.is_leaving() && !h.is_cancelled) return leave_running_job(context);
+    constexpr double progress_period_s = 60;
+    if (context.now_s - h.progress_s >= progress_period_s) {
+        h.progress_s = context.now_s;
+        context.keep(JournalKind::progress).progress = status.progress;
+    }
     if (h.is_owner && status.owner_held == 0) {
         h.is_owner = h.claim_sent = false;
         context.report("the lease of the cell has run out; the job runs on");
@@ -282,6 +293,7 @@ HandOffAction acknowledged(StepContext& context) {
             h.heartbeat_s = context.now_s;
             break;
         case ask_before:
+        case ask_file:
         case ask_after:
             return plain(Kind::read_result);
         case verify:
@@ -296,6 +308,7 @@ HandOffAction acknowledged(StepContext& context) {
             break;
         case rehearse:
             h.receipt = context.status().ack_detail;
+            context.keep(JournalKind::receipt).receipt = h.receipt;
             break;
         case prepare:
             if (context.status().token != 0) break;
@@ -308,6 +321,8 @@ HandOffAction acknowledged(StepContext& context) {
             ++h.ready_commands;
             return plain(Kind::read_status);
         case run:
+            end_request(context, "OK");
+            return plain(Kind::read_status);
         case reset:
             return plain(Kind::read_status);
         default:
@@ -319,36 +334,61 @@ HandOffAction acknowledged(StepContext& context) {
     return enter(context, row.next);
 }
 
+namespace {
+
+HandOffAction claim_refused(StepContext& context, AckResult result, const std::string& answer) {
+    HandOff& h = context.h;
+    const bool is_busy = result == AckResult::lease_busy;
+    if (!h.start_sent && !h.is_stored && !h.is_started) {
+        if (result == AckResult::stale_epoch) return fence(context, "another dispatcher claimed the cell first");
+        return fail(context, is_busy ? DeviceFault::busy : DeviceFault::refused,
+                    "the cell cannot be claimed: " + answer + (is_busy ? holder(context.status()) : "") +
+                        "; nothing was started",
+                    is_busy ? "Try again when the other one has finished." : "");
+    }
+    h.is_owner = h.claim_sent = false;
+    if (!is_busy) return give_up(context, "the cell cannot be claimed again: " + answer);
+    // The lease of the other one has a higher epoch than our START: that is void, and QUERY needs no lease.
+    h.is_taken_over = true;
+    context.report("the cell was taken over by another dispatcher" + holder(context.status()) + "; querying the job");
+    return enter(context, ask_before);
+}
+
+}  // namespace
+
 HandOffAction refused(StepContext& context, AckResult result) {
     HandOff& h = context.h;
     h.waits_for_ack = false;
     const std::string answer = std::string(describe(result)) + " (" + name(result) + ")";
+    if (h.step == ask_file && result == AckResult::unknown_job) return enter(context, make_ready);
     if (h.step == ask_before || h.step == ask_after) {
         if (result == AckResult::unknown_job) return plain(Kind::read_result);
     }
+    JournalEvent& event = context.keep(JournalKind::refused);
+    event.command = h.command.command;
+    event.refusal = result;
     if (h.step == cancel || h.step == release) h.is_given_back = true;  // also a refusal is an answer
     if (h.step == start && h.is_started && result != AckResult::already_finished) {
         return contradict(context, "it refused START, " + answer + ", and STATUS shows the job as started");
     }
     if (h.step == start && result == AckResult::already_finished) return enter(context, ask_after);
+    if (h.step == start && context.status().boot_count != h.start_boots) {
+        // The frame was repeated to a cell that has restarted: it may have executed it before.
+        return fence(context, "the cell was restarted");
+    }
     if (h.step == start) h.start_sent = false;  // a refused START has had no effect
+    if (h.step == start) context.keep(JournalKind::start_void);
     if (h.step == run || h.step == make_ready || h.step == clear_result || h.step == reset || h.step == cancel ||
         h.step == release) {
         context.report(std::string("the cell refused ") + name(h.command.command) + ": " + answer);
+        if (h.step == run) end_request(context, "refused: " + answer);
         if (h.step == run) return pause(context);
         if (h.step == release) h.is_owner = h.claim_sent = false;  // another dispatcher has the lease
         if (h.step == release) return end_hand_off(context);
         if (h.step != make_ready) return enter(context, row_of(h.step)->next);
     }
     h.refusal = result;
-    if (h.step == claim && !h.start_sent && !h.is_stored) {
-        if (result == AckResult::stale_epoch) return fence(context, "another dispatcher claimed the cell first");
-        return fail(context, result == AckResult::lease_busy ? DeviceFault::busy : DeviceFault::refused,
-                    "the cell cannot be claimed: " + answer + "; nothing was started",
-                    result == AckResult::lease_busy ? "Try again when the other one has finished." : "");
-    }
-    if (h.step == claim) h.is_owner = h.claim_sent = false;
-    if (h.step == claim) return give_up(context, "the cell was taken over by another dispatcher: " + answer);
+    if (h.step == claim) return claim_refused(context, result, answer);
     if (result == AckResult::not_owner) return fence(context, "the lease of the cell has run out");
     std::string why = "the cell refused the job at " + std::string(name(h.command.command)) + ": " + answer;
     if (result == AckResult::ticket_field) why += ", address " + std::to_string(context.status().ack_detail);

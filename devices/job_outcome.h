@@ -27,6 +27,9 @@ struct JobOutcome {
     bool starts_known = false;            // that RESULT was read
     AckResult refusal = AckResult::none;  // the result with which the cell refused the job
     bool cancelled = false;               // ended because the caller asked to stop
+    bool carved_before = false;           // not started, because the cell has started a job with this file before
+    bool carved_complete = false;         // and the last of these ended complete
+    bool store_is_lost = false;           // CELL_STORE_LOST
     std::uint16_t cell_id = 0;
     bool simulated = false;
     double elapsed_s = 0;          // of the job, counted by the cell

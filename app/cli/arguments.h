@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -167,6 +168,27 @@ struct DispatchArguments {
     std::optional<std::filesystem::path> drop;
     bool yes = false;
     bool accept_unreachable = false;
+    bool again = false;
+    bool chunks = false;
+    bool rehearse = false;
+    std::optional<std::uint32_t> takeover_code;
+};
+
+// Which cell: by its address, or by the file that names it.
+struct CellChoiceArguments {
+    std::optional<std::string> to;
+    std::optional<std::filesystem::path> cell;
+};
+
+struct JournalArguments {
+    std::filesystem::path folder;  // of the journal; empty: list all
+    bool shows = true;             // else it is only verified
+};
+
+struct CellControlArguments : CellChoiceArguments {
+    std::string action;  // status, hold, unhold, stop, abort, clear, reset, take-over, accept-store
+    std::optional<std::uint32_t> code;
+    bool yes = false;
 };
 
 struct Arguments {
@@ -176,7 +198,7 @@ struct Arguments {
     std::variant<SampleArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
                  ExplainArguments, ExportArguments, CellsListArguments, CellsShowArguments, CellsCheckArguments,
                  CellsReachArguments, SetupArguments, VerifyArguments, DryRunArguments, CellSimArguments,
-                 DispatchArguments>
+                 DispatchArguments, JournalArguments, CellControlArguments>
         command;
 };
 

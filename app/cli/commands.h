@@ -8,6 +8,7 @@
 #include "app/cli/arguments.h"
 #include "app/cli/terminal.h"
 #include "app/project/hand_over.h"
+#include "devices/modbus_tcp.h"
 
 namespace qchopper {
 
@@ -27,9 +28,17 @@ int run(const VerifyArguments& arguments, Terminal& terminal);
 int run(const DryRunArguments& arguments, Terminal& terminal);
 int run(const CellSimArguments& arguments, Terminal& terminal);
 int run(const DispatchArguments& arguments, Terminal& terminal);
+int run(const JournalArguments& arguments, Terminal& terminal);
+int run(const CellControlArguments& arguments, Terminal& terminal);
 
 // For dry-run and dispatch: hands the jobs over, shows table or document, and returns the exit code.
-int hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options,
+int hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options, Journal& journal,
               const std::string& schema, Terminal& terminal);
+
+// STATUS of the cell, read before anything is sent. Nothing if a stop was requested. Throws DeviceError.
+std::optional<Status> first_status(ModbusTcpBus& bus, const std::string& where, Terminal& terminal);
+
+// Asks on the terminal. Throws InputError (use) if there is none.
+bool is_confirmed(const std::string& question);
 
 }  // namespace qchopper

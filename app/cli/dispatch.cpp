@@ -9,29 +9,18 @@
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
 #include "app/project/proven_jobs.h"
+#include "app/project/state_folder.h"
 #include "app/report/hand_over_report.h"
 #include "cam/cell/cell.h"
 #include "cam/cell/cell_check.h"
 #include "devices/codec.h"
 #include "devices/first_contact.h"
-#include "devices/modbus_tcp.h"
+#include "devices/request_socket.h"
 
 namespace qchopper {
 namespace {
 
 constexpr const char* dispatch_schema = "qchopper-dispatch-1";
-
-bool is_confirmed(const std::string& question) {
-    if (::isatty(STDIN_FILENO) == 0) {
-        throw InputError(InputFault::use,
-                         "a real cell is set in motion only after a question, and there is no terminal for the answer",
-                         "pass --yes if that is meant");
-    }
-    std::cerr << question << " [y/N] " << std::flush;
-    std::string line;
-    std::getline(std::cin, line);
-    return line == "y" || line == "Y" || line == "yes";
-}
 
 // What is assumed may be planned and simulated with, never carved with.
 void refuse_uncertain(const Cell& cell) {
@@ -61,12 +50,43 @@ bool refuse_unreachable(const std::vector<PieceJob>& jobs, Terminal& terminal) {
     return refuse(sentences, jobs.size(), terminal);
 }
 
+DispatchOptions options_of(const DispatchArguments& arguments, const Cell& cell, const Status& status) {
+    DispatchOptions options;
+    options.want_simulated = status.has(flag::simulated);
+    // A simulated cell without an id of its own accepts every one; a real cell must have the id of the project's cell.
+    options.cell_id = options.want_simulated && status.cell_id == any_cell_id ? any_cell_id : cell.id;
+    options.again = arguments.again;
+    options.rehearse = arguments.rehearse;
+    options.takeover_code = arguments.takeover_code.value_or(0);
+    options.has_parts = has_identity(status.version);
+    return options;
+}
+
 }  // namespace
 
-int hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options,
+bool is_confirmed(const std::string& question) {
+    if (::isatty(STDIN_FILENO) == 0) {
+        throw InputError(InputFault::use,
+                         "a real cell is set in motion only after a question, and there is no terminal for the answer",
+                         "pass --yes if that is meant");
+    }
+    std::cerr << question << " [y/N] " << std::flush;
+    std::string line;
+    std::getline(std::cin, line);
+    return line == "y" || line == "Y" || line == "yes";
+}
+
+std::optional<Status> first_status(ModbusTcpBus& bus, const std::string& where, Terminal& terminal) {
+    bus.connect();
+    std::optional<Status> status = read_first_status(bus, where, terminal.context());
+    if (!status) terminal.message("stopped on request: nothing was sent");
+    return status;
+}
+
+int hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options, Journal& journal,
               const std::string& schema, Terminal& terminal) {
     const HandOverReport report{
-        hand_over(jobs, bus, options, terminal.context()), jobs.size(), options.want_simulated, {}};
+        hand_over(jobs, bus, options, journal, terminal.context()), jobs.size(), options.want_simulated, {}};
     terminal.show(lines(report), document(report, schema));
     if (report.is_cancelled()) return Terminal::cancel_code();
     return report.is_complete() ? exit_done : exit_demand_broken;
@@ -81,21 +101,15 @@ int run(const DispatchArguments& arguments, Terminal& terminal) {
     const std::optional<std::string> to = arguments.to ? arguments.to : cell.link.to;
     const std::optional<std::filesystem::path> drop = arguments.drop ? arguments.drop : cell.link.drop;
     if (!to) throw InputError(InputFault::use, "no cell address is known", "pass --to HOST:PORT");
-    if (!drop) throw InputError(InputFault::use, "no drop folder is known", "pass --drop DIR");
-    ModbusTcpBus bus(parse_tcp_address(*to));
-    bus.connect();
-    // Read before anything is sent, so that a real cell is never taken for a simulated one.
-    const std::optional<Status> answer = read_first_status(bus, *to, terminal.context());
-    if (!answer) {
-        terminal.message("stopped on request: nothing was sent");
-        return Terminal::cancel_code();
+    if (!drop && !arguments.chunks) {
+        throw InputError(InputFault::use, "no drop folder is known", "pass --drop DIR, or --chunks");
     }
-    const Status& status = *answer;
-    DispatchOptions options;
-    options.want_simulated = status.has(flag::simulated);
-    // A simulated cell without an id of its own accepts every one; a real cell must have the id of the project's cell.
-    options.cell_id = options.want_simulated && status.cell_id == any_cell_id ? any_cell_id : cell.id;
-    options.drop_folder = *drop;
+    ModbusTcpBus bus(parse_tcp_address(*to));
+    // Read before anything is sent, so that a real cell is never taken for a simulated one.
+    const std::optional<Status> status = first_status(bus, *to, terminal);
+    if (!status) return Terminal::cancel_code();
+    DispatchOptions options = options_of(arguments, cell, *status);
+    if (!arguments.chunks) options.drop_folder = *drop;
     if (options.want_simulated) {
         terminal.message("the cell at " + *to + " is SIMULATED: nothing moves");
         for (const std::string& sentence : simulated_only_jobs(ordered))
@@ -110,7 +124,12 @@ int run(const DispatchArguments& arguments, Terminal& terminal) {
         terminal.message("not confirmed: nothing was sent");
         return exit_demand_broken;
     }
-    return hand_over(jobs, bus, options, dispatch_schema, terminal);
+    const JournalCell of = journal_cell(options.cell_id, options.want_simulated, *to);
+    Journal journal(journal_folder(of), of);
+    RequestSocket requests(journal_folder(of));
+    options.request = [&] { return requests.next(); };
+    options.answer_request = [&](const std::string& answer) { requests.answer(answer); };
+    return hand_over(jobs, bus, options, journal, dispatch_schema, terminal);
 }
 
 }  // namespace qchopper

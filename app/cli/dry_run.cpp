@@ -36,7 +36,10 @@ int run(const DryRunArguments& arguments, Terminal& terminal) {
     dispatch.want_simulated = true;
     dispatch.drop_folder = drop.path();
     dispatch.timings.poll_s = 0.02;
-    return hand_over(jobs, bus, dispatch, "qchopper-dry-run-1", terminal);
+    // Of this run alone: the user's journals are never touched.
+    const TemporaryFolder state("qchopper-dry-run-journal-");
+    Journal journal(state.path(), {cell.id, true, "dry-run"});
+    return hand_over(jobs, bus, dispatch, journal, "qchopper-dry-run-1", terminal);
 }
 
 }  // namespace qchopper

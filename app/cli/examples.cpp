@@ -12,7 +12,7 @@ struct Examples {
     const char* lines;
 };
 
-constexpr std::array<Examples, 14> all_examples{{
+constexpr std::array<Examples, 16> all_examples{{
     {"", R"(  qchopper sample vertebra --faces 50000 -o vertebra.ply
   qchopper inspect vertebra.ply --units mm
   qchopper prepare vertebra.ply --units mm --cell cells/foam-1.toml -o vertebra.qch
@@ -64,7 +64,16 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
   qchopper cell-sim --drop drop --script night.txt --store cell
   qchopper cell-sim --list-faults)"},
     {"dispatch", R"(  qchopper dispatch vertebra.qch --to 127.0.0.1:15020 --drop drop
-  qchopper dispatch vertebra.qch --piece B)"},
+  qchopper dispatch vertebra.qch --piece B
+  qchopper dispatch vertebra.qch --to 127.0.0.1:15020 --chunks --rehearse)"},
+    {"journal", R"(  qchopper journal show
+  qchopper journal show cell-7 --json
+  qchopper journal verify)"},
+    {"cell", R"(  qchopper cell status --to 127.0.0.1:15020
+  qchopper cell hold --to 127.0.0.1:15020
+  qchopper cell stop --cell cells/kr60-ha.toml
+  qchopper cell take-over --to 127.0.0.1:15020 --code 4711
+  qchopper cell accept-store --to 127.0.0.1:15020)"},
 }};
 
 }  // namespace

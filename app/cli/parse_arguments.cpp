@@ -48,6 +48,9 @@ struct Parser {
     DryRunArguments dry_run;
     CellSimArguments cell_sim;
     DispatchArguments dispatch;
+    JournalArguments journal_show;
+    JournalArguments journal_verify;
+    CellControlArguments cell_control;
 
     Parser() {
         app.footer(examples_of(""));
@@ -66,6 +69,8 @@ struct Parser {
         add_dry_run();
         add_cell_sim();
         add_dispatch();
+        add_journal();
+        add_cell();
         for (CLI::App* command : app.get_subcommands({})) {
             const std::string examples = examples_of(command->get_name());
             command->footer(examples);
@@ -222,7 +227,58 @@ struct Parser {
         c->add_flag("--yes", dispatch.yes, "do not ask before a real cell is set in motion");
         c->add_flag("--accept-unreachable", dispatch.accept_unreachable,
                     "send jobs too of which the tool does not reach more of the surface than the limit allows");
+        c->add_flag("--again", dispatch.again, "carve files too that the cell has carved before");
+        c->add_flag("--chunks", dispatch.chunks, "send job files over the link, without a drop folder");
+        c->add_flag("--rehearse", dispatch.rehearse,
+                    "let the cell rehearse each job, without motion, before it asks for consent");
+        c->add_option("--take-over", dispatch.takeover_code,
+                      "end the lease of another dispatcher by the code shown at the cell's panel")
+            ->check(number_between(1, 4294967295.0, "a code"));
         add_common(c, common, [this] { common.command = dispatch; });
+    }
+
+    void add_journal() {
+        CLI::App* c = app.add_subcommand("journal", "show and verify what was sent to cells from this computer");
+        c->require_subcommand(1);
+        CLI::App* show = c->add_subcommand("show", "show the rows of a journal, which is verified");
+        show->add_option("JOURNAL", journal_show.folder, "its folder, or its name in the state folder (all)");
+        add_common(show, common, [this] { common.command = journal_show; });
+        CLI::App* chain = c->add_subcommand("verify", "verify the hash chain of a journal");
+        chain->add_option("JOURNAL", journal_verify.folder, "its folder, or its name in the state folder (all)");
+        journal_verify.shows = false;
+        add_common(chain, common, [this] { common.command = journal_verify; });
+    }
+
+    void add_cell() {
+        CLI::App* c = app.add_subcommand("cell", "show the status of a cell, and command it outside of a dispatch");
+        c->require_subcommand(1);
+        constexpr const char* commands[][2] = {
+            {"status", "show what the cell says of itself"},
+            {"hold", "hold the running job; works beside a dispatch"},
+            {"unhold", "let a held job go on, after consent at the cell"},
+            {"stop", "stop the running job for good; works beside a dispatch; this is no emergency stop"},
+            {"abort", "abort whatever the cell does; works beside a dispatch; this is no emergency stop"},
+            {"clear", "clear an aborted cell, after consent at the cell"},
+            {"reset", "bring a stopped cell, or one that has completed a job, to idle"},
+            {"take-over", "end the lease of another dispatcher, by the code shown at the cell's panel"},
+            {"accept-store", "accept that the cell lost its memory, after a look at the cell"},
+        };
+        for (const auto& [word, what] : commands) {
+            CLI::App* one = c->add_subcommand(word, what);
+            one->add_option("--to", cell_control.to, "HOST:PORT of the cell");
+            one->add_option("--cell", cell_control.cell, "take address and id from this cell file");
+            const std::string action = word;
+            if (action == "take-over") {
+                one->add_option("--code", cell_control.code, "the code shown at the cell's panel")
+                    ->required()
+                    ->check(number_between(1, 4294967295.0, "a code"));
+            }
+            if (action == "accept-store") one->add_flag("--yes", cell_control.yes, "do not ask before it is accepted");
+            add_common(one, common, [this, action] {
+                cell_control.action = action;
+                common.command = cell_control;
+            });
+        }
     }
 };
 

@@ -60,7 +60,7 @@ int report_stop(Terminal& terminal) {
 bool may_end_anywhere(const Arguments& arguments) {
     const auto& command = arguments.command;
     return !std::holds_alternative<DispatchArguments>(command) && !std::holds_alternative<DryRunArguments>(command) &&
-           !std::holds_alternative<CellSimArguments>(command);
+           !std::holds_alternative<CellSimArguments>(command) && !std::holds_alternative<CellControlArguments>(command);
 }
 
 }  // namespace

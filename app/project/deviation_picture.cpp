@@ -22,10 +22,10 @@ constexpr int legend_height = 70;
 constexpr int view_width = deviation_picture_width / 2;
 constexpr int view_height = deviation_picture_height - legend_height;
 constexpr double letter_height = 13;
-constexpr double letter_width = 10.2;  // at that height, about
+constexpr double letter_width = 11.6;  // at that height, about
 constexpr int square = 20;
 
-struct Range {
+struct DeviationRange {
     float below;  // values below it, and not below that of the range before
     Rgb colour;
     const char* name;
@@ -33,12 +33,12 @@ struct Range {
 
 // mm. Colours that differ for colour-blind eyes too.
 constexpr float open_end = std::numeric_limits<float>::infinity();
-constexpr std::array<Range, 6> ranges{{{-0.25F, {165, 0, 38}, "gouge > 0.25"},
-                                       {-0.05F, {244, 140, 80}, "gouge > 0.05"},
-                                       {0.3F, {232, 228, 216}, "to 0.3"},
-                                       {0.75F, {158, 202, 225}, "to 0.75"},
-                                       {3.0F, {66, 126, 190}, "to 3 mm"},
-                                       {open_end, {20, 40, 100}, "more foam"}}};
+constexpr std::array<DeviationRange, 6> ranges{{{-0.25F, {165, 0, 38}, "gouge > 0.25"},
+                                                {-0.05F, {244, 140, 80}, "gouge > 0.05"},
+                                                {0.3F, {232, 228, 216}, "to 0.3"},
+                                                {0.75F, {158, 202, 225}, "to 0.75"},
+                                                {3.0F, {66, 126, 190}, "to 3 mm"},
+                                                {open_end, {20, 40, 100}, "more foam"}}};
 
 std::uint8_t index_of(float value) {
     std::uint8_t i = 0;
@@ -63,7 +63,7 @@ void fill(Pixels& pixels, int left, int top, int width, int height, Rgb colour) 
 void draw_legend(Pixels& pixels) {
     double x = 12;
     const int top = pixels.height - (legend_height + square) / 2;
-    for (const Range& range : ranges) {
+    for (const DeviationRange& range : ranges) {
         fill(pixels, static_cast<int>(x), top, square, square, range.colour);
         const std::string name = range.name;
         const double width = letter_width * static_cast<double>(name.size());

@@ -14,6 +14,7 @@
 #include "cam/cell/cell.h"
 #include "cam/job/ticket.h"
 #include "devices/dispatch.h"
+#include "devices/journal.h"
 
 namespace qchopper {
 
@@ -48,13 +49,16 @@ ProjectJobs jobs_of(const std::filesystem::path& project, const std::optional<st
 std::vector<std::string> unreachable_jobs(const std::vector<PieceJob>& jobs);
 
 struct HandedOver {
-    std::string piece;
+    std::string piece;  // or the name of the job file, of a job that is not of this project
     JobOutcome outcome;
+    bool is_ordered = true;  // false: a job of an earlier dispatcher that was not asked for now
 };
 
-// Stops after the first job that did not run to its end: the next one may need the block that it left. Throws what
-// dispatch_job throws.
+// First takes up the jobs that an earlier dispatcher left open in the journal, and follows those that have started to
+// their end. Then hands over the jobs of which none of these was started. Stops after the first job that did not run to
+// its end: the next one may need the block that it left. A file that the cell has carved to its end before is passed
+// over. Every event goes into `journal` before what follows from it. Throws what dispatch_job and adopt_job throw.
 std::vector<HandedOver> hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options,
-                                  const ProjectContext& context);
+                                  Journal& journal, const ProjectContext& context);
 
 }  // namespace qchopper

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <iterator>
 #include <mutex>
+#include <optional>
 
 #include "app/project/job_verdict.h"
+#include "app/project/kept_programs.h"
 #include "app/project/ordered_job.h"
 #include "app/project/piece_program.h"
 #include "app/project/shell_word.h"
@@ -144,6 +146,17 @@ void write_one(const JobInput& input, const JobProof* proof, const JobOrders& or
     made.report.length_mm += proof->length_mm;
 }
 
+// Those that an earlier run made of the same, or new ones.
+PiecePrograms programs_of(const JobOrders& orders, const JobInput& input, const Carving& carving,
+                          const Context& context) {
+    std::string none_because = no_programs_for(orders.cell);
+    if (none_because.empty() && !orders.project.has_programs) none_because = "prepare was asked for none";
+    if (!none_because.empty()) return {{}, none_because};
+    const ProgramSource source{input.piece, input.setup, input.piece_no, orders.cell_sha256, orders.program_version};
+    if (std::optional<PiecePrograms> kept = kept_programs(orders.folder / "jobs", source)) return std::move(*kept);
+    return make_programs(input.piece, carving, input.piece_no, orders.cell, context);
+}
+
 // Writes the files of the jobs of one piece; removes those that an earlier run wrote.
 MadeJob make_job(const JobOrders& orders, std::size_t index, const Carving& carving, const Context& context) {
     const Piece& piece = orders.segmentation.pieces[index];
@@ -151,13 +164,13 @@ MadeJob make_job(const JobOrders& orders, std::size_t index, const Carving& carv
     made.report.carving.mesh.reset();
     made.report.carving.choice.states.clear();
     made.report.advice = advice_for(orders.folder, orders.project, piece, carving.setup().reach, orders.cell);
-    remove_jobs(orders.folder, piece.name);
-    if (!carving.fits()) return made;
+    if (!carving.fits()) {
+        remove_jobs(orders.folder, piece.name);
+        return made;
+    }
     JobInput input = job_input(orders, index, carving);
-    std::string none_because = no_programs_for(orders.cell);
-    if (none_because.empty() && !orders.project.has_programs) none_because = "prepare was asked for none";
-    PiecePrograms programs{{}, none_because};
-    if (none_because.empty()) programs = make_programs(piece, carving, input.piece_no, orders.cell, context);
+    const PiecePrograms programs = programs_of(orders, input, carving, context);
+    remove_jobs(orders.folder, piece.name);
     made.report.no_program_because = programs.none_because;
     if (programs.parts.empty()) {
         input.no_program_because = programs.none_because;
@@ -170,6 +183,41 @@ MadeJob make_job(const JobOrders& orders, std::size_t index, const Carving& carv
     }
     return made;
 }
+
+// Jobs are written several at a time: their number, and the steps of the first one that is not done.
+class JobProgress {
+ public:
+    JobProgress(const Context& context, std::size_t count) : context_(context), is_done_(count, false) {
+        context.progress("jobs written", 0, count);
+    }
+
+    // For the work on one job.
+    Context of(std::size_t index, const std::string& piece) {
+        Context own = context_;
+        own.timings = nullptr;
+        own.on_progress = [this, index, piece](const Progress& step) {
+            const std::lock_guard lock(mutex_);
+            const std::size_t first = std::find(is_done_.begin(), is_done_.end(), false) - is_done_.begin();
+            if (index != first) return;
+            context_.progress(step.what + " for piece " + piece + ", job " + std::to_string(done_ + 1) + " of " +
+                                  std::to_string(is_done_.size()),
+                              step.done, step.total);
+        };
+        return own;
+    }
+
+    void finish(std::size_t index) {
+        const std::lock_guard lock(mutex_);
+        is_done_[index] = true;
+        context_.progress("jobs written", ++done_, is_done_.size());
+    }
+
+ private:
+    const Context& context_;
+    std::mutex mutex_;
+    std::vector<bool> is_done_;
+    std::size_t done_ = 0;
+};
 
 }  // namespace
 
@@ -194,18 +242,15 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
     stage.next("work envelopes judged");
     setups.compute_held(segmentation.pieces, context);
     stage.next("jobs written");
-    context.progress("jobs written", 0, count);
     std::vector<const Carving*> carvings;
     for (const Piece& piece : segmentation.pieces) carvings.push_back(&setups.held(piece));
     const JobOrders orders = orders_of(folder, project, segmentation, setups.cell(), program_version);
     std::vector<MadeJob> made(count);
-    std::mutex reporting;
-    std::size_t done = 0;
+    JobProgress progress(context, count);
     parallel_for(0, count, [&](std::size_t i) {
         context.check_cancelled();
-        made[i] = make_job(orders, i, *carvings[i], context);
-        const std::lock_guard lock(reporting);
-        context.progress("jobs written", ++done, count);
+        made[i] = make_job(orders, i, *carvings[i], progress.of(i, segmentation.pieces[i].name));
+        progress.finish(i);
     });
     project.jobs.clear();
     std::vector<PieceReport> reports;

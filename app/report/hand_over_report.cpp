@@ -24,6 +24,9 @@ Json job_json(const HandedOver& handed) {
     return {{"piece", handed.piece},
             {"job_id", to_text(o.job_id)},
             {"verdict", describe(o.verdict)},
+            {"is_ordered", handed.is_ordered},
+            {"carved_before", o.carved_before},
+            {"store_is_lost", o.store_is_lost},
             {"job_state", static_cast<int>(o.job_state)},
             {"job_result", static_cast<int>(o.job_result)},
             {"ended_complete", o.is_complete()},
@@ -37,8 +40,14 @@ Json job_json(const HandedOver& handed) {
 }  // namespace
 
 bool HandOverReport::is_complete() const {
-    return handed.size() == wanted &&
-           std::all_of(handed.begin(), handed.end(), [](const HandedOver& h) { return h.outcome.is_complete(); });
+    std::size_t ordered = 0;
+    bool is_any_carved_now = false;
+    for (const HandedOver& h : handed) {
+        if (!h.outcome.is_complete() && !h.outcome.carved_complete) return false;
+        ordered += h.is_ordered ? 1 : 0;
+        is_any_carved_now = is_any_carved_now || (h.is_ordered && h.outcome.is_complete());
+    }
+    return ordered == wanted && is_any_carved_now;
 }
 
 bool HandOverReport::is_cancelled() const {
@@ -47,11 +56,16 @@ bool HandOverReport::is_cancelled() const {
 
 std::vector<std::string> lines(const HandOverReport& report) {
     std::vector<std::vector<std::string>> rows{{"piece", "job", "start", "STARTS", "end", "s"}};
-    for (const auto& [piece, o] : report.handed) {
-        rows.push_back({piece, to_text(o.job_id), describe(o.verdict), o.starts_known ? std::to_string(o.starts) : "?",
-                        ending(o), fixed(o.took_s, 1)});
+    for (const auto& [piece, o, is_ordered] : report.handed) {
+        rows.push_back({is_ordered ? piece : piece + " (earlier)", to_text(o.job_id), describe(o.verdict),
+                        o.starts_known ? std::to_string(o.starts) : "?", ending(o), fixed(o.took_s, 1)});
     }
     std::vector<std::string> text = columns(rows);
+    for (const HandedOver& handed : report.handed) {
+        if (!handed.outcome.to_do.empty() && !handed.outcome.is_complete()) {
+            text.push_back("to do for " + handed.piece + ": " + handed.outcome.to_do);
+        }
+    }
     const std::string cell = report.is_simulated ? "the simulated cell" : "the cell";
     text.push_back(report.is_complete()
                        ? "all " + std::to_string(report.wanted) + " jobs ended complete on " + cell

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double table_start_s = 0.5;  // until the table has its speed
 
-struct Leg {
+struct StraightLeg {
     Vec3 by;
     double length = 0;
     double speed = 0;      // largest
@@ -22,7 +22,7 @@ struct Leg {
     bool is_rounded = false;
 };
 
-double corner_speed(const Leg& before, const Leg& after, double rounding) {
+double corner_speed(const StraightLeg& before, const StraightLeg& after, double rounding) {
     if (!before.is_rounded || before.length <= 0 || after.length <= 0) return 0;
     const double speed = std::min(before.speed, after.speed);
     const double cosine = std::clamp(dot(before.by, after.by) / (before.length * after.length), -1.0, 1.0);
@@ -43,8 +43,8 @@ double seconds_of(double length, double most, double from, double to, double acc
     return (2 * speed - from - to) / acceleration + std::max(0.0, length - ramps) / speed;
 }
 
-std::vector<Leg> legs_of(const ProgramSection& section) {
-    std::vector<Leg> legs;
+std::vector<StraightLeg> legs_of(const ProgramSection& section) {
+    std::vector<StraightLeg> legs;
     Vec3 tip = section.runs.front().start + section.entry.raise * section.out;
     const auto go = [&](Vec3 to, double speed, MoveKind kind, bool is_rounded) {
         const Vec3 by = to - tip;
@@ -59,7 +59,7 @@ std::vector<Leg> legs_of(const ProgramSection& section) {
     return legs;
 }
 
-void set_corner_speeds(std::vector<Leg>& legs, double rounding) {
+void set_corner_speeds(std::vector<StraightLeg>& legs, double rounding) {
     const auto reached = [](double speed, double length) {
         return std::sqrt(speed * speed + 2 * path_acceleration * length);
     };
@@ -68,17 +68,17 @@ void set_corner_speeds(std::vector<Leg>& legs, double rounding) {
         legs[i - 1].end_speed = std::min(legs[i - 1].end_speed, reached(legs[i].end_speed, legs[i].length));
     }
     double speed = 0;
-    for (Leg& leg : legs) {
+    for (StraightLeg& leg : legs) {
         leg.end_speed = std::min(leg.end_speed, reached(speed, leg.length));
         speed = leg.end_speed;
     }
 }
 
 void add_section(const ProgramSection& section, ProgramTime& time) {
-    std::vector<Leg> legs = legs_of(section);
+    std::vector<StraightLeg> legs = legs_of(section);
     set_corner_speeds(legs, section.rounding);
     double speed = 0;
-    for (const Leg& leg : legs) {
+    for (const StraightLeg& leg : legs) {
         const double seconds = seconds_of(leg.length, leg.speed, speed, leg.end_speed, path_acceleration);
         speed = leg.end_speed;
         (leg.kind == MoveKind::cut ? time.cut_mm : time.link_mm) += leg.length;

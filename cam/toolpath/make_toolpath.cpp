@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "cam/setup/holder_limit.h"
+#include "cam/setup/work_envelope.h"
 #include "cam/toolpath/finishing.h"
 #include "cam/toolpath/finishing_region.h"
 #include "cam/toolpath/in_process_stock.h"
@@ -26,6 +27,7 @@ constexpr double cells_per_radius = 6;  // of the tool of the roughing, in the m
 constexpr double border_cells = 6;
 constexpr double surface_spacing = 1;  // mm, between points that are asked what is left over them
 constexpr double clear_of_table = 2;   // mm
+constexpr double upright = 0.9999;     // cosine of the tilt of a direction from above
 constexpr double skin_cells = 2.5;     // by which foam may be known as more than it is
 
 // Height along a direction, in setup coordinates, in which the tool comes and goes (carving_poses.h).
@@ -33,6 +35,16 @@ double retract_height(const Setup& setup, Vec3 out, double clearance) {
     const Vec3 half{0.5 * setup.block.size.x, 0.5 * setup.block.size.y, 0};
     const double top = std::max(0.0, out.z) * (setup.block.size.z - setup.spoil);
     return std::abs(out.x) * half.x + std::abs(out.y) * half.y + top + clearance;
+}
+
+// The lowest plane that a ball may touch: clear of the table, and so that the cylinder with a flat end as which the
+// work envelope takes the tool (machine_bodies.h) is clear of it too. A tip on that plane is higher by R (1 - cos
+// tilt), the lowest corner of the cylinder lower than the tip by R sin tilt.
+double lowest_floor(const CarvingTool& tool, Vec3 out, double spoil) {
+    const double clear_of_corner = rule_of(PoseCheck::tool_to_table).needed + 0.1;  // mm
+    const double sine = std::sqrt(std::max(0.0, 1 - out.z * out.z));
+    const double corner = 0.5 * tool.diameter * (sine + out.z - 1);
+    return std::max(clear_of_table, corner + clear_of_corner) - spoil;
 }
 
 class ToolpathMaker {
@@ -135,8 +147,11 @@ class ToolpathMaker {
         operation.step = finishing_step(tool, options);
         operation.scallop = options.scallop;
         operation.rounding = settings_.rounding;
-        // The ball goes below the base, so that it carves the sides down to it, but not into the table.
-        const double floor_z = std::max(-0.5 * tool.diameter, clear_of_table - setup_.spoil);
+        // The ball goes below the base, so that it carves the sides down to it, but not into the table. From above, its
+        // radius is enough.
+        const Vec3 out = out_of(direction);
+        const double floor_z =
+            std::max(out.z > upright ? -0.5 * tool.diameter : -setup_.spoil, lowest_floor(tool, out, setup_.spoil));
         HeightMap tip;
         const FinishingRegion region = finishing_region(operation, floor_z, tip);
         const bool is_empty = std::all_of(region.begin(), region.end(), [](float low) { return low == not_finished; });

@@ -105,6 +105,8 @@ void FoamCarver::check_cut(const TipLine& line, const CarvingTool& tool, const C
                    " mm";
         });
     }
+    // The box is for planning with a gantry; a robot's arm is asked for each pose (machine_walk.h).
+    if (machine_.robot) return;
     const Vec3 in_cell = apply(scene_.directions[line.direction].setup_in_cell, line.to);
     const Box& reach = scene_.cell->reach;
     double beyond = 0;

@@ -29,7 +29,7 @@ enum class FindingKind : std::uint8_t {
     branch,  // the arm would have to change its branch, or an axis to jump
     singularity,
     joint_speed,
-    outside_reach,  // foam is cut outside of the cell's reach box
+    outside_reach,  // foam is cut outside of the cell's reach box; of gantries only
     collision,      // of arm, spindle, holder or tool with what stands still, or with the arm
     arm_in_foam,
     holder_contact,  // holder or spindle in foam

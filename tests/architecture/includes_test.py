@@ -46,6 +46,7 @@ PLANTED = {
     "JSON in a header": ("app/report/columns.h", "#include <nlohmann/json.hpp>", "a header must not include JSON"),
     "the option parser in a header": ("app/cli/arguments.h", "#include <CLI/CLI.hpp>", "must not include CLI11"),
     "libmodbus in sim": ("sim/modbus_pdu.cpp", "#include <modbus/modbus.h>", "libmodbus is seen by 1 files"),
+    "SQLite in one more source": ("devices/dispatch.cpp", "#include <sqlite3.h>", "seen by 2 files"),
     "a path from elsewhere": ("segment/cut/cut.cpp", '#include "../mesh/shells.h"', "written from the root"),
     "a module in angle brackets": ("sim/machine.cpp", "#include <devices/hand_off.h>", "write it in quotes"),
 }

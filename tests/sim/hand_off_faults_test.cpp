@@ -159,6 +159,10 @@ class Trial {
                 if (input.end == BusEnd::ok && decode_result(registers).is_ok())
                     input.result = decode_result(registers).value;
                 return input;
+            case Kind::read_identity:
+                input = request(rig::read_request(4, identity_block.base, identity_block.count), false, &registers);
+                if (input.end == BusEnd::ok) input.identity = decode_identity(registers).value;
+                return input;
             case Kind::write_command:
                 return write(command_block, encode(action.command));
             case Kind::write_ticket:

@@ -173,8 +173,8 @@ TEST(HandOffOverTcp, AFileChangedOnTheWayIsRefused) {
     const Rig rig;
     const Job job = make_job();
     DispatchOptions options = quick_dispatch(rig.drop);
-    options.journal = [&](const std::string& row) {
-        if (row.starts_with("COMMAND verify")) {
+    options.journal = [&](const JournalEvent& event) {
+        if (event.kind == JournalKind::command && event.command == CellCommand::verify) {
             std::fstream file(rig.drop / "piece-1.qjob", std::ios::in | std::ios::out | std::ios::binary);
             file.put('!');
         }
@@ -438,8 +438,8 @@ TEST(HandOffOverTcp, ALinkLostAtAnyStepEndsWithARightReportAndOneStart) {
         Rig rig;
         DispatchOptions options = quick_dispatch(rig.drop);
         int rows = 0;
-        options.journal = [&](const std::string&) {
-            if (++rows == cut_at + 1) rig.restart();
+        options.journal = [&](const JournalEvent&) {
+            if (++rows == cut_at + 2) rig.restart();
         };
         const JobOutcome outcome = rig.dispatch(make_job(100, 2), options);
         EXPECT_EQ(outcome.verdict, StartVerdict::started) << cut_at << whole(outcome);

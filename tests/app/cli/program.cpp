@@ -45,6 +45,12 @@ bool comes_true(const std::function<bool()>& condition, double seconds) {
     return true;
 }
 
+// The journals of all runs in one folder: never those of the user, nor those of another test.
+fs::path state_of(const fs::path& folder) {
+    static const Folder states;
+    return states.path / std::to_string(std::hash<std::string>()(folder.string()));
+}
+
 }  // namespace
 
 Process::Process(const Arguments& arguments, const RunOptions& options) {
@@ -54,12 +60,14 @@ Process::Process(const Arguments& arguments, const RunOptions& options) {
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
+    const fs::path state = state_of(options.folder);
     pid_ = ::fork();
     if (pid_ != 0) return;
     if (::chdir(options.folder.c_str()) != 0) ::_exit(127);
     redirect(streams_.path / "in", O_RDONLY, STDIN_FILENO);
     redirect(streams_.path / "out", O_WRONLY | O_CREAT, STDOUT_FILENO);
     redirect(streams_.path / "err", O_WRONLY | O_CREAT, STDERR_FILENO);
+    ::setenv("XDG_STATE_HOME", state.c_str(), 1);
     if (options.one_core) keep_to_one_core();
     if (!options.temporary_folder.empty()) ::setenv("TMPDIR", options.temporary_folder.c_str(), 1);
     ::execv(argv[0], argv.data());

@@ -21,8 +21,8 @@ struct WorkEnvelopeCommand : ::testing::Test {
     void SetUp() override { fs::copy(program::prepared() / "scan.ply", folder.path / "scan.ply"); }
     program::Ended run(const program::Arguments& arguments) const { return program::run(arguments, {folder.path}); }
     program::Ended prepare(const std::string& cell, const std::string& project, bool as_json, bool one_core = false) {
-        program::Arguments arguments{"prepare", "scan.ply",   "--units", "mm", "--cell",
-                                     cell,      "--min-cuts", "1",       "-o", project};
+        program::Arguments arguments{"prepare",    "scan.ply", "--units",       "mm", "--cell", cell,
+                                     "--min-cuts", "1",        "--no-programs", "-o", project};
         if (as_json) arguments.emplace_back("--json");
         return program::run(arguments, {folder.path, {}, one_core});
     }
@@ -54,7 +54,7 @@ TEST_F(WorkEnvelopeCommand, EveryJobCarriesItsEnvelope) {
     const program::Ended shown = run({"setup", "p.qch", "--piece", document["pieces"][0]["name"]});
     EXPECT_NE(shown.out.find("Work envelope: piece "), std::string::npos) << shown.out;
     EXPECT_NE(shown.out.find("can be carved, tightest: "), std::string::npos) << shown.out;
-    EXPECT_NE(run({"prepare", "p.qch"}).out.find("tightest margin"), std::string::npos);
+    EXPECT_NE(run({"prepare", "p.qch", "--no-programs"}).out.find("tightest margin"), std::string::npos);
 
     ASSERT_EQ(prepare("cell.toml", "q.qch", false, true).in_time, true);
     const json again = json::parse(std::ifstream(folder.path / "q.qch" / "project.json"));

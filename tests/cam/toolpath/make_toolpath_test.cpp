@@ -104,6 +104,21 @@ TEST(MakeToolpath, LeavesABallAndNothingAboveIt) {
     }
 }
 
+TEST(MakeToolpath, TiltedToolsGoBelowTheBaseToReachWhatLeansOverIt) {
+    const TriangleMesh mesh = shapes::ball({0, 0, 0}, 25, 24);
+    const auto setup = setup_of(mesh, 8, 60);
+    const Cell cell = ready_cell();
+    double lowest = 0;
+    for (const Operation& operation : make_toolpath(setup, mesh, cell, coarse_settings()).operations) {
+        for (const PathRun& run : operation.runs) {
+            for (const PathMove& move : run.moves) lowest = std::min(lowest, move.tip.z);
+        }
+    }
+    // The ball stands on its lowest point; the tip of a tool that leans by 60 degrees comes under it.
+    EXPECT_LT(lowest, -0.5 * 12 - 0.5);
+    EXPECT_GE(lowest, -setup.spoil + 2 - 1e-6);
+}
+
 TEST(MakeToolpath, HolderAndSpindleStayClearBesideATallPiece) {
     // A tower of 200 mm with a stick-out of 150: the holder is deep beside it.
     const TriangleMesh mesh =

@@ -1,0 +1,67 @@
+// Whether the cell still has the memory that it had: its IDENTITY compared with the one seen before. O(1).
+
+#include "devices/hand_off_context.h"
+#include "devices/seen_store.h"
+
+namespace qchopper::hand_off {
+namespace {
+
+// Nothing more is sent: what the cell would answer to QUERY proves nothing.
+HandOffAction end_with_lost_store(StepContext& context, const SeenStore& now, const std::string& what) {
+    HandOff& h = context.h;
+    h.store_is_lost = true;
+    h.store = h.kept_store = now;
+    context.keep(JournalKind::store_lost).store = now;
+    h.claim_sent = h.is_owner = false;
+    h.why = "CELL_STORE_LOST: the cell has not the memory that it had before; " + what;
+    h.to_do = "Look at the cell, then accept its new memory: qchopper cell accept-store";
+    return give_up(context, h.why, h.to_do);
+}
+
+HandOffAction compare(StepContext& context, const SeenStore& now) {
+    HandOff& h = context.h;
+    if (context.plan.options.past.store_is_lost) {
+        return end_with_lost_store(context, now, "nobody has accepted its new one");
+    }
+    if (h.store) {
+        if (const std::string what = loss_between(*h.store, now); !what.empty()) {
+            return end_with_lost_store(context, now, what);
+        }
+    }
+    h.store = now;
+    keep_store(context);
+    if (h.step == HandOffStep::check_cell) return enter(context, HandOffStep::stage_file);
+    if (h.step == HandOffStep::claim) return enter(context, HandOffStep::claim);
+    return fence(context, h.claim_reason);
+}
+
+}  // namespace
+
+HandOffAction ask_identity(StepContext& context) {
+    if (has_identity(context.status().version)) return plain(Kind::read_identity);
+    return compare(context, seen_store(context.status(), {}));
+}
+
+HandOffAction on_identity(StepContext& context) {
+    return compare(context, seen_store(*context.in.identity));
+}
+
+std::optional<HandOffAction> compare_counters(StepContext& context) {
+    HandOff& h = context.h;
+    if (!h.store) return std::nullopt;
+    const SeenStore now = seen_store(context.status(), h.store->store_id);
+    if (const std::string what = loss_between(*h.store, now); !what.empty()) {
+        return end_with_lost_store(context, now, what);
+    }
+    h.store = now;
+    return std::nullopt;
+}
+
+void keep_store(StepContext& context) {
+    HandOff& h = context.h;
+    if (!h.store || h.store == h.kept_store) return;
+    h.kept_store = h.store;
+    context.keep(JournalKind::identity).store = *h.store;
+}
+
+}  // namespace qchopper::hand_off

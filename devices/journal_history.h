@@ -1,0 +1,59 @@
+// What a journal says about its cell and its jobs, for the next dispatcher.
+//
+// A pure function of the rows (tests/devices/journal_history_test.cpp). Where rows were lost at the end it errs to the
+// safe side as long as the intent of a START is there: then the START may have arrived.
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "devices/blocks.h"
+#include "devices/dispatch_options.h"
+#include "devices/journal.h"
+
+namespace qchopper {
+
+struct JournalJob {
+    Uuid job_id{};
+    Sha256 file_sha256{};
+    std::vector<std::uint16_t> ticket;  // the block TICKET
+    bool is_stored = false;             // STORE may have arrived
+    bool start_may_have_arrived = false;
+    bool is_started = false;
+    bool has_ended = false;  // ended or aborted in the cell
+    JobResult job_result = JobResult::none;
+    std::optional<StartVerdict> verdict;  // of the last hand-off that came to its end
+    bool is_settled = false;              // the cell lost its memory of it, and the operator has looked
+
+    bool is_complete() const { return has_ended && job_result == JobResult::complete; }
+    // Its hand-off did not come to an end: the cell is to be asked.
+    bool is_open() const { return !has_ended && !is_settled && verdict != StartVerdict::not_started; }
+};
+
+struct JournalHistory {
+    std::optional<SeenStore> store;  // as last seen or accepted
+    bool store_is_lost = false;      // and not accepted since
+    std::uint32_t epoch = 0;         // the highest one used in CLAIM, for the store as it is now
+    bool lease_may_live = false;     // of owner and secret
+    std::uint32_t owner = 0;         // of the last CLAIM
+    std::uint32_t secret = 0;
+    std::uint32_t seq = 0;  // the last CMD_SEQ of that owner
+    std::vector<JournalJob> jobs;
+
+    const JournalJob* last_job_of(const Sha256& file) const;  // nullptr if none
+};
+
+// What a hand-off to this cell has to know; of `job` if it is taken up (nullptr: a new job).
+HandOffPast past_of(const JournalHistory& history, const JournalJob* job);
+
+// Why part `part` of `parts` of a piece must not be carved yet, or "": the part before it has not ended complete. Parts
+// of one piece have the same PROJECT_ID, PIECE_NO and PARTS.
+std::string why_part_must_wait(const JournalHistory& history, const WireTicket& ticket);
+
+JournalHistory history_of(std::span<const JournalRow> rows);
+
+}  // namespace qchopper

@@ -1,0 +1,144 @@
+// Journal and commands to a cell, with cell-sim and dispatch as programs of their own.
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/cli/exit_code.h"
+#include "tests/app/cli/program.h"
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using program::Arguments;
+using program::Ended;
+using program::Process;
+
+struct CellCommands : ::testing::Test {
+    program::Folder folder;
+    std::unique_ptr<Process> cell;
+    std::string to = "127.0.0.1:0";
+
+    void SetUp() override {
+        fs::copy(program::prepared() / "scan.qch", folder.path / "p.qch", fs::copy_options::recursive);
+        fs::create_directory(folder.path / "drop");
+    }
+    // At the same address each time, with the memory in the folder `store`.
+    void start_cell(const std::string& speed, const Arguments& more = {}) {
+        Arguments arguments{"cell-sim", "--listen", to, "--drop", "drop", "--store", "store", "--speed", speed};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        cell = std::make_unique<Process>(arguments, program::RunOptions{folder.path});
+        ASSERT_TRUE(cell->waits_until_out("\n")) << cell->err();
+        const std::string line = cell->out();
+        to = line.substr(std::string("listening ").size(), line.find('\n') - std::string("listening ").size());
+    }
+    void stop_cell() {
+        cell->signal(SIGTERM);
+        EXPECT_EQ(cell->wait().code, 0);
+    }
+    Ended run(Arguments arguments, bool has_address = true) const {
+        if (has_address) arguments.insert(arguments.end(), {"--to", to});
+        return program::run(arguments, {folder.path});
+    }
+    Ended dispatch(const Arguments& more = {}) const {
+        Arguments arguments{"dispatch", "p.qch", "--piece", "C", "--drop", "drop"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments);
+    }
+    Json status() const { return Json::parse(run({"cell", "status", "--json"}).out); }
+    static bool has(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+};
+
+TEST_F(CellCommands, AFileIsCarvedOnceUnlessAgainIsPassed) {
+    start_cell("100000");
+    EXPECT_EQ(dispatch().code, 0);
+    const Ended second = dispatch();
+    EXPECT_EQ(second.code, exit_demand_broken);
+    EXPECT_TRUE(has(second.out, "NOT STARTED")) << second.out;
+    EXPECT_TRUE(has(second.out, "--again")) << second.out;
+    EXPECT_EQ(dispatch({"--again", "--chunks", "--rehearse"}).code, 0);
+    EXPECT_EQ(status()["store"]["starts_total"], 2);
+    const Ended all = run({"dispatch", "p.qch", "--drop", "drop"});  // A and B now, C before
+    EXPECT_EQ(all.code, 0) << all.out << all.err;
+    EXPECT_EQ(status()["store"]["starts_total"], 4);
+    stop_cell();
+}
+
+TEST_F(CellCommands, F60_WithoutANewBlockTheQueueStopsAfterOneJob) {
+    program::put(folder.path / "block.txt", "block fresh\n");
+    start_cell("100000", {"--script", "block.txt"});
+    const Ended queue = run({"dispatch", "p.qch", "--drop", "drop"});
+    EXPECT_EQ(queue.code, exit_demand_broken) << queue.out;
+    EXPECT_TRUE(has(queue.out, "NO_CONSENT")) << queue.out;
+    EXPECT_TRUE(has(queue.out, "2 of 3 jobs were handed")) << queue.out;
+    EXPECT_EQ(status()["store"]["starts_total"], 1);
+    stop_cell();
+}
+
+TEST_F(CellCommands, AKilledDispatchIsTakenUpAndTheJournalTellsIt) {
+    start_cell("20");
+    Process killed({"dispatch", "p.qch", "--piece", "C", "--drop", "drop", "--to", to}, {folder.path});
+    ASSERT_TRUE(killed.waits_until_err("the job has started")) << killed.err();
+    killed.signal(SIGKILL);
+    killed.wait();
+    EXPECT_EQ(run({"cell", "stop"}).code, 0);
+    const Ended next = dispatch();
+    EXPECT_EQ(next.code, exit_demand_broken) << next.out;
+    EXPECT_TRUE(has(next.out, "STARTED")) << next.out;
+    EXPECT_TRUE(has(next.err, "left the job")) << next.err;
+    EXPECT_EQ(status()["store"]["starts_total"], 1);
+    EXPECT_EQ(run({"journal", "verify"}, false).code, 0);
+    const Json journals = Json::parse(run({"journal", "show", "--json"}, false).out);
+    EXPECT_EQ(journals["schema"], "qchopper-journal-1");
+    ASSERT_EQ(journals["journals"].size(), 1U);
+    EXPECT_EQ(journals["journals"][0]["open_jobs"], 0);
+    std::string kinds;
+    for (const Json& row : journals["journals"][0]["rows"]) kinds += row["kind"].get<std::string>() + " ";
+    EXPECT_TRUE(has(kinds, "START_INTENT STARTED ")) << kinds;
+    EXPECT_TRUE(has(kinds, "RESUMED ")) << kinds;
+    stop_cell();
+}
+
+TEST_F(CellCommands, ARunningDispatchIsHeldAndGoesOn) {
+    start_cell("100");
+    Process running({"dispatch", "p.qch", "--piece", "C", "--drop", "drop", "--to", to}, {folder.path});
+    ASSERT_TRUE(running.waits_until_err("the job has started")) << running.err();
+    const Ended held = run({"cell", "hold"});
+    EXPECT_EQ(held.code, 0) << held.out << held.err;
+    EXPECT_EQ(run({"cell", "reset"}).code, exit_busy);
+    const Ended unheld = run({"cell", "unhold", "--json"});
+    EXPECT_EQ(unheld.code, 0) << unheld.out << unheld.err;
+    EXPECT_EQ(Json::parse(unheld.out)["end"], "done");
+    EXPECT_TRUE(has(unheld.out, "running dispatcher")) << unheld.out;
+    const Ended stopped = run({"cell", "stop"});
+    EXPECT_EQ(stopped.code, 0);
+    EXPECT_TRUE(has(stopped.out, "no emergency stop")) << stopped.out;
+    EXPECT_EQ(running.wait().code, exit_demand_broken);
+    EXPECT_EQ(status()["store"]["starts_total"], 1);
+    stop_cell();
+}
+
+TEST_F(CellCommands, ACellThatWasEmptiedIsAcceptedInSoManyWords) {
+    start_cell("100000");
+    EXPECT_EQ(dispatch().code, 0);
+    stop_cell();
+    fs::remove_all(folder.path / "store");
+    start_cell("100000");
+    const Ended lost = dispatch({"--again"});
+    EXPECT_EQ(lost.code, exit_demand_broken) << lost.out << lost.err;
+    EXPECT_TRUE(has(lost.out, "CELL_STORE_LOST")) << lost.out;
+    EXPECT_TRUE(has(lost.out, "accept-store")) << lost.out;
+    EXPECT_EQ(status()["store"]["starts_total"], 0);
+    EXPECT_FALSE(status()["store_lost"].is_null());
+    EXPECT_EQ(run({"cell", "reset"}).code, exit_demand_broken);
+    EXPECT_EQ(run({"cell", "accept-store"}).code, 0);
+    EXPECT_TRUE(status()["store_lost"].is_null());
+    EXPECT_EQ(dispatch({"--again"}).code, 0);
+    stop_cell();
+}
+
+}  // namespace
+}  // namespace qchopper

@@ -1,0 +1,237 @@
+// qchopper verify, and what dispatch does with its verdicts. Where a positive verdict is needed the piece is the cap of
+// a ball (tests/app/ball_cap.h), which is verified in both ready KUKA cells.
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/exit_code.h"
+#include "base/file.h"
+#include "base/hex.h"
+#include "base/sha256.h"
+#include "base/zip.h"
+#include "segment/io/write_ply.h"
+#include "tests/app/ball_cap.h"
+#include "tests/app/cli/program.h"
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using program::Arguments;
+using program::Ended;
+
+constexpr const char* arm_alone = "kr60-ha";
+constexpr const char* with_table = "kr120-r2500-pro-rotary";
+
+fs::path cell_file(const std::string& name) {
+    return fs::path(QCHOPPER_SOURCE_DIR) / "cells" / (name + ".toml");
+}
+
+Ended prepare(const fs::path& folder, const std::string& cell, const Arguments& more = {}) {
+    write_file(folder / "cap.ply", to_ply(ball_cap()));
+    Arguments arguments{"prepare",  "cap.ply", "--units",    "mm", "--cell", cell_file(cell).string(),
+                        "--preset", "thesis",  "--max-cuts", "0",  "-o",     "p.qch"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return program::run(arguments, {folder});
+}
+
+// Made once per process and cell: a folder with the project p.qch of one piece.
+const fs::path& proven(const std::string& cell) {
+    static std::map<std::string, program::Folder> folders;
+    const auto known = folders.find(cell);
+    if (known != folders.end()) return known->second.path;
+    const fs::path& folder = folders[cell].path;
+    const Ended made = prepare(folder, cell);
+    EXPECT_EQ(made.code, 0) << made.err << made.out;
+    EXPECT_NE(made.out.find("verified"), std::string::npos) << made.out;
+    return folder;
+}
+
+bool has(const std::string& text, const std::string& words) {
+    return text.find(words) != std::string::npos;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+struct VerifyCommand : ::testing::Test {
+    program::Folder folder;
+    fs::path job = folder.path / "p.qch" / "jobs" / "A.qjob";
+    fs::path verdict = folder.path / "p.qch" / "jobs" / "A.verdict.json";
+
+    void copy_project(const std::string& cell = arm_alone) const {
+        fs::copy(proven(cell) / "p.qch", folder.path / "p.qch", fs::copy_options::recursive);
+        fs::copy(proven(cell) / "cap.ply", folder.path / "cap.ply");
+    }
+    Ended run(const Arguments& arguments) const { return program::run(arguments, {folder.path}); }
+    // Nothing listens there: a job that is refused is refused before.
+    Ended dispatch() const { return run({"dispatch", "p.qch", "--to", "127.0.0.1:1", "--drop", "."}); }
+    // Changes a file of the job with the hashes of it in the manifest and of the job in the project.
+    void change_entry(const std::string& name, const std::function<void(Bytes&)>& change) const {
+        const Bytes before = read_file(job);
+        std::map<std::string, Bytes> files = unzip(before, "A.qjob");
+        const std::string old_hash = to_hex(sha256(files.at(name)));
+        change(files.at(name));
+        const Bytes& manifest = files.at("manifest.json");
+        const std::string text = replaced({manifest.begin(), manifest.end()}, old_hash, to_hex(sha256(files.at(name))));
+        files.at("manifest.json") = {text.begin(), text.end()};
+        const Bytes after = zip(files);
+        write_file(job, after);
+        const fs::path project = folder.path / "p.qch" / "project.json";
+        program::put(project, replaced(program::bytes_in(project), to_hex(sha256(before)), to_hex(sha256(after))));
+    }
+    // The verdict of verify, whose bytes are then those of prepare; in another folder too.
+    void expect_verdict_repeats(const std::string& cell) const {
+        copy_project(cell);
+        const std::string made = program::bytes_in(verdict);
+        fs::remove(verdict);
+        const Ended again = run({"verify", "p.qch"});
+        EXPECT_EQ(again.code, 0) << again.err;
+        EXPECT_TRUE(has(again.out, "piece A (A.qjob): verified")) << again.out;
+        EXPECT_EQ(program::bytes_in(verdict), made);
+        const program::Folder elsewhere;
+        fs::copy(job, elsewhere.path / "A.qjob");
+        const Ended alone =
+            program::run({"verify", "A.qjob", "--cell", cell_file(cell).string()}, {elsewhere.path, {}, true});
+        EXPECT_EQ(alone.code, 0) << alone.err;
+        EXPECT_EQ(program::bytes_in(elsewhere.path / "A.verdict.json"), made) << "on one core, without the project";
+    }
+};
+
+TEST_F(VerifyCommand, RepeatsTheVerdictOfPrepareForAnArmAlone) {
+    expect_verdict_repeats(arm_alone);
+}
+
+TEST_F(VerifyCommand, RepeatsTheVerdictOfPrepareForARotaryTable) {
+    expect_verdict_repeats(with_table);
+}
+
+TEST_F(VerifyCommand, GivesOneDocument) {
+    copy_project();
+    const Ended ended = run({"verify", "p.qch", "--piece", "A", "--json"});
+    const json document = json::parse(ended.out, nullptr, false);
+    ASSERT_TRUE(document.is_object()) << ended.out;
+    EXPECT_EQ(document["schema"], "qchopper-verify-1");
+    EXPECT_EQ(document["all_positive"], true);
+    ASSERT_EQ(document["jobs"].size(), 1U);
+    const json& first = document["jobs"][0];
+    EXPECT_EQ(first["sha256"], to_hex(sha256(read_file(job))));
+    EXPECT_EQ(first["cell_sha256"], to_hex(sha256(read_file(cell_file(arm_alone)))));
+    EXPECT_EQ(first["positive"], true);
+    EXPECT_EQ(first["findings"], json::array());
+    EXPECT_LE(first["figures"]["max_gouge_mm"].get<double>(), 0.25);
+    EXPECT_GE(first["figures"]["within_tolerance_percent"].get<double>(), 99.5);
+    EXPECT_EQ(first["figures"]["rapids_in_foam"], 0);
+    EXPECT_EQ(first["figures"]["holder_contacts"], 0);
+    EXPECT_TRUE(fs::exists(folder.path / first["verdict"].get<std::string>()));
+}
+
+TEST_F(VerifyCommand, AJobOfAnotherCellIsRefused) {
+    copy_project();
+    const Ended ended = run({"verify", job.string(), "--cell", cell_file(with_table).string()});
+    EXPECT_EQ(ended.code, exit_demand_broken) << ended.err;
+    EXPECT_TRUE(has(ended.out, "REFUSED")) << ended.out;
+    EXPECT_TRUE(has(ended.out, "the job is made for cell")) << ended.out;
+    EXPECT_EQ(dispatch().code, exit_demand_broken) << "the verdict beside it is that of the other cell file now";
+}
+
+TEST_F(VerifyCommand, AChangedCellFileMakesTheVerdictVoid) {
+    copy_project();
+    std::ofstream(folder.path / "p.qch" / "cell.toml", std::ios::app) << "# changed\n";
+    const Ended refused = dispatch();
+    EXPECT_EQ(refused.code, exit_demand_broken) << refused.err;
+    EXPECT_TRUE(has(refused.err, "that of another cell file")) << refused.err;
+    EXPECT_EQ(run({"verify", "p.qch"}).code, 0);
+    EXPECT_EQ(dispatch().code, exit_unreachable) << "judged again it goes on to the cell, which is not there";
+}
+
+TEST_F(VerifyCommand, AChangedJobFileGetsNoVerdict) {
+    copy_project();
+    const std::string before = program::bytes_in(verdict);
+    std::string bytes = program::bytes_in(job);
+    bytes[bytes.size() / 2] ^= 1;
+    program::put(job, bytes);
+    for (const Arguments& arguments : {Arguments{"verify", "p.qch"}, Arguments{"verify", job.string()}}) {
+        const Ended ended = run(arguments);
+        EXPECT_EQ(ended.code, exit_mesh) << ended.err;
+        EXPECT_TRUE(has(ended.err, "A.qjob")) << ended.err;
+        EXPECT_TRUE(has(ended.err, "No verdict was changed.")) << ended.err;
+    }
+    EXPECT_EQ(program::bytes_in(verdict), before);
+    EXPECT_EQ(dispatch().code, exit_mesh);
+}
+
+TEST_F(VerifyCommand, AJobWithAnotherPieceThanTheProjectIsNamed) {
+    copy_project();
+    change_entry("piece.stl", [](Bytes& stl) { stl[84 + 12 + 2] ^= 0x40U; });  // a coordinate of the first triangle
+    const Ended ended = run({"verify", "p.qch"});
+    EXPECT_EQ(ended.code, exit_demand_broken) << ended.err;
+    EXPECT_TRUE(has(ended.out, "the mesh of the job is not that of piece A")) << ended.out;
+}
+
+TEST_F(VerifyCommand, ATruncatedProgramIsNamedAndNotSent) {
+    copy_project();
+    change_entry("qc_1.dat", [](Bytes& text) { text.back() = ' '; });
+    EXPECT_EQ(dispatch().code, exit_demand_broken) << "the verdict is that of other bytes";
+    const Ended ended = run({"verify", "p.qch"});
+    EXPECT_EQ(ended.code, exit_demand_broken) << ended.err;
+    EXPECT_TRUE(has(ended.out, "qc_1.dat")) << ended.out;
+    const Ended refused = dispatch();
+    EXPECT_EQ(refused.code, exit_demand_broken);
+    EXPECT_TRUE(has(refused.err, "its verdict is negative: ")) << refused.err;
+    EXPECT_TRUE(has(refused.err, "qc_1.dat")) << refused.err;
+}
+
+TEST_F(VerifyCommand, AJobWithoutAProgramGoesToASimulatedCellOnly) {
+    const Ended made = prepare(folder.path, arm_alone, {"--no-programs"});
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_FALSE(fs::exists(verdict));
+    const Ended dry = run({"dry-run", "p.qch"});
+    EXPECT_EQ(dry.code, 0) << dry.err;
+    EXPECT_TRUE(has(dry.err, "it holds no robot program")) << dry.err;
+    const Ended ended = run({"verify", "p.qch"});
+    EXPECT_EQ(ended.code, exit_demand_broken) << ended.err;
+    EXPECT_TRUE(has(ended.out, "the job holds no robot program: prepare was asked for none")) << ended.out;
+}
+
+TEST_F(VerifyCommand, AVerifiedJobGoesToTheCell) {
+    copy_project();
+    fs::create_directory(folder.path / "drop");
+    program::Process cell(
+        {"cell-sim", "--listen", "127.0.0.1:0", "--drop", "drop", "--speed", "100000", "--consent", "auto", "--json"},
+        {folder.path});
+    ASSERT_TRUE(cell.waits_until_out("\n")) << cell.err();
+    const std::string to = json::parse(cell.out())["listening"];
+    const Ended ended = run({"dispatch", "p.qch", "--to", to, "--drop", "drop"});
+    EXPECT_EQ(ended.code, 0) << ended.err << ended.out;
+    EXPECT_FALSE(has(ended.err, "warning")) << ended.err;
+    cell.signal(SIGTERM);
+    EXPECT_EQ(cell.wait().code, 0);
+}
+
+TEST_F(VerifyCommand, WrongUseIsNamed) {
+    copy_project();
+    const auto expect_refused = [&](const Arguments& arguments, int code, const std::string& words) {
+        const Ended ended = run(arguments);
+        EXPECT_EQ(ended.code, code) << ended.err;
+        EXPECT_TRUE(has(ended.err, words)) << ended.err;
+    };
+    expect_refused({"verify", "p.qch", "--cell", cell_file(arm_alone).string()}, exit_use, "leave --cell out");
+    expect_refused({"verify", job.string(), "--piece", "A"}, exit_use, "leave --piece out");
+    expect_refused({"verify", "p.qch", "--piece", "Z"}, exit_use, "Z");
+    expect_refused({"verify", "none.qjob", "--cell", cell_file(arm_alone).string()}, exit_missing, "none.qjob");
+    fs::copy(job, folder.path / "A.qjob");
+    expect_refused({"verify", "A.qjob"}, exit_use, "pass --cell FILE");
+    expect_refused({"verify", "cap.ply", "--cell", cell_file(arm_alone).string()}, exit_mesh, "cap.ply");
+}
+
+}  // namespace
+}  // namespace qchopper

@@ -1,0 +1,176 @@
+// The hand-off when the link or the cell does not answer as it should.
+
+#include "devices/hand_off.h"
+
+#include "tests/devices/scripted_cell.h"
+
+namespace qchopper {
+namespace {
+
+using namespace scripted;
+
+TEST(HandOff, AfterALostLinkComesAFenceAndAQuestionBeforeAnythingElse) {
+    ScriptedCell cell;
+    lose_first_start(cell, [&](const Command&) { cell.status.job_state = JobState::stored; });  // it did not arrive
+    end_the_job(cell);
+    EXPECT_EQ(cell.order(),
+              "CLAIM QUERY QUERY_FILE Reset STORE VERIFY PREPARE CLAIM QUERY QUERY_FILE STORE VERIFY PREPARE Start "
+              "QUERY CLEAR_RESULT Reset "
+              "RELEASE ");
+    EXPECT_GT(cell.commands[7].epoch, cell.commands[6].epoch);
+    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+    EXPECT_EQ(cell.commands[13].token, 1002U);  // a new token
+}
+
+TEST(Fault, F07_AStartThatArrivedThoughItsAnswerDidNotIsTakenUp) {
+    ScriptedCell cell;
+    lose_first_start(cell, [&](const Command& start) { cell.execute(start); });
+    end_the_job(cell);
+    EXPECT_EQ(cell.count(CellCommand::start), 1);
+    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+}
+
+TEST(HandOff, ALinkThatNeverComesBackIsUnknownOnlyIfAStartMayHaveArrived) {
+    for (const CellCommand last : {CellCommand::store, CellCommand::prepare, CellCommand::start}) {
+        ScriptedCell cell;
+        bool dead = false;
+        cell.lose = [&](const HandOffAction& action) {
+            dead = dead || writes(action, last);
+            return dead && action.kind != Kind::wait;
+        };
+        const double began = cell.now_s;
+        cell.run();
+        EXPECT_EQ(cell.state.verdict, last == CellCommand::start ? StartVerdict::unknown : StartVerdict::not_started);
+        EXPECT_EQ(cell.count(CellCommand::start), 0);
+        EXPECT_LT(cell.now_s - began, 40);
+    }
+}
+
+TEST(HandOff, ALinkLostForGoodWhileTheJobRunsIsStillStarted) {
+    ScriptedCell cell;
+    cell.run_to(HandOffStep::run);
+    cell.lose = [](const HandOffAction& action) { return action.kind != Kind::wait; };
+    cell.run();
+    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+    EXPECT_NE(cell.state.why.find("runs on by itself"), std::string::npos);
+}
+
+TEST(HandOff, ABusyCellIsAskedAgainTenTimesAndNoMore) {
+    ScriptedCell cell;
+    int asked = 0;
+    cell.refuse = [](const HandOffAction& action) { return writes(action, CellCommand::store) ? 6 : 0; };
+    while (cell.step()) asked += writes(cell.action, CellCommand::store) ? 1 : 0;
+    EXPECT_EQ(asked, 11);
+    EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+    EXPECT_NE(cell.state.why.find("exception 6"), std::string::npos) << cell.state.why;
+}
+
+TEST(HandOff, AnyOtherExceptionIsReportedAtOnce) {
+    ScriptedCell cell;
+    int asked = 0;
+    cell.refuse = [](const HandOffAction& action) { return action.kind == Kind::write_ticket ? 2 : 0; };
+    while (cell.step()) asked += cell.action.kind == Kind::write_ticket ? 1 : 0;
+    EXPECT_EQ(asked, 1);
+    EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+}
+
+TEST(HandOff, AFrozenCellGetsNoCommand) {
+    ScriptedCell cell;
+    cell.grant = [&](const Command& c) {
+        return c.command == CellCommand::prepare ? AckResult::pending : AckResult::ok;
+    };
+    cell.run_to(HandOffStep::prepare);
+    cell.freeze_s = cell.now_s;
+    const auto before = cell.commands.size();
+    cell.run();
+    EXPECT_EQ(cell.commands.size(), before);
+    EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+    EXPECT_NE(cell.state.why.find("frozen"), std::string::npos) << cell.state.why;
+}
+
+TEST(HandOff, AfterAnExceptionTheCellIsGivenBack) {
+    for (const int code : {1, 2, 3, 4}) {
+        for (const CellCommand at : {CellCommand::query, CellCommand::verify, CellCommand::prepare}) {
+            ScriptedCell cell;
+            cell.refuse = [&](const HandOffAction& action) { return writes(action, at) ? code : 0; };
+            cell.run();
+            EXPECT_EQ(cell.state.verdict, StartVerdict::not_started);
+            EXPECT_NE(cell.state.why.find("exception " + std::to_string(code)), std::string::npos) << cell.state.why;
+            expect_leaves_with(cell, at == CellCommand::query ? "CLAIM RELEASE " : " CANCEL RELEASE ");
+        }
+    }
+    // With a cell that refuses everything from some moment on the hand-off ends as well.
+    for (const HandOffStep step : {HandOffStep::prepare, HandOffStep::run}) {
+        ScriptedCell cell;
+        cell.run_to(step);
+        cell.refuse = [](const HandOffAction& action) { return action.kind == Kind::wait ? 0 : 4; };
+        const double began_s = cell.now_s;
+        cell.run();
+        EXPECT_LT(cell.now_s - began_s, 1);
+        EXPECT_EQ(cell.state.verdict, step == HandOffStep::run ? StartVerdict::started : StartVerdict::not_started);
+    }
+}
+
+TEST(HandOff, TheFirstStatusIsTriedAgainBeforeItIsGivenUp) {
+    const auto first = [](HandOffInput failure, int failures) {
+        ScriptedCell cell;
+        cell.step();
+        for (int n = 0; n < 100 && cell.state.step != HandOffStep::finished; ++n) {
+            if (cell.action.kind == Kind::read_status && failures-- > 0) cell.input = failure;
+            if (cell.state.step > HandOffStep::check_cell || !cell.step()) break;
+        }
+        return cell;
+    };
+    HandOffInput silent;
+    silent.end = BusEnd::lost;
+    silent.why = "no answer in time";
+    EXPECT_GT(first(silent, 2).state.step, HandOffStep::check_cell);
+    EXPECT_EQ(first(silent, 99).state.fault, DeviceFault::unreachable);
+    EXPECT_LT(first(silent, 99).now_s, 103);
+    HandOffInput alien = silent;
+    alien.is_alien = true;
+    EXPECT_GT(first(alien, 1).state.step, HandOffStep::check_cell);
+    EXPECT_EQ(first(alien, 99).state.fault, DeviceFault::protocol);
+    HandOffInput damaged = silent;
+    damaged.fault = BlockFault::crc;
+    EXPECT_GT(first(damaged, 2).state.step, HandOffStep::check_cell);
+    EXPECT_EQ(first(damaged, 99).state.fault, DeviceFault::protocol);
+    const auto exception = [](int code) {
+        HandOffInput input;
+        input.end = BusEnd::exception;
+        input.exception = code;
+        return input;
+    };
+    EXPECT_EQ(first(exception(6), 99).state.fault, DeviceFault::busy);
+    EXPECT_EQ(first(exception(2), 99).state.fault, DeviceFault::protocol);
+    for (const int code : {4, 10, 11}) {
+        EXPECT_GT(first(exception(code), 2).state.step, HandOffStep::check_cell) << code;
+        EXPECT_EQ(first(exception(code), 99).state.fault, DeviceFault::unreachable) << code;
+    }
+}
+
+TEST(HandOff, ACellWithAnotherMagicNumberIsAnErrorOfTheProtocol) {
+    ScriptedCell cell;
+    cell.step();
+    cell.input = {};
+    cell.input.end = BusEnd::lost;
+    cell.input.fault = BlockFault::magic;
+    HandOffTransition turn = advance(cell.plan, cell.state, cell.input, 1);
+    EXPECT_EQ(turn.action.kind, Kind::finish);
+    EXPECT_EQ(turn.state.fault, DeviceFault::protocol);
+}
+
+TEST(Fault, F48_ARealCellWhereASimulatedOneIsWantedAndTheReverse) {
+    for (const bool want_simulated : {true, false}) {
+        HandOffPlan plan = a_plan();
+        plan.options.want_simulated = want_simulated;
+        ScriptedCell cell(plan);
+        cell.status.flags = want_simulated ? 0 : flag::simulated;
+        cell.run();
+        EXPECT_EQ(cell.state.fault, DeviceFault::refused);
+        EXPECT_TRUE(cell.written.empty());
+    }
+}
+
+}  // namespace
+}  // namespace qchopper

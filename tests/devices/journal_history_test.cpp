@@ -1,0 +1,125 @@
+// What rows mean for the next dispatcher.
+
+#include "devices/journal_history.h"
+
+#include <gtest/gtest.h>
+
+namespace qchopper {
+namespace {
+
+using Is = JournalKind;
+
+constexpr Uuid a{1};
+constexpr Uuid b{2};
+
+struct Rows {
+    std::vector<JournalRow> rows;
+    JournalEvent& add(JournalKind kind, const Uuid& job = a) {
+        JournalRow row;
+        row.number = static_cast<std::int64_t>(rows.size()) + 1;
+        row.event.kind = kind;
+        row.event.job_id = job;
+        rows.push_back(row);
+        return rows.back().event;
+    }
+    void command(CellCommand command, std::uint32_t seq, const Uuid& job = a) {
+        JournalEvent& event = add(Is::command, job);
+        event.command = command;
+        event.owner = 5;
+        event.seq = seq;
+    }
+    void claim(std::uint32_t epoch, std::uint32_t seq) {
+        JournalEvent& event = add(Is::claim, {});
+        event.epoch = epoch;
+        event.owner = 5;
+        event.secret = 6;
+        event.seq = seq;
+    }
+    JournalHistory history() const { return history_of(rows); }
+    const JournalJob& first() {
+        kept = history();
+        return kept.jobs.at(0);
+    }
+    JournalHistory kept;
+};
+
+TEST(JournalHistory, AJobIsOpenUntilItsEndIsCertain) {
+    Rows rows;
+    rows.add(Is::created);
+    EXPECT_TRUE(rows.first().is_open());
+    rows.command(CellCommand::store, 3);
+    EXPECT_TRUE(rows.first().is_stored);
+    rows.add(Is::start_intent);
+    EXPECT_TRUE(rows.first().start_may_have_arrived);
+    rows.add(Is::closed).verdict = StartVerdict::unknown;
+    EXPECT_TRUE(rows.first().is_open());
+    rows.add(Is::resumed);
+    rows.add(Is::started);
+    EXPECT_TRUE(rows.first().is_started);
+    rows.add(Is::closed).verdict = StartVerdict::started;
+    EXPECT_TRUE(rows.first().is_open());  // it runs on
+    JournalEvent& end = rows.add(Is::result);
+    end.job_state = JobState::ended;
+    end.job_result = JobResult::complete;
+    EXPECT_FALSE(rows.first().is_open());
+    EXPECT_TRUE(rows.first().is_complete());
+}
+
+TEST(JournalHistory, AJobThatWasNotStartedIsClosed) {
+    Rows rows;
+    rows.add(Is::created);
+    rows.add(Is::start_intent);
+    rows.add(Is::start_void);
+    EXPECT_FALSE(rows.first().start_may_have_arrived);
+    rows.add(Is::closed).verdict = StartVerdict::not_started;
+    EXPECT_FALSE(rows.first().is_open());
+}
+
+TEST(JournalHistory, TheOwnerGoesOnWhileItsLeaseMayLive) {
+    Rows rows;
+    rows.add(Is::created);
+    rows.claim(7, 1);
+    rows.command(CellCommand::query, 2);
+    EXPECT_TRUE(rows.history().lease_may_live);
+    EXPECT_EQ(rows.history().seq, 2U);
+    EXPECT_EQ(rows.history().epoch, 7U);
+    EXPECT_EQ(rows.history().owner, 5U);
+    EXPECT_EQ(rows.history().secret, 6U);
+    rows.command(CellCommand::release, 3);
+    EXPECT_TRUE(rows.history().lease_may_live);  // RELEASE may not have arrived
+    rows.add(Is::closed).verdict = StartVerdict::not_started;
+    EXPECT_FALSE(rows.history().lease_may_live);
+}
+
+TEST(JournalHistory, AnAcceptedStoreSettlesWhatWasOpen) {
+    Rows rows;
+    rows.add(Is::identity, {}).store = {{1}, 0x0101, 3, 9, 4};
+    rows.add(Is::created);
+    rows.claim(9, 1);
+    rows.add(Is::start_intent);
+    rows.add(Is::created, b);
+    rows.add(Is::store_lost, {}).store = {{2}, 0x0101, 1, 0, 0};
+    EXPECT_TRUE(rows.history().store_is_lost);
+    EXPECT_EQ(rows.history().store->boot_count, 3U);  // the one that was trusted
+    rows.add(Is::store_accepted, {}).store = {{2}, 0x0101, 1, 0, 0};
+    const JournalHistory history = rows.history();
+    EXPECT_FALSE(history.store_is_lost);
+    EXPECT_EQ(history.store->store_id, (Uuid{2}));
+    EXPECT_EQ(history.epoch, 0U);
+    for (const JournalJob& job : history.jobs) EXPECT_FALSE(job.is_open());
+}
+
+TEST(JournalHistory, TheLastJobOfAFileIsFound) {
+    Rows rows;
+    rows.add(Is::created, a).file_sha256.bytes.fill(1);
+    rows.add(Is::created, b).file_sha256.bytes.fill(1);
+    Sha256 file;
+    file.bytes.fill(1);
+    const JournalHistory history = rows.history();
+    ASSERT_NE(history.last_job_of(file), nullptr);
+    EXPECT_EQ(history.last_job_of(file)->job_id, b);
+    EXPECT_EQ(history.last_job_of({}), nullptr);
+}
+
+}  // namespace
+}  // namespace qchopper
