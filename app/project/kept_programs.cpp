@@ -44,6 +44,8 @@ ProvenProgram program_of(const ReadJob& job, const JobVerdict& verdict) {
     for (const VerdictFinding& finding : verdict.findings) input.findings.push_back(describe(finding));
     const auto picture = job.files.find("deviation.png");
     if (picture != job.files.end()) input.deviation_picture = picture->second;
+    const auto stock = job.files.find("stock.bin");
+    if (stock != job.files.end()) input.stock = stock->second;
     proven.proof.chunks = job.program->chunks;
     proven.proof.figures = verdict.figures;
     proven.proof.findings = verdict.findings;

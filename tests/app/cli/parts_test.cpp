@@ -33,7 +33,7 @@ struct Parts : ::testing::Test {
         program::put(folder.path / "cell.toml", replaced(cell, "memory_bytes = 3000000", "memory_bytes = " + memory));
         const program::Ended made = run({"prepare", "v.ply", "--units", "mm", "--scale", "0.15", "--cell", "cell.toml",
                                          "--min-cuts", "0", "-o", project});
-        ASSERT_EQ(made.code, 0) << made.err;
+        ASSERT_LE(made.code, 1) << made.err;  // 1: the piece is not proven, its jobs are there
     }
     fs::path job(const std::string& name) const { return folder.path / "p.qch" / "jobs" / name; }
     json verdict(const std::string& project, const std::string& name) const {
@@ -41,7 +41,8 @@ struct Parts : ::testing::Test {
     }
     std::vector<std::string> kinds(const std::string& name) const {
         std::vector<std::string> kinds;
-        for (const json& finding : verdict("p.qch", name)["findings"]) kinds.push_back(finding["kind"]);
+        const json whole = verdict("p.qch", name);
+        for (const json& finding : whole["findings"]) kinds.push_back(finding["kind"]);
         return kinds;
     }
 };
@@ -109,9 +110,10 @@ TEST_F(Parts, AreVerifiedInTheirOrder) {
     program::put(job("A.p2.qjob"), second);
 
     change_stock(job("A.p2.qjob"), folder.path / "p.qch" / "project.json");
-    EXPECT_NE(run({"verify", "p.qch"}).code, 0);
+    const program::Ended changed = run({"verify", "p.qch"});
+    EXPECT_NE(changed.code, 0);
     EXPECT_TRUE(kinds("A").empty());
-    ASSERT_FALSE(kinds("A.p2").empty());
+    ASSERT_FALSE(kinds("A.p2").empty()) << changed.out << changed.err;
     EXPECT_EQ(kinds("A.p2").front(), "other_stock");
     ASSERT_FALSE(kinds("A.p3").empty());
     EXPECT_EQ(kinds("A.p3").front(), "other_part") << "it names another file as part 2";
