@@ -17,11 +17,13 @@
 namespace qchopper {
 
 struct LeftoverOptions {
-    double reach_cell = 0.5;  // of the closing
-    double sample_mm = 2;     // largest side of the part of a triangle that a point stands for
-    double too_much = 0.5;    // mm above the scallop height
-    double too_deep = 0.25;   // gouge of the tolerance
-    double most = 30;         // farthest distance that is told from others
+    // Of the closing. With 0.5, a point as far from the closing as counts as reachable would keep up to 0.625 mm of
+    // foam and a scallop on it, more than the tolerance allows to a program without any error.
+    double reach_cell = 0.25;
+    double sample_mm = 2;    // largest side of the part of a triangle that a point stands for
+    double too_much = 0.5;   // mm above the scallop height
+    double too_deep = 0.25;  // gouge of the tolerance
+    double most = 30;        // farthest distance that is told from others
 };
 
 struct LeftoverFigures {
