@@ -28,6 +28,8 @@ constexpr double faults_end_s = 150;
 constexpr double hang_s = 1500;      // of virtual time: the end of a schedule
 constexpr double longest_turn_s = 700;  // of one dispatcher: consent takes at most 600
 
+constexpr double longest_call_s = 2;    // under way when the operator asks to stop
+
 struct Killed {};
 
 class StateFolder {
@@ -140,7 +142,7 @@ class Pc {
             say(std::string("error: ") + error.what());
         }
         const double now_s = world_.now_s();
-        const bool is_late = cancelled_ && now_s - cancelled_s_ > HandOffTimings{}.leave_s + 0.1;
+        const bool is_late = cancelled_ && now_s - cancelled_s_ > HandOffTimings{}.leave_s + longest_call_s;
         if (is_late || now_s - began_s > longest_turn_s) {
             say("HANG: the dispatcher did not end in time");
             ++end_.hangs;
@@ -291,10 +293,11 @@ void ScheduleEnd::add(const ScheduleEnd& other) {
     said_unknown += other.said_unknown;
 }
 
-ScheduleEnd run_schedule(std::uint64_t seed) {
+ScheduleEnd run_schedule(std::uint64_t seed, const std::function<void(const std::string&)>& on_line) {
     const StateFolder folder;
     ScheduleEnd end;
     World world(seed, folder.path / "drop");
+    world.on_line = on_line;
     const Plan plan = draw_plan(world);
     world.proxy.set_odds(plan.link_per_thousand);
     plan_power(world, plan, end);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct ScheduleEnd {
     void add(const ScheduleEnd& other);  // without the log
 };
 
-ScheduleEnd run_schedule(std::uint64_t seed);
+// `on_line` is told each line of the log at once; it may be empty.
+ScheduleEnd run_schedule(std::uint64_t seed, const std::function<void(const std::string&)>& on_line = {});
 
 }  // namespace qchopper::schedules

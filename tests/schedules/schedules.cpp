@@ -23,8 +23,7 @@ void print(std::uint64_t count, const ScheduleEnd& sum) {
 }
 
 int replay(std::uint64_t seed) {
-    const ScheduleEnd end = run_schedule(seed);
-    for (const std::string& line : end.log) std::printf("%s\n", line.c_str());
+    const ScheduleEnd end = run_schedule(seed, [](const std::string& line) { std::printf("%s\n", line.c_str()); });
     print(1, end);
     return end.is_right() ? 0 : 1;
 }

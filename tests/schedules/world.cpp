@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 #include <thread>
 
 #include "base/error.h"
@@ -16,6 +17,7 @@ namespace {
 constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t cell_step_us = 50000;
 constexpr std::int64_t off_us = 1000000;
+constexpr double world_end_s = 4000;  // a dispatcher that still runs then never ends
 constexpr double flight_s = 0.0005;  // of a frame, one way
 
 thread_local std::size_t self = 0;
@@ -67,6 +69,7 @@ CellHooks World::hooks() {
 
 void World::say(const std::string& line) {
     log.push_back(std::to_string(now_us_ / 1000) + " ms  " + line);
+    if (on_line) on_line(log.back());
 }
 
 void World::at(double when_s, std::function<void()> event) {
@@ -103,6 +106,7 @@ void World::pass_turn() {
 }
 
 void World::sleep(double seconds) {
+    if (now_s() > world_end_s) throw std::runtime_error("the world has ended");
     std::unique_lock lock(mutex_);
     wake_[self] = now_us_ + to_us(std::max(seconds, 0.0));
     pass_turn();

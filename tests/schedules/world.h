@@ -60,6 +60,7 @@ class World {
     CellState& cell() { return cell_; }
     FaultProxy proxy;
     std::vector<std::string> log;
+    std::function<void(const std::string&)> on_line;
 
  private:
     struct Link {

@@ -52,20 +52,30 @@ const char* name(LinkFault fault) {
     return names[static_cast<std::size_t>(fault)];
 }
 
-void FaultProxy::arm(LinkFault fault, Way way, std::int64_t number, int skip) {
-    armed_.push_back({fault, way, number, skip});
+Condition is_command(CellCommand command) {
+    return [command](const Bytes& frame) {
+        constexpr std::size_t registers_at = header_bytes + 6;
+        constexpr std::size_t cmd_at = registers_at + 2 * 6;
+        if (frame.size() < cmd_at + 2 || frame[header_bytes] != 16) return false;
+        if (frame[header_bytes + 1] != 0 || frame[header_bytes + 2] != 0) return false;  // not at the base of COMMAND
+        return (frame[cmd_at] << 8 | frame[cmd_at + 1]) == static_cast<int>(command);
+    };
 }
 
-FaultProxy::Armed FaultProxy::draw(Way way) {
+void FaultProxy::arm(LinkFault fault, Way way, std::int64_t number, Condition when) {
+    armed_.push_back({fault, way, number, std::move(when)});
+}
+
+FaultProxy::Armed FaultProxy::draw(Way way, const Bytes& frame) {
     for (auto one = armed_.begin(); one != armed_.end(); ++one) {
-        if (one->way != way || one->skip-- > 0) continue;
+        if (one->way != way || (one->when && !one->when(frame))) continue;
         const Armed armed = *one;
         armed_.erase(one);
         return armed;
     }
     if (per_thousand_ == 0 || static_cast<int>(next_random(random_) % 1000) >= per_thousand_) return {};
     constexpr auto kinds = static_cast<std::uint64_t>(LinkFault::count) - 1;
-    return {static_cast<LinkFault>(1 + next_random(random_) % kinds), way, -1, 0};
+    return {static_cast<LinkFault>(1 + next_random(random_) % kinds), way, -1, {}};
 }
 
 std::vector<Piece> FaultProxy::pass(int connection, Way way, const Bytes& frame) {
@@ -75,7 +85,7 @@ std::vector<Piece> FaultProxy::pass(int connection, Way way, const Bytes& frame)
         if (recorded_.size() > most_recorded) recorded_.pop_front();
     }
     if (lane.is_dead || frame.empty()) return {};
-    Armed armed = draw(way);
+    Armed armed = draw(way, frame);
     if (armed.fault != LinkFault::none) {
         if (armed.number < 0) armed.number = drawn_number(armed.fault, frame.size(), next_random(random_));
         log_.push_back(std::string(name(armed.fault)) + (way == Way::to_cell ? " to the cell " : " to the PC ") +

@@ -8,12 +8,14 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "base/file.h"
+#include "devices/packml.h"
 
 namespace qchopper::rig {
 
@@ -36,6 +38,10 @@ const char* name(LinkFault fault);
 
 enum class Way : std::uint8_t { to_cell, to_pc };
 
+using Condition = std::function<bool(const Bytes& frame)>;
+// A frame that writes COMMAND with this command.
+Condition is_command(CellCommand command);
+
 struct Piece {
     double after_s = 0;  // since the frame came
     Bytes bytes;
@@ -48,8 +54,8 @@ class FaultProxy {
     // Of 1000 frames each way `per_thousand` have a fault, drawn from the seed.
     explicit FaultProxy(std::uint64_t seed = 1, int per_thousand = 0) : random_(seed), per_thousand_(per_thousand) {}
 
-    // The next frame on that way after `skip` others has this fault, whatever its connection is.
-    void arm(LinkFault fault, Way way, std::int64_t number = 0, int skip = 0);
+    // The next frame on that way of which `when` holds (empty: any) has this fault, whatever its connection is.
+    void arm(LinkFault fault, Way way, std::int64_t number = 0, Condition when = {});
     void set_odds(int per_thousand) { per_thousand_ = per_thousand; }
 
     // `frame` is whole: MBAP header and PDU.
@@ -64,14 +70,14 @@ class FaultProxy {
         LinkFault fault = LinkFault::none;
         Way way = Way::to_cell;
         std::int64_t number = 0;
-        int skip = 0;
+        Condition when;
     };
     struct Lane {
         bool is_dead = false;
         double late_s = 0;
         Bytes kept;
     };
-    Armed draw(Way way);
+    Armed draw(Way way, const Bytes& frame);
     std::vector<Piece> spoil(const Armed& armed, Lane& lane, int connection, Way way, Bytes frame);
 
     std::uint64_t random_;
@@ -92,7 +98,7 @@ class TcpFaultProxy {
 
     std::uint16_t port() const;
     // May be called from any thread.
-    void arm(LinkFault fault, Way way, std::int64_t number = 0, int skip = 0);
+    void arm(LinkFault fault, Way way, std::int64_t number = 0, Condition when = {});
     void set_plugged(bool is_plugged);  // false: every connection is reset, and new ones at once
 
  private:
