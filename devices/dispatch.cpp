@@ -249,7 +249,7 @@ class Dispatcher {
     StagedFile staged_;
     std::vector<std::string> log_;
     std::exception_ptr journal_fault_;  // of the first event that could not be kept
-    double began_s_ = clock_s();  // the last member: it needs the options
+    double began_s_ = clock_s();        // the last member: it needs the options
 };
 
 void check_file(const JobTicket& ticket, const Bytes& file) {

@@ -176,7 +176,8 @@ TEST(HandOff, TheCellIsQueriedOnlyOverTheConnectionWhoseIdentityWasRead) {
         int calls = 0;
         bool identity_is_of_connection = false;
         cell.lose = [&](const HandOffAction& action) {
-            if (action.kind == Kind::wait || action.kind == Kind::stage_file || action.kind == Kind::put_file) return false;
+            if (action.kind == Kind::wait || action.kind == Kind::stage_file || action.kind == Kind::put_file)
+                return false;
             const bool is_lost = ++calls == lost_at;
             if (is_lost) identity_is_of_connection = false;
             if (!is_lost && action.kind == Kind::read_identity) identity_is_of_connection = true;

@@ -25,10 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double faults_end_s = 150;
-constexpr double hang_s = 1500;      // of virtual time: the end of a schedule
+constexpr double hang_s = 1500;         // of virtual time: the end of a schedule
 constexpr double longest_turn_s = 700;  // of one dispatcher: consent takes at most 600
 
-constexpr double longest_call_s = 2;    // under way when the operator asks to stop
+constexpr double longest_call_s = 2;  // under way when the operator asks to stop
 
 struct Killed {};
 
@@ -242,7 +242,7 @@ class Pc {
 void plan_power(World& world, const Plan& plan, ScheduleEnd& end) {
     for (int i = 0; i < plan.power_cuts; ++i) {
         const bool is_lost = i < plan.stores_lost;
-        const auto store = !is_lost              ? PowerCut::Store::stays
+        const auto store = !is_lost             ? PowerCut::Store::stays
                            : world.happens(700) ? PowerCut::Store::lost
                                                 : PowerCut::Store::back;
         const double when_s = static_cast<double>(world.random() % 60000) / 1000;

@@ -16,9 +16,10 @@ void print(std::uint64_t count, const ScheduleEnd& sum) {
     std::printf("schedules %llu: jobs %d, lost %d, double starts %d, wrong reports %d, hangs %d\n",
                 static_cast<unsigned long long>(count), sum.jobs, sum.lost, sum.double_starts, sum.wrong_reports,
                 sum.hangs);
-    std::printf("  link faults %d, kills %d, power cuts %d, stores lost %d; said STARTED %d, NOT STARTED %d, UNKNOWN %d\n",
-                sum.link_faults, sum.kills, sum.power_cuts, sum.stores_lost, sum.said_started, sum.said_not_started,
-                sum.said_unknown);
+    std::printf(
+        "  link faults %d, kills %d, power cuts %d, stores lost %d; said STARTED %d, NOT STARTED %d, UNKNOWN %d\n",
+        sum.link_faults, sum.kills, sum.power_cuts, sum.stores_lost, sum.said_started, sum.said_not_started,
+        sum.said_unknown);
     std::fflush(stdout);
 }
 

@@ -18,7 +18,7 @@ constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t cell_step_us = 50000;
 constexpr std::int64_t off_us = 1000000;
 constexpr double world_end_s = 4000;  // a dispatcher that still runs then never ends
-constexpr double flight_s = 0.0005;  // of a frame, one way
+constexpr double flight_s = 0.0005;   // of a frame, one way
 
 thread_local std::size_t self = 0;
 

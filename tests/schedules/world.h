@@ -64,8 +64,8 @@ class World {
 
  private:
     struct Link {
-        Bytes inbox;         // bytes for the PC
-        Bytes at_cell;       // a frame that is not complete
+        Bytes inbox;    // bytes for the PC
+        Bytes at_cell;  // a frame that is not complete
         bool is_closed = false;
         bool is_cut = false;  // the cell does not know it any more
     };

@@ -159,7 +159,8 @@ struct TcpFaultProxy::Loop {
                 link = ++count;
                 links[link].ends[0] = connect_to(cell_port);
             }
-            const auto after = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(piece.after_s));
+            const auto after =
+                std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(piece.after_s));
             due.push_back({Clock::now() + after, link, way, piece.bytes, piece.resets});
         }
     }
