@@ -123,6 +123,15 @@ TEST(JournalHistory, TheLastJobOfAFileIsFound) {
     EXPECT_EQ(history.last_job_of({}), nullptr);
 }
 
+TEST(Fault, F24_AMemoryOlderThanTheLeaseOfTheLastStartIsALostOne) {
+    Rows rows;
+    rows.add(Is::identity, {}).store = {{1}, 0x0101, 1, 0, 0};
+    rows.claim(9, 1);
+    EXPECT_EQ(rows.history().store->epoch_held, 0U) << "CLAIM may not have arrived";
+    rows.add(Is::start_intent).epoch = 9;
+    EXPECT_EQ(rows.history().store->epoch_held, 9U);
+}
+
 TEST(JournalHistory, APartWaitsForTheCompleteEndOfThePartBefore) {
     WireTicket ticket;
     ticket.project_id = {3};
