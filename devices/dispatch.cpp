@@ -85,7 +85,15 @@ class Dispatcher {
  private:
     using Kind = HandOffAction::Kind;
 
-    double now_s() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
+    double now_s() const { return clock_s() - began_s_; }
+    double clock_s() const {
+        if (plan_.options.clock.now_s) return plan_.options.clock.now_s();
+        return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+    }
+    void sleep(double seconds) const {
+        if (plan_.options.clock.sleep) return plan_.options.clock.sleep(seconds);
+        std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+    }
     bool is_cancelled() const { return context_.cancelled != nullptr && context_.cancelled->load(); }
 
     // One turn, with its events kept in the journal. If they cannot be kept, nothing is started: the turn is taken back
@@ -200,7 +208,7 @@ class Dispatcher {
     void wait(double until_s, bool stop_requested) const {
         constexpr double slice_s = 0.02;
         while (now_s() < until_s && (stop_requested || !is_cancelled())) {
-            std::this_thread::sleep_for(std::chrono::duration<double>(std::min(slice_s, until_s - now_s())));
+            sleep(std::min(slice_s, until_s - now_s()));
         }
     }
 
@@ -241,7 +249,7 @@ class Dispatcher {
     StagedFile staged_;
     std::vector<std::string> log_;
     std::exception_ptr journal_fault_;  // of the first event that could not be kept
-    Clock::time_point began_ = Clock::now();
+    double began_s_ = clock_s();        // the last member: it needs the options
 };
 
 void check_file(const JobTicket& ticket, const Bytes& file) {
@@ -251,11 +259,19 @@ void check_file(const JobTicket& ticket, const Bytes& file) {
                      "Prepare the project again.");
 }
 
+Uuid new_job_id(const DispatchOptions& options) {
+    if (options.job_id) return *options.job_id;
+    if (!options.random) return random_id();
+    Uuid id{};
+    for (std::uint8_t& byte : id) byte = static_cast<std::uint8_t>(options.random());
+    return id;
+}
+
 HandOffPlan plan_of(const WireTicket& ticket, const DispatchOptions& options) {
     HandOffPlan plan{ticket, options.past.owner, options.past.secret, options};
     if (plan.owner == 0) {
-        plan.owner = random_number();
-        plan.secret = random_number();
+        plan.owner = options.random ? options.random() : random_number();
+        plan.secret = options.random ? options.random() : random_number();
         plan.options.past.seq = 0;
     }
     return plan;
@@ -272,7 +288,7 @@ const char* describe(StartVerdict verdict) {
 JobOutcome dispatch_job(RegisterBus& bus, const JobTicket& ticket, const Bytes& file, const DispatchOptions& options,
                         const Context& context) {
     TicketOrder order;
-    order.job_id = options.job_id ? *options.job_id : random_id();
+    order.job_id = new_job_id(options);
     order.created_ms = unix_ms();
     order.cell_id = options.cell_id;
     order.simulated = options.want_simulated;

@@ -42,6 +42,12 @@ struct HandOffPast {
     bool is_started = false;
 };
 
+// The time of a hand-off, in seconds from any moment; it never goes back. Empty: the clock of the computer.
+struct HandOffClock {
+    std::function<double()> now_s;
+    std::function<void(double seconds)> sleep;  // both or none
+};
+
 struct DispatchOptions {
     std::uint16_t cell_id = 0xFFFF;     // any other cell is refused
     bool want_simulated = true;         // a cell whose FLAGS differ from this is refused
@@ -55,6 +61,9 @@ struct DispatchOptions {
     bool has_parts = true;            // the cell knows PART and PARTS (map 1.1); else both are sent as 0
     std::optional<Uuid> job_id;       // empty: a new random one
     HandOffPast past;
+    HandOffClock clock;  // for tests that count time instead of waiting for it
+    // Draws job id, owner and secret; empty: the operating system does. For tests that repeat a course of events.
+    std::function<std::uint32_t()> random;
     // Keeps an event before the action that follows from it; if it throws, the action is not done. May be empty.
     std::function<void(const JournalEvent& event)> journal;
     // Asked for a command that another program wants to be passed to the cell, none if there is none; and told how it

@@ -381,7 +381,9 @@ HandOffTransition advance(const HandOffPlan& plan, HandOff state, const HandOffI
     HandOffTransition result;
     hand_off::StepContext context{plan, state, input, now_s, result};
     HandOffAction action = hand_off::next_action(context);
-    const bool is_due = state.is_owner && now_s - state.heartbeat_s >= plan.options.timings.heartbeat_s;
+    // Never two in a row: over a link slower than the period of the heartbeats nothing else would be sent.
+    const bool is_due = state.is_owner && state.last.kind != HandOffAction::Kind::heartbeat &&
+                        now_s - state.heartbeat_s >= plan.options.timings.heartbeat_s;
     if (is_due && action.kind != HandOffAction::Kind::finish && action.kind != HandOffAction::Kind::wait &&
         action.kind != HandOffAction::Kind::read_identity && state.lost_since_s < 0) {
         state.deferred = action;

@@ -37,8 +37,11 @@ void note_of_cell(JournalHistory& history, const JournalEvent& event) {
             history.secret = event.secret;
             history.seq = event.seq;
             break;
-        case JournalKind::command:
         case JournalKind::start_intent:
+            // START follows a CLAIM that was granted: a memory with a lower EPOCH_HELD is an older one.
+            if (history.store) history.store->epoch_held = std::max(history.store->epoch_held, event.epoch);
+            [[fallthrough]];
+        case JournalKind::command:
             if (event.owner == history.owner) history.seq = std::max(history.seq, event.seq);
             break;
         default:

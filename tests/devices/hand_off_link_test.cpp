@@ -160,6 +160,62 @@ TEST(HandOff, ACellWithAnotherMagicNumberIsAnErrorOfTheProtocol) {
     EXPECT_EQ(turn.state.fault, DeviceFault::protocol);
 }
 
+TEST(HandOff, OverALinkSlowerThanItsHeartbeatsTheJobStartsAllTheSame) {
+    ScriptedCell cell;
+    cell.call_s = 0.9;
+    cell.run_to(HandOffStep::run);
+    EXPECT_EQ(cell.state.step, HandOffStep::run);
+    EXPECT_EQ(cell.count(CellCommand::start), 1);
+}
+
+TEST(HandOff, TheCellIsQueriedOnlyOverTheConnectionWhoseIdentityWasRead) {
+    // Whichever call loses the connection: before the next CLAIM, and after it until the answer to QUERY, no call was
+    // lost since the last read of IDENTITY.
+    for (int lost_at = 1; lost_at < 60; ++lost_at) {
+        ScriptedCell cell;
+        int calls = 0;
+        bool identity_is_of_connection = false;
+        cell.lose = [&](const HandOffAction& action) {
+            if (action.kind == Kind::wait || action.kind == Kind::stage_file || action.kind == Kind::put_file)
+                return false;
+            const bool is_lost = ++calls == lost_at;
+            if (is_lost) identity_is_of_connection = false;
+            if (!is_lost && action.kind == Kind::read_identity) identity_is_of_connection = true;
+            if (!is_lost && (writes(action, CellCommand::claim) || writes(action, CellCommand::query))) {
+                EXPECT_TRUE(identity_is_of_connection) << "lost at call " << lost_at;
+            }
+            return is_lost;
+        };
+        cell.run_to(HandOffStep::run);
+    }
+}
+
+TEST(Fault, F24_AnEmptiedCellIsFoundWhicheverCallLosesTheConnectionAfterStart) {
+    for (int lost_at = 0; lost_at < 12; ++lost_at) {
+        ScriptedCell cell;
+        int calls = -1;
+        bool start_was_open = false;
+        cell.lose = [&](const HandOffAction& action) {
+            if (writes(action, CellCommand::start)) calls = 0;
+            if (calls < 0 || action.kind == Kind::wait) return false;
+            if (calls++ == 0) return true;  // START itself: the cell has not got it, or lost it with its memory
+            if (calls != lost_at + 2) return false;
+            start_was_open = cell.state.start_sent;
+            // Power fails, and the cell comes back with an empty memory whose counters are those that were seen.
+            cell.store_id = Uuid{43};
+            cell.status.job_id = {};
+            cell.status.job_state = JobState::none;
+            cell.status.state = PackState::stopped;
+            return true;
+        };
+        cell.run_to(HandOffStep::prepare);
+        cell.run_to(HandOffStep::finished);
+        if (start_was_open) {
+            EXPECT_EQ(cell.state.verdict, StartVerdict::unknown) << lost_at;
+        }
+    }
+}
+
 TEST(Fault, F48_ARealCellWhereASimulatedOneIsWantedAndTheReverse) {
     for (const bool want_simulated : {true, false}) {
         HandOffPlan plan = a_plan();

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "devices/codec.h"
+
 namespace qchopper {
 namespace {
 
@@ -119,6 +121,39 @@ TEST(JournalHistory, TheLastJobOfAFileIsFound) {
     ASSERT_NE(history.last_job_of(file), nullptr);
     EXPECT_EQ(history.last_job_of(file)->job_id, b);
     EXPECT_EQ(history.last_job_of({}), nullptr);
+}
+
+TEST(Fault, F24_AMemoryOlderThanTheLeaseOfTheLastStartIsALostOne) {
+    Rows rows;
+    rows.add(Is::identity, {}).store = {{1}, 0x0101, 1, 0, 0};
+    rows.claim(9, 1);
+    EXPECT_EQ(rows.history().store->epoch_held, 0U) << "CLAIM may not have arrived";
+    rows.add(Is::start_intent).epoch = 9;
+    EXPECT_EQ(rows.history().store->epoch_held, 9U);
+}
+
+TEST(JournalHistory, APartWaitsForTheCompleteEndOfThePartBefore) {
+    WireTicket ticket;
+    ticket.project_id = {3};
+    ticket.piece_no = 2;
+    ticket.part = 1;
+    ticket.parts = 3;
+    Rows rows;
+    rows.add(Is::created).ticket = encode(ticket);
+    EXPECT_EQ(why_part_must_wait(rows.history(), ticket), "");
+    ticket.part = 2;
+    EXPECT_NE(why_part_must_wait(rows.history(), ticket), "");
+    JournalEvent& stopped = rows.add(Is::result);
+    stopped.job_state = JobState::ended;
+    stopped.job_result = JobResult::stopped;
+    EXPECT_NE(why_part_must_wait(rows.history(), ticket), "");
+    rows.rows.back().event.job_result = JobResult::complete;
+    EXPECT_EQ(why_part_must_wait(rows.history(), ticket), "");
+    ticket.part = 3;
+    EXPECT_NE(why_part_must_wait(rows.history(), ticket), "") << "part 1 is not part 2";
+    ticket.part = 2;
+    ticket.piece_no = 3;
+    EXPECT_NE(why_part_must_wait(rows.history(), ticket), "") << "of another piece";
 }
 
 }  // namespace

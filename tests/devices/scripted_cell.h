@@ -40,6 +40,8 @@ struct ScriptedCell {
         status.boot_count = 1;
     }
 
+    double call_s = 0.01;  // that each call takes
+
     // One action and its answer; false when it is finished.
     bool step() {
         if (++steps > 100000) {
@@ -53,7 +55,7 @@ struct ScriptedCell {
         events.insert(events.end(), turn.journal.begin(), turn.journal.end());
         if (!turn.request_answer.empty()) request_answer = turn.request_answer;
         if (action.kind == Kind::finish) return false;
-        now_s += 0.01;
+        now_s += call_s;
         status.heartbeat = static_cast<std::uint16_t>(freeze_s > 0 ? freeze_s / 0.5 : now_s / 0.5);
         input = HandOffInput{};
         input.cancelled = cancelled;
