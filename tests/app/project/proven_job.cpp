@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <stdexcept>
 
 #include "app/project/piece_program.h"
 #include "cam/job/read_job.h"
@@ -29,7 +30,7 @@ ProvenJob made(const std::string& cell_name) {
     input.envelope = carving.envelope;
     input.work_envelope = carving.work_envelope;
     PiecePrograms programs = make_programs(input.piece, carving, 1, input.cell, {});
-    EXPECT_EQ(programs.parts.size(), 1U) << programs.none_because;
+    if (programs.parts.size() != 1) throw std::runtime_error("no single program: " + programs.none_because);
     input.program = programs.parts.front().input;
     made.job = parse_job(job_file(input), "A.qjob");
     made.verdict = judged(made.job, made.cell);
