@@ -21,6 +21,10 @@ namespace {
 const std::set<std::string> may_be_equivalent{"point_lowered", "point_moved_x", "point_moved_y", "retract_lost",
                                               "last_retract_lost"};
 
+// Of these the list of chunks in the manifest tells more than the replay can: what is reachable is that of the tools
+// that are left, so that without the last chunk of fine finishing the piece may be within tolerance all the same.
+const std::set<std::string> seen_in_manifest{"chunk_lost"};
+
 ProgramFiles texts_of(const ReadJob& job) {
     ProgramFiles files;
     for (const std::string& name : job.program->files) {
@@ -86,6 +90,13 @@ struct MutatedJobs : ::testing::TestWithParam<std::string> {
                 continue;
             }
             const JobVerdict verdict = judged(remade(proven, *mutant), proven.cell);
+            if (verdict.is_positive && seen_in_manifest.contains(mutation.name)) {
+                ReadJob listed = remade(proven, *mutant);
+                listed.program->chunks = proven.job.program->chunks;
+                EXPECT_FALSE(judged(listed, proven.cell).is_positive) << mutation.name;
+                std::printf("%s: seen in the manifest\n", mutation.name.c_str());
+                continue;
+            }
             if (verdict.is_positive && may_be_equivalent.contains(mutation.name)) {
                 std::printf("%s: equivalent\n", mutation.name.c_str());
                 continue;
