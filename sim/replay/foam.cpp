@@ -18,6 +18,11 @@ constexpr double contact_mm = 0.01;
 constexpr std::int32_t side = FoamTile::side;
 constexpr std::int32_t square = FoamTile::top_square;
 
+// The cell of a tile in column i and row j.
+std::size_t cell_of(std::int32_t i, std::int32_t j) {
+    return static_cast<std::size_t>(j) * side + static_cast<std::size_t>(i);
+}
+
 // mm below what was asked for that is made known with it: a tool that comes deeper in short moves finds it done.
 constexpr double known_below = 2;
 
@@ -76,11 +81,11 @@ CutResult Foam::cut(std::size_t direction, const Cutter& cutter, double flute, V
                     i |= FoamTile::square - 1;
                     continue;
                 }
-                if (tile.cut[static_cast<std::size_t>(j * side + i)] <= least) continue;
+                if (tile.cut[cell_of(i, j)] <= least) continue;
                 const double x = map.middle_x(tx * side + i) - a.x;
                 const SweptCutter::Height at = swept.height(x, y);
                 const double z = a.z + at.z;
-                const auto cell = static_cast<std::size_t>(j * side + i);
+                const auto cell = cell_of(i, j);
                 if (!(z < tile.cut[cell])) continue;
                 tile.lower_cut(cell, static_cast<float>(z));
                 if (!(tile.high[cell] > z && tile.low[cell] < tile.high[cell])) continue;
@@ -123,7 +128,7 @@ double Foam::disc_contact(std::size_t direction, double radius, double above, Ve
             const std::int32_t y_end = std::min(cells.y_end - ty * side, y0 + square);
             for (std::int32_t j = std::max(y0, cells.y_begin - ty * side); j < y_end; ++j) {
                 for (std::int32_t i = std::max(x0, cells.x_begin - tx * side); i < x_end; ++i) {
-                    const auto cell = static_cast<std::size_t>(j * side + i);
+                    const auto cell = cell_of(i, j);
                     if (!(tile.low[cell] < tile.high[cell]) || tile.high[cell] <= least + worst) continue;
                     const SweptCutter::Height at =
                         disc.height(map.middle_x(tx * side + i) - a.x, map.middle_y(ty * side + j) - a.y);
@@ -137,7 +142,7 @@ double Foam::disc_contact(std::size_t direction, double radius, double above, Ve
             float top = -std::numeric_limits<float>::infinity();
             for (std::int32_t j = y0; j < y0 + square; ++j) {
                 for (std::int32_t i = x0; i < x0 + square; ++i) {
-                    const auto cell = static_cast<std::size_t>(j * side + i);
+                    const auto cell = cell_of(i, j);
                     if (tile.low[cell] < tile.high[cell]) top = std::max(top, tile.high[cell]);
                 }
             }
