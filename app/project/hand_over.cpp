@@ -53,6 +53,7 @@ std::vector<PieceJob> jobs_of_piece(const std::filesystem::path& folder, const P
         refuse_unrecorded(folder, first);
     }
     std::vector<PieceJob> jobs;
+    jobs.reserve(written.size());
     for (const WrittenJob& job : written) {
         jobs.push_back(job_of({project, piece, job, cell, folder, folder / "jobs" / job_file_name(piece, job.part)}));
     }

@@ -74,10 +74,9 @@ Json program_json(const PieceReport& piece) {
 // "3 h 20 min, verified", "-" without a program.
 std::string program_word(const PieceReport& piece) {
     if (piece.verdicts.empty()) return "-";
-    const std::string parts =
-        piece.verdicts.size() > 1 ? " in " + std::to_string(piece.verdicts.size()) + " parts" : "";
-    return duration(static_cast<std::uint32_t>(piece.time_s)) + parts + ", " +
-           (piece.is_proven() ? "verified" : "REFUSED");
+    std::string word = duration(static_cast<std::uint32_t>(piece.time_s));
+    if (piece.verdicts.size() > 1) word += " in " + std::to_string(piece.verdicts.size()) + " parts";
+    return word + (piece.is_proven() ? ", verified" : ", REFUSED");
 }
 
 // What the proof says against the program of a piece.
