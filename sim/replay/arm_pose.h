@@ -19,7 +19,6 @@ struct ArmThresholds {
     double wrist_deg = 5;     // of axis 5 from 0 and 180
     double shoulder_mm = 50;  // wrist centre from axis 1
     double elbow = 0.005;     // 1 - reach / largest
-    double jump_deg = 20;     // of an axis between poses 5 mm apart
 };
 
 class ArmPoses {

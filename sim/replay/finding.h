@@ -29,9 +29,8 @@ enum class FindingKind : std::uint8_t {
     branch,  // the arm would have to change its branch, or an axis to jump
     singularity,
     joint_speed,
-    outside_reach,  // foam is cut outside of the cell's reach box; of gantries only
-    collision,      // of arm, spindle, holder or tool with what stands still, or with the arm
-    arm_in_foam,
+    outside_reach,   // foam is cut outside of the cell's reach box; of gantries only
+    collision,       // of arm, spindle, holder or tool with what stands still, or with the arm
     holder_contact,  // holder or spindle in foam
     rapid_in_foam,
     feed_window,  // foam is cut slower or faster than the tool may
@@ -46,7 +45,7 @@ enum class FindingKind : std::uint8_t {
     standing_foam,  // foam beside the piece that the tools reach
     no_cut          // the program removes nothing
 };
-constexpr std::size_t finding_kinds = 29;
+constexpr std::size_t finding_kinds = 28;
 
 // "chunk_order", "rapid_in_foam"
 const char* to_word(FindingKind kind);
