@@ -167,8 +167,10 @@ HandOffAction on_lost(StepContext& context) {
         context.report("the link to the cell is lost (" + context.in.why + "); trying again");
     }
     if (context.now_s - h.lost_since_s > context.timings().link_patience_s) {
-        return give_up(context, h.is_started ? "the link to the cell was lost; the job runs on by itself"
-                                             : "the link to the cell was lost and did not come back");
+        return give_up(context,
+                       h.is_started ? "the link to the cell was lost; the job runs on by itself"
+                                    : "the link to the cell was lost and did not come back",
+                       "Dispatch again when the link is back: first it asks the cell what became of the job.");
     }
     const double pause_s = back_off_s[std::min<std::size_t>(h.lost_times++, std::size(back_off_s) - 1)];
     if (context.is_leaving()) return wait_until(std::min(context.now_s + back_off_s[0], h.leave_by_s));

@@ -8,7 +8,7 @@
 namespace qchopper::hand_off {
 namespace {
 
-constexpr const char* stop_there = "Stop it at the cell if it must not run.";
+constexpr const char* stop_there = "Stop it at the cell if it must not run; the next dispatch follows it to its end.";
 
 void set_reason_of_request(HandOff& h) {
     h.is_cancelled = true;

@@ -53,7 +53,8 @@ HandOffAction report_end(StepContext& context) {
     h.why = result.state == JobState::ended && result.result == JobResult::complete
                 ? "the job ran to its end"
                 : std::string("the job started and was ") + name(result.state) + " (" + name(result.result) + ")";
-    if (result.state == JobState::aborted) h.to_do = "Look at the cell; a new dispatch is a new job.";
+    if (result.state == JobState::aborted)
+        h.to_do = "Look at the cell. The file is carved once more only with --again.";
     return enter(context, h.claim_sent ? clear_result : release);
 }
 

@@ -28,7 +28,10 @@ void note_of_cell(JournalHistory& history, const JournalEvent& event) {
             history.store_is_lost = false;
             history.epoch = 0;
             history.lease_may_live = false;
-            for (JournalJob& job : history.jobs) job.is_settled = job.is_settled || job.is_open();
+            for (JournalJob& job : history.jobs) {
+                job.is_settled = job.is_settled || job.is_open();
+                job.is_forgotten = true;
+            }
             break;
         case JournalKind::claim:
             history.epoch = std::max(history.epoch, event.epoch);
@@ -80,18 +83,18 @@ void note_of_job(JournalJob& job, const JournalEvent& event) {
 
 }  // namespace
 
-const JournalJob* JournalHistory::last_job_of(const Sha256& file) const {
-    const auto found =
-        std::find_if(jobs.rbegin(), jobs.rend(), [&](const JournalJob& job) { return job.file_sha256 == file; });
+const JournalJob* JournalHistory::last_start_of(const Sha256& file) const {
+    const auto found = std::find_if(jobs.rbegin(), jobs.rend(),
+                                    [&](const JournalJob& job) { return job.is_started && job.file_sha256 == file; });
     return found == jobs.rend() ? nullptr : &*found;
 }
 
-HandOffPast past_of(const JournalHistory& history, const JournalJob* job) {
+HandOffPast past_of(const JournalHistory& history, const JournalJob* job, std::uint32_t owner_held) {
     HandOffPast past;
     past.store = history.store;
     past.store_is_lost = history.store_is_lost;
     past.epoch = history.epoch;
-    if (history.lease_may_live) {
+    if (history.lease_may_live || (owner_held != 0 && owner_held == history.owner)) {
         past.owner = history.owner;
         past.secret = history.secret;
         past.seq = history.seq;

@@ -28,7 +28,11 @@ struct JournalJob {
     JobResult job_result = JobResult::none;
     std::optional<StartVerdict> verdict;  // of the last hand-off that came to its end
     bool is_settled = false;              // the cell lost its memory of it, and the operator has looked
+    bool is_forgotten = false;            // it is older than the memory of the cell
 
+    bool may_have_started() const {
+        return is_started || (start_may_have_arrived && verdict != StartVerdict::not_started);
+    }
     bool is_complete() const { return has_ended && job_result == JobResult::complete; }
     // Its hand-off did not come to an end: the cell is to be asked.
     bool is_open() const { return !has_ended && !is_settled && verdict != StartVerdict::not_started; }
@@ -44,11 +48,13 @@ struct JournalHistory {
     std::uint32_t seq = 0;  // the last CMD_SEQ of that owner
     std::vector<JournalJob> jobs;
 
-    const JournalJob* last_job_of(const Sha256& file) const;  // nullptr if none
+    // The last job with this file that has started; nullptr if none.
+    const JournalJob* last_start_of(const Sha256& file) const;
 };
 
-// What a hand-off to this cell has to know; of `job` if it is taken up (nullptr: a new job).
-HandOffPast past_of(const JournalHistory& history, const JournalJob* job);
+// What a hand-off to this cell has to know; of `job` if it is taken up (nullptr: a new job). `owner_held` as STATUS
+// shows it: the last owner goes on too if the cell has not got its RELEASE.
+HandOffPast past_of(const JournalHistory& history, const JournalJob* job, std::uint32_t owner_held = 0);
 
 // Why part `part` of `parts` of a piece must not be carved yet, or "": the part before it has not ended complete. Parts
 // of one piece have the same PROJECT_ID, PIECE_NO and PARTS.

@@ -6,6 +6,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
+#include "app/project/left_open.h"
 #include "app/project/state_folder.h"
 #include "app/report/cell_control_report.h"
 #include "base/error.h"
@@ -121,8 +122,10 @@ int accept_store(const CellControlArguments& arguments, Reached& reached, Termin
         return show(report, terminal);
     }
     for (const JournalJob& job : history.jobs) {
-        if (job.is_open())
-            terminal.message("job " + to_text(job.job_id) + " stays UNKNOWN: nobody will ask for it again");
+        const std::string open = job.is_open() ? left_open(job) : "";
+        if (!open.empty())
+            terminal.message(open + " No dispatch will ask for it again" +
+                             (job.is_started ? "." : ", and the next one starts its piece anew."));
     }
     const bool is_real = !reached.status.has(flag::simulated);
     if (is_real && !arguments.yes &&
@@ -165,7 +168,7 @@ int send(const CellControlArguments& arguments, const CellAction& action, Reache
             if (error.fault != InputFault::busy) throw;
             return ask_running(arguments, action, reached, terminal, error);
         }
-        order.past = past_of(history_of(journal->content().rows), nullptr);
+        order.past = past_of(history_of(journal->content().rows), nullptr, reached.status.owner_held);
         order.journal = [&](const JournalEvent& event) { journal->append(event); };
     }
     const ControlEnd end = control_cell(reached.bus, reached.status, order, terminal.context());

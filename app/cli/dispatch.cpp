@@ -8,12 +8,14 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
+#include "app/project/left_open.h"
 #include "app/project/proven_jobs.h"
 #include "app/project/state_folder.h"
 #include "app/report/hand_over_report.h"
 #include "cam/cell/cell.h"
 #include "cam/cell/cell_check.h"
 #include "devices/codec.h"
+#include "devices/device_error.h"
 #include "devices/first_contact.h"
 #include "devices/request_socket.h"
 
@@ -21,6 +23,7 @@ namespace qchopper {
 namespace {
 
 constexpr const char* dispatch_schema = "qchopper-dispatch-1";
+constexpr const char* nothing_started = "The project is unchanged, and this dispatch started no job.";
 
 // What is assumed may be planned and simulated with, never carved with.
 void refuse_uncertain(const Cell& cell) {
@@ -50,6 +53,17 @@ bool refuse_unreachable(const std::vector<PieceJob>& jobs, Terminal& terminal) {
     return refuse(sentences, jobs.size(), terminal);
 }
 
+// A cell that cannot be reached may be running a job of an earlier dispatch: the message of the error says so.
+std::optional<Status> contact(ModbusTcpBus& bus, const std::string& where, const Cell& cell, Terminal& terminal) {
+    try {
+        return first_status(bus, where, terminal);
+    } catch (const DeviceError&) {
+        const std::string open = left_open(cell.id, where);
+        terminal.set_unchanged(nothing_started + (open.empty() ? "" : " " + open));
+        throw;
+    }
+}
+
 DispatchOptions options_of(const DispatchArguments& arguments, const Cell& cell, const Status& status) {
     DispatchOptions options;
     options.want_simulated = status.has(flag::simulated);
@@ -59,6 +73,7 @@ DispatchOptions options_of(const DispatchArguments& arguments, const Cell& cell,
     options.rehearse = arguments.rehearse;
     options.takeover_code = arguments.takeover_code.value_or(0);
     options.has_parts = has_identity(status.version);
+    options.owner_held = status.owner_held;
     return options;
 }
 
@@ -93,7 +108,7 @@ int hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const Dispatc
 }
 
 int run(const DispatchArguments& arguments, Terminal& terminal) {
-    terminal.set_unchanged("The project is unchanged, and no job was started.");
+    terminal.set_unchanged(nothing_started);
     const ProjectJobs ordered = jobs_of(arguments.project, arguments.piece, terminal.context());
     const auto& [folder, cell, cell_sha256, jobs] = ordered;
     if (refuse(unproven_jobs(ordered, false), jobs.size(), terminal)) return exit_demand_broken;
@@ -106,7 +121,7 @@ int run(const DispatchArguments& arguments, Terminal& terminal) {
     }
     ModbusTcpBus bus(parse_tcp_address(*to));
     // Read before anything is sent, so that a real cell is never taken for a simulated one.
-    const std::optional<Status> status = first_status(bus, *to, terminal);
+    const std::optional<Status> status = contact(bus, *to, cell, terminal);
     if (!status) return Terminal::cancel_code();
     DispatchOptions options = options_of(arguments, cell, *status);
     if (!arguments.chunks) options.drop_folder = *drop;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "app/project/left_open.h"
 #include "app/project/ordered_job.h"
 #include "app/project/project_folder.h"
 #include "app/project/shell_word.h"
@@ -87,14 +88,11 @@ bool take_up_open_jobs(const std::vector<PieceJob>& jobs, RegisterBus& bus, cons
         if (!ticket.is_ok()) continue;
         const JournalHistory history = history_of(journal.content().rows);
         DispatchOptions adopted = options;
-        adopted.past = past_of(history, &open);
+        adopted.past = past_of(history, &open, options.owner_held);
         HandedOver one = named(jobs, ticket.value);
         context.message("an earlier dispatcher left the job " + to_text(open.job_id) + " (" + one.piece +
                         ") open; asking the cell");
-        if (open.start_may_have_arrived || open.is_started) {
-            context.saved("Whether the job " + to_text(open.job_id) + " of an earlier dispatcher has started is " +
-                          (open.is_started ? "certain: STARTED." : "UNKNOWN: ask the cell."));
-        }
+        if (const std::string left = left_open(open); !left.empty()) context.saved(left);
         one.outcome = adopt_job(bus, ticket.value, adopted, context);
         const JobOutcome& outcome = one.outcome;
         if (outcome.verdict == StartVerdict::not_started && !outcome.cancelled && !outcome.store_is_lost) continue;
@@ -103,6 +101,24 @@ bool take_up_open_jobs(const std::vector<PieceJob>& jobs, RegisterBus& bus, cons
         context.saved("The jobs before it ended complete; it was not started.");
     }
     return true;
+}
+
+// The file was started before, and the cell does not know: its memory is younger, or its map is 1.0.
+std::optional<JobOutcome> carved_before(const JournalHistory& history, const PieceJob& job,
+                                        const DispatchOptions& options) {
+    const JournalJob* before = history.last_start_of(job.ticket.file_sha256);
+    if (before == nullptr || options.again || (options.has_parts && !before->is_forgotten)) return std::nullopt;
+    JobOutcome outcome;
+    outcome.verdict = StartVerdict::not_started;
+    outcome.carved_before = true;
+    outcome.carved_complete = before->is_complete();
+    const std::string end = before->is_complete() ? "ended complete"
+                            : before->has_ended   ? "started and was aborted"
+                                                  : "has started; its end is not known";
+    outcome.why = "by the journal the cell has carved this file before: job " + to_text(before->job_id) + ", which " +
+                  end + "; the cell itself no longer knows";
+    outcome.to_do = "Pass --again if it is to be carved once more.";
+    return outcome;
 }
 
 void check_part(const JournalHistory& history, const PieceJob& job) {
@@ -172,8 +188,14 @@ std::vector<HandedOver> hand_over(const std::vector<PieceJob>& jobs, RegisterBus
     for (const PieceJob& job : jobs) {
         const JournalHistory history = history_of(journal.content().rows);
         if (was_taken_up(taken_up, job, history)) continue;
-        kept.past = past_of(history, nullptr);
+        kept.past = past_of(history, nullptr, options.owner_held);
         check_part(history, job);
+        if (std::optional<JobOutcome> before = carved_before(history, job, options)) {
+            context.message("piece " + job.piece + ": NOT STARTED: " + before->why);
+            handed.push_back({job.piece, *std::move(before)});
+            if (!handed.back().outcome.carved_complete) break;
+            continue;
+        }
         context.message("piece " + job.piece + ": " + job.ticket.file_name + ", " + with_commas(job.ticket.file_size) +
                         " bytes");
         handed.push_back({job.piece, dispatch_job(bus, job.ticket, job.file, kept, context)});

@@ -37,6 +37,22 @@ Json job_json(const HandedOver& handed) {
             {"log", o.log}};
 }
 
+std::string summary(const HandOverReport& report) {
+    const std::string cell = report.is_simulated ? "the simulated cell" : "the cell";
+    if (report.is_complete()) return "all " + std::to_string(report.wanted) + " jobs ended complete on " + cell;
+    std::size_t tried = 0;
+    std::size_t complete = 0;
+    for (const HandedOver& handed : report.handed) {
+        if (!handed.is_ordered) continue;
+        ++tried;
+        complete += handed.outcome.is_complete() || handed.outcome.carved_complete ? 1 : 0;
+    }
+    std::string text =
+        std::to_string(complete) + " of " + std::to_string(report.wanted) + " jobs ended complete on " + cell;
+    if (tried < report.wanted) text += "; not tried: " + std::to_string(report.wanted - tried);
+    return text;
+}
+
 }  // namespace
 
 bool HandOverReport::is_complete() const {
@@ -57,20 +73,17 @@ bool HandOverReport::is_cancelled() const {
 std::vector<std::string> lines(const HandOverReport& report) {
     std::vector<std::vector<std::string>> rows{{"piece", "job", "start", "STARTS", "end", "s"}};
     for (const auto& [piece, o, is_ordered] : report.handed) {
-        rows.push_back({is_ordered ? piece : piece + " (earlier)", to_text(o.job_id), describe(o.verdict),
-                        o.starts_known ? std::to_string(o.starts) : "?", ending(o), fixed(o.took_s, 1)});
+        rows.push_back({is_ordered ? piece : piece + " (earlier)", o.job_id == Uuid{} ? "-" : to_text(o.job_id),
+                        describe(o.verdict), o.starts_known ? std::to_string(o.starts) : "?", ending(o),
+                        fixed(o.took_s, 1)});
     }
     std::vector<std::string> text = columns(rows);
     for (const HandedOver& handed : report.handed) {
-        if (!handed.outcome.to_do.empty() && !handed.outcome.is_complete()) {
-            text.push_back("to do for " + handed.piece + ": " + handed.outcome.to_do);
-        }
+        const JobOutcome& o = handed.outcome;
+        const bool is_well = o.is_complete() || (o.carved_complete && report.is_complete());
+        if (!o.to_do.empty() && !is_well) text.push_back("to do for " + handed.piece + ": " + o.to_do);
     }
-    const std::string cell = report.is_simulated ? "the simulated cell" : "the cell";
-    text.push_back(report.is_complete()
-                       ? "all " + std::to_string(report.wanted) + " jobs ended complete on " + cell
-                       : std::to_string(report.handed.size()) + " of " + std::to_string(report.wanted) +
-                             " jobs were handed to " + cell + "; not all ended complete");
+    text.push_back(summary(report));
     return text;
 }
 

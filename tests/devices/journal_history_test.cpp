@@ -91,6 +91,10 @@ TEST(JournalHistory, TheOwnerGoesOnWhileItsLeaseMayLive) {
     EXPECT_TRUE(rows.history().lease_may_live);  // RELEASE may not have arrived
     rows.add(Is::closed).verdict = StartVerdict::not_started;
     EXPECT_FALSE(rows.history().lease_may_live);
+    EXPECT_EQ(past_of(rows.history(), nullptr).owner, 0U);
+    EXPECT_EQ(past_of(rows.history(), nullptr, 7).owner, 0U) << "somebody else holds the cell";
+    EXPECT_EQ(past_of(rows.history(), nullptr, 5).owner, 5U) << "RELEASE has not arrived";
+    EXPECT_EQ(past_of(rows.history(), nullptr, 5).seq, 3U);
 }
 
 TEST(JournalHistory, AnAcceptedStoreSettlesWhatWasOpen) {
@@ -111,16 +115,34 @@ TEST(JournalHistory, AnAcceptedStoreSettlesWhatWasOpen) {
     for (const JournalJob& job : history.jobs) EXPECT_FALSE(job.is_open());
 }
 
-TEST(JournalHistory, TheLastJobOfAFileIsFound) {
-    Rows rows;
-    rows.add(Is::created, a).file_sha256.bytes.fill(1);
-    rows.add(Is::created, b).file_sha256.bytes.fill(1);
+TEST(JournalHistory, TheLastStartOfAFileIsFound) {
     Sha256 file;
     file.bytes.fill(1);
+    Rows rows;
+    rows.add(Is::created, a).file_sha256 = file;
+    rows.add(Is::start_intent, a);
+    EXPECT_EQ(rows.history().last_start_of(file), nullptr) << "START may not have arrived";
+    rows.add(Is::started, a);
+    rows.add(Is::created, b).file_sha256 = file;
     const JournalHistory history = rows.history();
-    ASSERT_NE(history.last_job_of(file), nullptr);
-    EXPECT_EQ(history.last_job_of(file)->job_id, b);
-    EXPECT_EQ(history.last_job_of({}), nullptr);
+    ASSERT_NE(history.last_start_of(file), nullptr);
+    EXPECT_EQ(history.last_start_of(file)->job_id, a);
+    EXPECT_FALSE(history.last_start_of(file)->is_forgotten);
+    EXPECT_EQ(history.last_start_of({}), nullptr);
+    rows.add(Is::store_accepted, {}).store = {{2}, 0x0101, 1, 0, 0};
+    EXPECT_TRUE(rows.history().last_start_of(file)->is_forgotten);
+}
+
+TEST(JournalHistory, AStartThatWasRefusedHasNotStarted) {
+    Rows rows;
+    rows.add(Is::created);
+    EXPECT_FALSE(rows.first().may_have_started());
+    rows.add(Is::start_intent);
+    EXPECT_TRUE(rows.first().may_have_started());
+    rows.add(Is::closed).verdict = StartVerdict::unknown;
+    EXPECT_TRUE(rows.first().may_have_started());
+    rows.add(Is::closed).verdict = StartVerdict::not_started;
+    EXPECT_FALSE(rows.first().may_have_started());
 }
 
 TEST(Fault, F24_AMemoryOlderThanTheLeaseOfTheLastStartIsALostOne) {

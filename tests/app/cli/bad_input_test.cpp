@@ -133,7 +133,7 @@ Arguments dispatch(const std::string& to, const std::string& project_folder = "p
     return {"dispatch", project_folder, "--to", to, "--drop", "."};
 }
 
-const std::string no_start = "The project is unchanged, and no job was started.";
+const std::string no_start = "The project is unchanged, and this dispatch started no job.";
 const std::string same_project = "The project is unchanged.";
 
 std::vector<Case> scans() {
