@@ -406,6 +406,7 @@ const char* remedy(AckResult refusal) {
     };
     constexpr const char* changed = "Something changed the job file on the way; dispatch it again.";
     constexpr const char* other_cell = "Prepare the project with the cell file of this cell.";
+    constexpr const char* again = "Dispatch it again: that is a new job with a token of its own.";
     constexpr const char* full_disk = "Free space on the disk of the cell.";
     constexpr Remedy remedies[] = {
         {AckResult::no_consent, "Ask the operator at the cell, then dispatch again."},
@@ -417,6 +418,12 @@ const char* remedy(AckResult refusal) {
         {AckResult::tool, other_cell},
         {AckResult::store_full, full_disk},
         {AckResult::store_io, full_disk},
+        {AckResult::ticket_field, other_cell},
+        {AckResult::token_bad, again},
+        {AckResult::token_expired, again},
+        {AckResult::rehearsal_required, "Pass --rehearse."},
+        {AckResult::safety_open, "Close the door and release the emergency stop, then dispatch again."},
+        {AckResult::local_control, "Set the panel of the cell to remote, then dispatch again."},
         {AckResult::stale_epoch, "Only one dispatcher may drive a cell."},
     };
     for (const Remedy& row : remedies) {

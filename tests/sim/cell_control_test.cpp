@@ -89,6 +89,25 @@ TEST(CellControl, HoldUnholdAndStopBesideADispatchThatGoesOn) {
     EXPECT_EQ(rig.cell->status().starts_total, 1U);
 }
 
+// Between the look at the cell and the command the job changed: it is not the one that was meant.
+TEST(Fault, F45_ALateCommandForAnotherJobIsRefusedAndTheJobRunsOn) {
+    const Controlled rig(10);
+    const RunningJob running(rig, rig::quick_dispatch(rig.folder.path));
+    ASSERT_TRUE(rig.comes_to(PackState::execute));
+    const auto bus = rig::connect(*rig.cell);
+    Status before = *read_status_block(*bus).status;
+    before.job_id[0] ^= 1;
+    for (const CellCommand command : {CellCommand::stop, CellCommand::hold}) {
+        ControlOrder order;
+        order.command = command;
+        const ControlEnd end = control_cell(*bus, before, order, {});
+        EXPECT_EQ(end.kind, Kind::refused) << name(command) << end.why;
+        EXPECT_EQ(end.result, AckResult::wrong_job) << name(command);
+        EXPECT_EQ(rig.cell->status().state, PackState::execute);
+    }
+    EXPECT_EQ(rig.send(CellCommand::stop).kind, Kind::done);
+}
+
 TEST(Fault, F46_AbortOfAProgramWithoutLeaseIsAccepted) {
     const Controlled rig(10);
     RunningJob running(rig, rig::quick_dispatch(rig.folder.path));

@@ -32,10 +32,10 @@ struct Behind {
         cell->start();
         proxy = std::make_unique<rig::TcpFaultProxy>(cell->port());
     }
-    JobOutcome dispatch() const {
-        const rig::Job job = rig::make_job(500, 20);
+    JobOutcome dispatch() const { return dispatch(rig::make_job(500, 20), rig::quick_dispatch(drop)); }
+    JobOutcome dispatch(const rig::Job& job, const DispatchOptions& options) const {
         ModbusTcpBus bus({"127.0.0.1", proxy->port()});
-        return dispatch_job(bus, job.ticket, job.file, rig::quick_dispatch(drop), {});
+        return dispatch_job(bus, job.ticket, job.file, options, {});
     }
     rig::Folder folder;
     std::filesystem::path drop = folder.path / "drop";
@@ -85,6 +85,27 @@ TEST(Fault, F04_F54_AStartOrItsAnswerComesByteByByte) {
 TEST(Fault, F19_F20_AStartOrItsAnswerHasWrongBitsOrSwappedWords) {
     expect_one_start(LinkFault::flip_bit, 8 * 30 + 3);
     expect_one_start(LinkFault::swap_words, 0);
+}
+
+// Frame by frame on its way there or back; the cell verifies the hash of the whole file.
+TEST(Fault, F39_ChunksThatAreLostDoubledLateOrDamagedMakeTheRightFile) {
+    const auto is_chunk = [](const Bytes& frame) {
+        return frame.size() > 10 && frame[7] == 16 && frame[8] == 1 && frame[9] == 44;
+    };
+    const std::pair<LinkFault, std::int64_t> faults[] = {{LinkFault::hold, 300}, {LinkFault::duplicate, 0},
+                                                         {LinkFault::reset, 0},  {LinkFault::flip_bit, 8 * 40},
+                                                         {LinkFault::replay, 0}, {LinkFault::drop_after, 20}};
+    Behind behind;
+    for (const auto& [fault, number] : faults) {
+        behind.proxy->arm(fault, Way::to_cell, number, [is_chunk, chunks = 0](const Bytes& frame) mutable {
+            return is_chunk(frame) && ++chunks == 3;
+        });
+    }
+    const rig::Job job = rig::make_job(232 * 30 + 7, 20);
+    const JobOutcome outcome = behind.dispatch(job, rig::quick_dispatch({}));
+    EXPECT_EQ(outcome.verdict, StartVerdict::started) << outcome.why;
+    EXPECT_EQ(outcome.job_result, JobResult::complete);
+    EXPECT_EQ(behind.cell->status().starts_total, 1U);
 }
 
 TEST(Fault, F08_AStartOfADeadConnectionThatComesAfterTheNextClaimIsStale) {

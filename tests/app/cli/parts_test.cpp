@@ -2,11 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <mutex>
 #include <nlohmann/json.hpp>
 
+#include "app/project/hand_over.h"
+#include "base/error.h"
 #include "base/hex.h"
 #include "base/sha256.h"
 #include "base/zip.h"
+#include "devices/modbus_tcp.h"
+#include "sim/cell_sim.h"
 #include "sim/replay/stock.h"
 #include "tests/app/cli/program.h"
 
@@ -117,6 +122,83 @@ TEST_F(Parts, AreVerifiedInTheirOrder) {
     EXPECT_EQ(kinds("A.p2").front(), "other_stock");
     ASSERT_FALSE(kinds("A.p3").empty());
     EXPECT_EQ(kinds("A.p3").front(), "other_part") << "it names another file as part 2";
+}
+
+// A simulated cell with a journal, and an operator who answers each question.
+class Attended {
+ public:
+    explicit Attended(const fs::path& folder) : folder_(folder) {
+        fs::create_directories(folder_ / "drop");
+        CellSimOptions options;
+        options.drop_folder = folder_ / "drop";
+        options.limits.speed = 1e6;
+        options.limits.acting_ms = 20;
+        options.limits.consent = Consent::ask;
+        options.ask = [this](const std::string& question) {
+            const std::lock_guard lock(asking_);
+            questions_.push_back(question);
+            return refuses_.empty() || question.find(refuses_) == std::string::npos;
+        };
+        cell_ = std::make_unique<CellSim>(options);
+        cell_->start();
+    }
+    std::vector<HandedOver> hand_over(const std::vector<PieceJob>& jobs) const {
+        Journal journal(folder_ / "journal", {any_cell_id, true, "parts"});
+        ModbusTcpBus bus({"127.0.0.1", cell_->port()});
+        DispatchOptions options;
+        options.drop_folder = folder_ / "drop";
+        options.timings.poll_s = 0.01;
+        return qchopper::hand_over(jobs, bus, options, journal, {});
+    }
+    void refuse(const std::string& words) {
+        const std::lock_guard lock(asking_);
+        refuses_ = words;
+    }
+    std::vector<std::string> questions() {
+        const std::lock_guard lock(asking_);
+        return questions_;
+    }
+    std::uint32_t starts_total() const { return cell_->status().starts_total; }
+
+ private:
+    fs::path folder_;
+    std::mutex asking_;
+    std::vector<std::string> questions_;
+    std::string refuses_;
+    std::unique_ptr<CellSim> cell_;
+};
+
+TEST_F(Parts, AreHandedOverInTheirOrderEachAfterTheOneBeforeAndToTheSameBlock) {
+    prepare("350000", "p.qch");
+    const std::vector<PieceJob> jobs = jobs_of(folder.path / "p.qch", std::nullopt, {}).jobs;
+    ASSERT_EQ(jobs.size(), 3U);
+    for (std::uint16_t k = 1; k <= 3; ++k) {
+        EXPECT_EQ(jobs[k - 1U].part, k);
+        EXPECT_EQ(jobs[k - 1U].parts, 3);
+        EXPECT_EQ(jobs[k - 1U].ticket.about.part, k) << "and in the ticket";
+        EXPECT_EQ(jobs[k - 1U].ticket.about.parts, 3);
+    }
+    Attended cell(folder.path);
+    EXPECT_THROW(cell.hand_over({jobs[1]}), InputError) << "part 1 has not ended";
+    cell.refuse("part 2 of 3");
+    EXPECT_EQ(cell.hand_over(jobs).size(), 2U) << "part 3 is not tried";
+    EXPECT_EQ(cell.starts_total(), 1U);
+    EXPECT_THROW(cell.hand_over({jobs[2]}), InputError) << "part 2 has not ended";
+    cell.refuse("");
+    const std::vector<HandedOver> rest = cell.hand_over(jobs);
+    ASSERT_EQ(rest.size(), 3U);
+    EXPECT_TRUE(rest[0].outcome.carved_complete);
+    EXPECT_TRUE(rest[1].outcome.is_complete() && rest[2].outcome.is_complete()) << rest[2].outcome.why;
+    EXPECT_EQ(cell.starts_total(), 3U);
+    const std::vector<std::string> questions = cell.questions();
+    const std::string expected[] = {"part 1 of 3): is the block loaded",
+                                    "part 2 of 3): is it the same block, not moved since part 1",
+                                    "part 2 of 3): is it the same block, not moved since part 1",
+                                    "part 3 of 3): is it the same block, not moved since part 2"};
+    ASSERT_EQ(questions.size(), std::size(expected));
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+        EXPECT_NE(questions[i].find(expected[i]), std::string::npos) << questions[i];
+    }
 }
 
 }  // namespace
