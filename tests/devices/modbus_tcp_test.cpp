@@ -237,8 +237,10 @@ TEST(ModbusTcpBus, ACallUnderWayEndsSoonAfterTheRequestToStop) {
     signal.join();
     EXPECT_GT(took, 0.45);
     EXPECT_LT(took, 0.8);
+    EXPECT_GE(bus.leaving_for_s(), 0.3) << "since the request, not since the end of the call";
     EXPECT_LT(seconds_of([&] { EXPECT_EQ(bus.read_input(7, 1).end, BusEnd::lost); }), 0.1);
     bus.leave_when(nullptr, 0);
+    EXPECT_EQ(bus.leaving_for_s(), 0);
 }
 
 TEST(ModbusTcpBus, ADescriptorOf1024OrMoreServesLikeAnyOther) {
