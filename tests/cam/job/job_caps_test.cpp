@@ -144,8 +144,9 @@ TEST(JobCaps, TheRobotDrillsWhereTheToolMayComeOutAlongTheCap) {
     Cell version_1 = cell();
     version_1.tool.diameter = 4;
     const auto by_robot = [&](const qchopper::Setup& lying, const Cell& in) {
+        const std::vector<DrawnCap> caps = caps_of(s.pieces, below, joints, lying, in);
         std::vector<bool> by;
-        for (const JobHole& hole : caps_of(s.pieces, below, joints, lying, in).at(0).cap.joints.at(0).holes) {
+        for (const JobHole& hole : caps.at(0).cap.joints.at(0).holes) {
             by.push_back(hole.by_robot);
         }
         return by;
