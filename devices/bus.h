@@ -45,7 +45,7 @@ class RegisterBus {
         static_cast<void>(cancelled);
         static_cast<void>(within_s);
     }
-    // Seconds since a call noticed that it is set; 0 if none has.
+    // Seconds since a call, or this function, noticed that it is set; 0 if it is not.
     virtual double leaving_for_s() const { return 0; }
 };
 

@@ -94,7 +94,8 @@ struct ModbusTcpBus::Link {
         return std::min(deadline, leave_by);
     }
 
-    double leaving_for_s() const {
+    double leaving_for_s() {
+        bounded(Deadline::max());
         if (cancelled == nullptr || is_watching()) return 0;
         return leave_s - std::chrono::duration<double>(leave_by - Clock::now()).count();
     }

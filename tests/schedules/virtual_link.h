@@ -28,7 +28,7 @@ class VirtualLink : public RegisterBus {
     BusAnswer call(ModbusRequest request);
     BusAnswer exchange(const ModbusRequest& request);
     BusAnswer receive(const ModbusRequest& request);
-    double bounded(double deadline_s);
+    double bounded(double deadline_s) const;
     void drop();
 
     World& world_;
@@ -36,7 +36,7 @@ class VirtualLink : public RegisterBus {
     std::uint16_t transaction_ = 0;
     const std::atomic<bool>* cancelled_ = nullptr;
     double within_s_ = 0;
-    double leave_by_s_ = 1e300;
+    mutable double leave_by_s_ = 1e300;
 };
 
 }  // namespace qchopper::schedules
