@@ -85,8 +85,8 @@ HandOffAction ask_identity(StepContext& context);
 HandOffAction on_identity(StepContext& context);
 // CELL_STORE_LOST, if the counters of the last STATUS are lower than those seen before; otherwise they are noted.
 std::optional<HandOffAction> compare_counters(StepContext& context);
-// CELL_STORE_LOST, if the answer to QUERY shows that the cell does not know the CLAIM before. Else the number of the
-// present one is kept, if the cell has granted it.
+// CELL_STORE_LOST, if the answer to QUERY shows that the cell does not know the CLAIM before, or the job that has
+// started. Else the number of the present CLAIM is kept, if the cell has granted it.
 std::optional<HandOffAction> compare_grant(StepContext& context);
 // Keeps the counters as they were last seen.
 void keep_store(StepContext& context);

@@ -64,6 +64,11 @@ std::optional<HandOffAction> compare_grant(StepContext& context) {
         const SeenStore now = seen_store(context.status(), h.store ? h.store->store_id : Uuid{});
         return end_with_lost_store(context, now, "it does not know the last CLAIM of this PC that it granted");
     }
+    const bool has_forgotten = h.is_started && context.in.result->state == JobState::none;
+    if (has_forgotten && has_identity(context.status().version)) {
+        const SeenStore now = seen_store(context.status(), h.store ? h.store->store_id : Uuid{});
+        return end_with_lost_store(context, now, "the job has started, and the cell no longer has a record of it");
+    }
     if (!h.is_owner || h.new_grant == 0 || h.new_grant == h.grant) return std::nullopt;
     h.grant = h.new_grant;
     JournalEvent& event = context.keep(JournalKind::granted);

@@ -133,6 +133,29 @@ TEST(HandOffIdentity, TheNumberOfAClaimIsKeptBeforeTheFirstCommandThatNeedsIt) {
     EXPECT_LT(granted, std::find_if(cell.events.begin(), cell.events.end(), is_store));
 }
 
+// Also after the end of the job, when its result is known: the next job must not be sent to this memory.
+TEST(Fault, F24_ACellThatNoLongerKnowsAJobThatHasStartedHasLostItsMemory) {
+    for (const bool has_ended : {false, true}) {
+        ScriptedCell cell;
+        cell.checks_store = 0;
+        cell.run_to(HandOffStep::run);
+        if (has_ended) cell.status.job_state = JobState::ended;
+        bool is_back = false;
+        cell.lose = [&](const HandOffAction& action) {
+            if (is_back || action.kind != Kind::read_status) return false;
+            is_back = true;
+            ++cell.status.boot_count;
+            cell.status.job_id = {};
+            cell.status.job_state = JobState::none;
+            cell.status.state = PackState::stopped;
+            cell.result = {};
+            return true;
+        };
+        cell.run();
+        expect_store_lost(cell, StartVerdict::started);
+    }
+}
+
 TEST(Fault, F24_ARestartAroundStartIsUnknownIfTheCellCannotCheckItsStore) {
     for (const std::uint16_t checks_store : {0, 1}) {
         ScriptedCell cell;
