@@ -75,6 +75,7 @@ struct Identity {
     std::uint32_t epoch_held = 0;
     std::uint32_t starts_total = 0;
     std::uint64_t store_created_ms = 0;
+    std::uint16_t checks_store = 0;  // 1: it finds an older copy of its store by itself, and draws another store_id
     bool operator==(const Identity&) const = default;
 };
 
@@ -97,6 +98,7 @@ struct ResultRecord : JobRecord {
     Uuid job_id{};
     std::uint32_t query_seq = 0;  // CMD_SEQ of that command
     std::uint32_t query_owner = 0;
+    std::uint32_t grant_epoch = 0;  // of the CLAIM whose number is ARG0 of the query
     bool operator==(const ResultRecord&) const = default;
 };
 

@@ -45,6 +45,8 @@ class RegisterBus {
         static_cast<void>(cancelled);
         static_cast<void>(within_s);
     }
+    // Seconds since a call, or this function, noticed that it is set; 0 if it is not.
+    virtual double leaving_for_s() const { return 0; }
 };
 
 }  // namespace qchopper

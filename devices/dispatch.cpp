@@ -66,6 +66,7 @@ class Dispatcher {
         HandOffInput input;
         for (;;) {
             input.cancelled = is_cancelled() || journal_fault_;
+            input.cancelled_for_s = bus_.leaving_for_s();
             input.request = requested();
             HandOffTransition turn = next(state, input);
             state = std::move(turn.state);

@@ -32,6 +32,7 @@ struct HandOffPast {
     std::optional<SeenStore> store;  // as the cell showed it last
     bool store_is_lost = false;      // and nobody has accepted the new one
     std::uint32_t epoch = 0;         // the highest one used in CLAIM
+    std::uint32_t grant = 0;         // of the last CLAIM before a START could be sent
     // The same owner goes on while its lease may live; owner 0: draw a new one.
     std::uint32_t owner = 0;
     std::uint32_t secret = 0;
@@ -40,6 +41,7 @@ struct HandOffPast {
     bool is_stored = false;
     bool start_may_have_arrived = false;
     bool is_started = false;
+    std::uint32_t start_boots = 0;  // BOOT_COUNT before its START
 };
 
 // The time of a hand-off, in seconds from any moment; it never goes back. Empty: the clock of the computer.

@@ -333,6 +333,8 @@ HandOffAction next_action(StepContext& context) {
         h.store = h.kept_store = past.store;
         h.is_stored = past.is_stored;
         h.start_sent = past.start_may_have_arrived;
+        h.start_boots = past.start_boots;
+        h.grant = past.grant;
         h.is_started = past.is_started;
         if (!context.in.cancelled) return plain(Kind::read_status);
     }

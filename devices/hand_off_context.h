@@ -44,6 +44,9 @@ struct StepContext {
 using Kind = HandOffAction::Kind;
 
 constexpr const char* look_first = "Look at the cell before anything else.";  // to_do of UNKNOWN
+// The same, where asking again would give the same answer.
+constexpr const char* look_and_accept =
+    "Look at the cell before anything else, then accept its memory: qchopper cell accept-store";
 
 constexpr int most_fences = 3;
 constexpr int most_claims = 10;
@@ -82,6 +85,9 @@ HandOffAction ask_identity(StepContext& context);
 HandOffAction on_identity(StepContext& context);
 // CELL_STORE_LOST, if the counters of the last STATUS are lower than those seen before; otherwise they are noted.
 std::optional<HandOffAction> compare_counters(StepContext& context);
+// CELL_STORE_LOST, if the answer to QUERY shows that the cell does not know the CLAIM before, or the job that has
+// started. Else the number of the present CLAIM is kept, if the cell has granted it.
+std::optional<HandOffAction> compare_grant(StepContext& context);
 // Keeps the counters as they were last seen.
 void keep_store(StepContext& context);
 

@@ -43,6 +43,7 @@ HandOffAction ask_identity(StepContext& context) {
 }
 
 HandOffAction on_identity(StepContext& context) {
+    context.h.checks_store = context.in.identity->checks_store == 1;
     return compare(context, seen_store(*context.in.identity));
 }
 
@@ -54,6 +55,26 @@ std::optional<HandOffAction> compare_counters(StepContext& context) {
         return end_with_lost_store(context, now, what);
     }
     h.store = now;
+    return std::nullopt;
+}
+
+std::optional<HandOffAction> compare_grant(StepContext& context) {
+    HandOff& h = context.h;
+    if (h.command.arg0 != 0 && context.in.result->grant_epoch == 0) {
+        const SeenStore now = seen_store(context.status(), h.store ? h.store->store_id : Uuid{});
+        return end_with_lost_store(context, now, "it does not know the last CLAIM of this PC that it granted");
+    }
+    const bool has_forgotten = h.is_started && context.in.result->state == JobState::none;
+    if (has_forgotten && has_identity(context.status().version)) {
+        const SeenStore now = seen_store(context.status(), h.store ? h.store->store_id : Uuid{});
+        return end_with_lost_store(context, now, "the job has started, and the cell no longer has a record of it");
+    }
+    if (!h.is_owner || h.new_grant == 0 || h.new_grant == h.grant) return std::nullopt;
+    h.grant = h.new_grant;
+    JournalEvent& event = context.keep(JournalKind::granted);
+    event.epoch = h.epoch;
+    event.owner = context.plan.owner;
+    event.grant = h.grant;
     return std::nullopt;
 }
 

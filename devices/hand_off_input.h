@@ -22,6 +22,7 @@ struct HandOffInput {
     std::optional<Identity> identity;         // after read_identity that ended ok
     CellCommand request = CellCommand::none;  // Unhold or Clear, which another program asks to pass to the cell
     bool cancelled = false;                   // the caller asks to stop
+    double cancelled_for_s = 0;               // since so long, as far as is known
 };
 
 }  // namespace qchopper

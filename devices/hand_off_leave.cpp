@@ -33,7 +33,7 @@ HandOffAction leave_at_once(StepContext& context) {
 
 std::optional<HandOffAction> leave(StepContext& context) {
     HandOff& h = context.h;
-    if (!context.is_leaving()) h.leave_by_s = context.now_s + context.timings().leave_s;
+    if (!context.is_leaving()) h.leave_by_s = context.now_s - context.in.cancelled_for_s + context.timings().leave_s;
     if (context.now_s >= h.leave_by_s) return leave_at_once(context);
     const bool half_over = context.now_s >= h.leave_by_s - context.timings().leave_s / 2;
     const bool may_have_started = h.start_sent && !h.is_started;
@@ -57,7 +57,7 @@ HandOffAction leave_running_job(StepContext& context) {
         return enter(context, HandOffStep::release);
     }
     context.report("stopping the machine on request");
-    h.leave_by_s = context.now_s + context.timings().answer_s;
+    h.leave_by_s += context.timings().answer_s - context.timings().leave_s;
     h.command = Command{};
     h.command.job_id = context.job_id();
     return send(context, CellCommand::stop);

@@ -58,10 +58,19 @@ HandOffAction report_end(StepContext& context) {
     return enter(context, h.claim_sent ? clear_result : release);
 }
 
-// The cell has no record of a job whose START may have arrived. With IDENTITY it is certain that it has not lost one.
-bool may_have_forgotten(const StepContext& context) {
-    return context.in.result->state == JobState::none && context.h.start_sent &&
-           !has_identity(context.status().version);
+// Why a START that may have arrived may be missing from the cell's memory, or "". A copy of the memory from before the
+// epoch of that START was found already; one from between the two shows by a restart, if at all.
+std::string how_it_may_have_forgotten(const StepContext& context) {
+    const HandOff& h = context.h;
+    const Status& status = context.status();
+    if (!h.start_sent) return {};
+    if (!has_identity(status.version)) {
+        return context.in.result->state == JobState::none
+                   ? "the cell has no record of the job, and a cell of map 1.0 cannot show whether it lost it"
+                   : "";
+    }
+    if (h.checks_store || status.boot_count == h.start_boots) return {};
+    return "the cell was restarted after START was sent, and it cannot find out whether its store is an older copy";
 }
 
 // The answer to QUERY_FILE: a job other than ours has been started with this file.
@@ -104,9 +113,8 @@ std::optional<HandOffAction> check_state_before(StepContext& context) {
         return withdraw(context, "the cell has carved another file under this job id", "Dispatch it as a new job.");
     }
     if (started) context.report("the cell has started this job before; continuing with its result");
-    if (!started && may_have_forgotten(context)) {
-        context.set_reason("the cell has no record of the job, and a cell of map 1.0 cannot show whether it lost it",
-                           look_first);
+    if (const std::string how = started ? "" : how_it_may_have_forgotten(context); !how.empty()) {
+        context.set_reason(how, look_and_accept);
         return enter(context, release);
     }
     if (!started && h.start_sent) {
@@ -143,6 +151,7 @@ HandOffAction on_result(StepContext& context) {
     assert(h.step == ask_before || h.step == ask_file || h.step == ask_after);
     if (!answers_our_query(context)) return query_again(context);
     if (h.step == ask_file) return on_file_result(context);
+    if (const std::optional<HandOffAction> lost = compare_grant(context)) return *lost;
     if (const std::string what = contradiction_in(context); !what.empty()) return contradict(context, what);
     const ResultRecord& result = *context.in.result;
     if (h.step == ask_before) {

@@ -91,6 +91,9 @@ struct HandOff {
     std::optional<Status> status;         // last good one
     std::optional<SeenStore> store;       // as last seen
     std::optional<SeenStore> kept_store;  // as in the journal
+    bool checks_store = false;            // the cell finds an older copy of its store by itself (IDENTITY)
+    std::uint32_t grant = 0;              // of the last CLAIM after which the cell knew the one before
+    std::uint32_t new_grant = 0;          // of the last CLAIM
     std::string claim_reason;             // why the cell is to be claimed again, once its IDENTITY is read
     double step_since_s = 0;              // start of the step, of its last command or of its last progress
     double sent_s = 0;                    // when the command was sent last

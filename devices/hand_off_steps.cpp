@@ -58,6 +58,10 @@ HandOffAction send_step(StepContext& context, const StepRow& row) {
             h.command.arg1 = context.plan.secret;
             h.claim_sent = true;
             break;
+        case ask_before:
+        case ask_after:
+            h.command.arg0 = has_identity(context.status().version) ? h.grant : 0;
+            break;
         case ask_file:
             h.command.file_sha256 = context.plan.ticket.file_sha256;
             break;
@@ -291,6 +295,7 @@ HandOffAction acknowledged(StepContext& context) {
         case claim:
             h.is_owner = true;
             h.heartbeat_s = context.now_s;
+            h.new_grant = has_identity(context.status().version) ? context.status().ack_detail : 0;
             break;
         case ask_before:
         case ask_file:

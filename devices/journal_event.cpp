@@ -113,6 +113,7 @@ constexpr FieldRow secret = field<&JournalEvent::secret>("secret");
 constexpr FieldRow command = field<&JournalEvent::command>("command");
 constexpr FieldRow token = field<&JournalEvent::token>("token");
 constexpr FieldRow receipt = field<&JournalEvent::receipt>("receipt");
+constexpr FieldRow grant = field<&JournalEvent::grant>("grant");
 constexpr FieldRow progress = field<&JournalEvent::progress>("progress");
 constexpr FieldRow refusal = field<&JournalEvent::refusal>("refusal");
 constexpr FieldRow state = field<&JournalEvent::job_state>("state");
@@ -148,6 +149,7 @@ constexpr std::array<KindRow, journal_kinds> kind_rows{{
     {Is::closed, "CLOSED", {f::job, f::verdict}},
     {Is::store_lost, "STORE_LOST", {f::store, f::version, f::boots, f::held, f::total}},
     {Is::store_accepted, "STORE_ACCEPTED", {f::store, f::version, f::boots, f::held, f::total}},
+    {Is::granted, "GRANTED", {f::epoch, f::owner, f::grant}},
 }};
 
 const KindRow& row_of(JournalKind kind) {
@@ -239,6 +241,9 @@ std::string describe(const JournalEvent& event) {
             return "CELL_STORE_LOST: the cell showed " + of_store(event);
         case Is::store_accepted:
             return "the operator accepted the memory of the cell: " + of_store(event);
+        case Is::granted:
+            return "the cell granted epoch " + std::to_string(event.epoch) + " under the number " +
+                   std::to_string(event.grant);
     }
     return {};
 }

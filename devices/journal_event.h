@@ -22,23 +22,24 @@
 namespace qchopper {
 
 enum class JournalKind : std::uint8_t {
-    created,        // a job id was drawn for a file; the ticket is kept as registers
-    resumed,        // a dispatcher takes up a job of an earlier one
-    identity,       // store and counters of the cell, as it last showed them
-    claim,          // about to send CLAIM
-    command,        // about to send any other command but START
-    start_intent,   // about to send START
-    start_void,     // the START of the last intent had no effect and can have none any more
-    started,        // the cell has shown that the job has started
-    receipt,        // of a rehearsal that passed
-    progress,       // of a running job
-    refused,        // the cell refused a command
-    result,         // how the job ended in the cell
-    closed,         // the hand-off ended with a verdict
-    store_lost,     // the cell has another memory than before
-    store_accepted  // the operator accepts the memory that the cell has now
+    created,         // a job id was drawn for a file; the ticket is kept as registers
+    resumed,         // a dispatcher takes up a job of an earlier one
+    identity,        // store and counters of the cell, as it last showed them
+    claim,           // about to send CLAIM
+    command,         // about to send any other command but START
+    start_intent,    // about to send START
+    start_void,      // the START of the last intent had no effect and can have none any more
+    started,         // the cell has shown that the job has started
+    receipt,         // of a rehearsal that passed
+    progress,        // of a running job
+    refused,         // the cell refused a command
+    result,          // how the job ended in the cell
+    closed,          // the hand-off ended with a verdict
+    store_lost,      // the cell has another memory than before
+    store_accepted,  // the operator accepts the memory that the cell has now
+    granted          // the cell has granted a CLAIM and drawn a number for it, and knew the number of the one before
 };
-constexpr std::size_t journal_kinds = 15;
+constexpr std::size_t journal_kinds = 16;
 
 // What the cell shows of its memory. `store_id` of zeros: a cell of map 1.0, which has none.
 struct SeenStore {
@@ -63,6 +64,7 @@ struct JournalEvent {
     CellCommand command = CellCommand::none;
     std::uint32_t token = 0;
     std::uint32_t receipt = 0;
+    std::uint32_t grant = 0;     // number of the CLAIM
     std::uint16_t progress = 0;  // 0.01 %
     AckResult refusal = AckResult::none;
     JobState job_state = JobState::none;

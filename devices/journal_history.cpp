@@ -27,6 +27,7 @@ void note_of_cell(JournalHistory& history, const JournalEvent& event) {
             history.store = event.store;
             history.store_is_lost = false;
             history.epoch = 0;
+            history.grant = 0;
             history.lease_may_live = false;
             for (JournalJob& job : history.jobs) {
                 job.is_settled = job.is_settled || job.is_open();
@@ -47,18 +48,22 @@ void note_of_cell(JournalHistory& history, const JournalEvent& event) {
         case JournalKind::command:
             if (event.owner == history.owner) history.seq = std::max(history.seq, event.seq);
             break;
+        case JournalKind::granted:
+            history.grant = event.grant;
+            break;
         default:
             break;
     }
 }
 
-void note_of_job(JournalJob& job, const JournalEvent& event) {
+void note_of_job(JournalJob& job, const JournalEvent& event, std::uint32_t boots) {
     switch (event.kind) {
         case JournalKind::command:
             job.is_stored = job.is_stored || event.command == CellCommand::store;
             break;
         case JournalKind::start_intent:
             job.start_may_have_arrived = true;
+            job.start_boots = boots;
             break;
         case JournalKind::start_void:
             job.start_may_have_arrived = false;
@@ -94,6 +99,7 @@ HandOffPast past_of(const JournalHistory& history, const JournalJob* job, std::u
     past.store = history.store;
     past.store_is_lost = history.store_is_lost;
     past.epoch = history.epoch;
+    past.grant = history.grant;
     if (history.lease_may_live || (owner_held != 0 && owner_held == history.owner)) {
         past.owner = history.owner;
         past.secret = history.secret;
@@ -103,6 +109,7 @@ HandOffPast past_of(const JournalHistory& history, const JournalJob* job, std::u
     past.is_stored = job->is_stored;
     past.start_may_have_arrived = job->start_may_have_arrived;
     past.is_started = job->is_started;
+    past.start_boots = job->start_boots;
     return past;
 }
 
@@ -137,7 +144,7 @@ JournalHistory history_of(std::span<const JournalRow> rows) {
             job.ticket = event.ticket;
             history.jobs.push_back(std::move(job));
         } else if (JournalJob* job = job_of(history, event.job_id)) {
-            note_of_job(*job, event);
+            note_of_job(*job, event, history.store ? history.store->boot_count : 0);
         }
     }
     return history;

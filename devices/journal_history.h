@@ -23,6 +23,7 @@ struct JournalJob {
     std::vector<std::uint16_t> ticket;  // the block TICKET
     bool is_stored = false;             // STORE may have arrived
     bool start_may_have_arrived = false;
+    std::uint32_t start_boots = 0;  // BOOT_COUNT as last seen before its START
     bool is_started = false;
     bool has_ended = false;  // ended or aborted in the cell
     JobResult job_result = JobResult::none;
@@ -42,6 +43,7 @@ struct JournalHistory {
     std::optional<SeenStore> store;  // as last seen or accepted
     bool store_is_lost = false;      // and not accepted since
     std::uint32_t epoch = 0;         // the highest one used in CLAIM, for the store as it is now
+    std::uint32_t grant = 0;         // of the last CLAIM that was granted, for the store as it is now
     bool lease_may_live = false;     // of owner and secret
     std::uint32_t owner = 0;         // of the last CLAIM
     std::uint32_t secret = 0;

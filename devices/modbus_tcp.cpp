@@ -94,6 +94,12 @@ struct ModbusTcpBus::Link {
         return std::min(deadline, leave_by);
     }
 
+    double leaving_for_s() {
+        bounded(Deadline::max());
+        if (cancelled == nullptr || is_watching()) return 0;
+        return leave_s - std::chrono::duration<double>(leave_by - Clock::now()).count();
+    }
+
     // Milliseconds until the deadline, or until `cancelled` is to be read again.
     int slice_ms(Deadline deadline) const {
         constexpr int slice = 20;
@@ -284,6 +290,10 @@ void ModbusTcpBus::leave_when(const std::atomic<bool>* cancelled, double within_
     link_->cancelled = cancelled;
     link_->leave_s = within_s;
     link_->leave_by = Deadline::max();
+}
+
+double ModbusTcpBus::leaving_for_s() const {
+    return link_->leaving_for_s();
 }
 
 TcpAddress parse_tcp_address(const std::string& text) {

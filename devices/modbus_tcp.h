@@ -45,6 +45,7 @@ class ModbusTcpBus : public RegisterBus {
     BusAnswer read_holding(std::uint16_t address, std::uint16_t count) override;
     BusAnswer write_holding(std::uint16_t address, std::span<const std::uint16_t> registers) override;
     void leave_when(const std::atomic<bool>* cancelled, double within_s) override;
+    double leaving_for_s() const override;
 
  private:
     struct Link;

@@ -35,7 +35,7 @@ constexpr LayoutRow<Status> status_rows[] = {
     bound<&Status::ack_seq>({14, 2, u32, "ACK_SEQ", "CMD_SEQ of the command answered last"}),
     bound<&Status::ack_command>({16, 1, u16, "ACK_CMD", "its command"}),
     bound<&Status::ack_result>({17, 1, u16, "ACK_RESULT", "see the table of results"}),
-    bound<&Status::ack_detail>({18, 2, u32, "ACK_DETAIL", "an address, an offset, a receipt"}),
+    bound<&Status::ack_detail>({18, 2, u32, "ACK_DETAIL", "an address, an offset, a receipt, a grant"}),
     bound<&Status::job_id>(
         {20, 8, bytes, "JOB_ID", "job stored, prepared, active, or finished and not cleared; 0 none"}),
     bound<&Status::token>({28, 2, u32, "TOKEN", "one-shot start token, never 0 when prepared"}),
@@ -84,7 +84,8 @@ constexpr LayoutRow<ResultRecord> result_rows[] = {
     bound<&ResultRecord::last_block, ResultRecord>({240, 2, u32, "LAST_BLOCK", ""}),
     bound<&ResultRecord::query_seq>({242, 2, u32, "QUERY_SEQ", "CMD_SEQ of the query"}),
     bound<&ResultRecord::query_owner>({244, 2, u32, "QUERY_OWNER", "who asked"}),
-    reserved<ResultRecord>({246, 12, words, "reserved", "0"}),
+    bound<&ResultRecord::grant_epoch>({246, 2, u32, "GRANT_EPOCH", "of the CLAIM with the number in ARG0; 0 unknown"}),
+    reserved<ResultRecord>({248, 10, words, "reserved", "0"}),
     checksum<ResultRecord>({258, 2, u32, "CRC", "CRC-32 over 200..257"}),
 };
 
@@ -96,7 +97,8 @@ constexpr LayoutRow<Identity> identity_rows[] = {
     bound<&Identity::epoch_held>({312, 2, u32, "EPOCH_HELD", "as in STATUS"}),
     bound<&Identity::starts_total>({314, 2, u32, "STARTS_TOTAL", "as in STATUS"}),
     bound<&Identity::store_created_ms>({316, 4, u64, "STORE_CREATED", "unix ms"}),
-    reserved<Identity>({320, 2, words, "reserved", "0"}),
+    bound<&Identity::checks_store>({320, 1, u16, "STORE_CHECK", "1: the cell finds an older copy of its store"}),
+    reserved<Identity>({321, 1, words, "reserved", "0"}),
     checksum<Identity>({322, 2, u32, "CRC", "CRC-32 over 300..321"}),
 };
 
@@ -110,7 +112,8 @@ constexpr LayoutRow<Command> command_rows[] = {
     bound<&Command::job_id>(
         {8, 8, bytes, "JOB_ID", "0 for Reset, Clear, SET_MODE, QUERY_FILE; all ones: any job (Abort)"}),
     bound<&Command::token>({16, 2, u32, "TOKEN", "for Start"}),
-    bound<&Command::arg0>({18, 2, u32, "ARG0", "CLAIM: takeover code; SET_MODE: mode; PREPARE: receipt"}),
+    bound<&Command::arg0>(
+        {18, 2, u32, "ARG0", "CLAIM: takeover code; SET_MODE: mode; PREPARE: receipt; QUERY: a grant"}),
     bound<&Command::arg1>({20, 2, u32, "ARG1", "CLAIM: the owner's secret"}),
     bound<&Command::file_sha256>(
         {22, 16, bytes, "FILE_SHA256", "checked by STORE, VERIFY, PREPARE, Start; asked for by QUERY_FILE"}),

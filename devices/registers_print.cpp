@@ -97,6 +97,23 @@ std::string print_machine() {
     return out;
 }
 
+const char* const what_is_kept =
+    "\n## What the cell keeps, and where\n\nIn its store, over every loss of power: STORE_ID, BOOT_COUNT, EPOCH_HELD, "
+    "STARTS_TOTAL, every job id that was ever started or cancelled, with its RESULT, and every grant: a random number "
+    "that is drawn at each CLAIM that is granted, with its epoch. What changes the store is written before it is "
+    "acknowledged and before anything moves.\n\nEach write also holds a new random mark of 64 bits. A cell with "
+    "STORE_CHECK 1 keeps two marks in another memory, which no backup of the store holds (retentive memory of the "
+    "controller, not its disk): before a write the mark to come as the second one, after it, and before the "
+    "acknowledgement and the motion, the same mark as both. A store whose mark is neither of the two when the "
+    "controller starts is an older copy or a foreign one: the cell draws another STORE_ID.\n\nThe grant of a CLAIM is "
+    "in ACK_DETAIL of its acknowledgement. The dispatcher keeps it, and asks for it in ARG0 of its next QUERY. A cell "
+    "that does not know it has a memory from before that CLAIM, even if all that it remembers was put back and "
+    "EPOCH_HELD was raised again since. A copy from between a CLAIM and its START shows by its mark; with STORE_CHECK "
+    "0 "
+    "the dispatcher says UNKNOWN of a START around which the cell was restarted. Not found is one case: store and "
+    "marks "
+    "are both put back to a copy that was taken between a CLAIM and its START.\n";
+
 }  // namespace
 
 std::string print_registers() {
@@ -106,11 +123,12 @@ std::string print_registers() {
         "3, 4 and 16 only. Addresses are 0-based. Numbers of 32 and 64 bits have the high word first; text has two "
         "characters a register, the first in the high byte, padded with zero bytes; there are no floats. CRC-32 is "
         "that of IEEE 802.3 over the bytes in wire order. Reads stay inside one block; holding registers read as "
-        "zero. Blocks of zeros do nothing.\n\nVersion 1.1 added IDENTITY, the command QUERY_FILE and the fields PART "
-        "and PARTS of TICKET. A cell of 1.0 answers the read of IDENTITY with exception 2 and QUERY_FILE with "
+        "zero. Blocks of zeros do nothing.\n\nVersion 1.1 added IDENTITY, the command QUERY_FILE, GRANT_EPOCH of "
+        "RESULT and the fields PART and PARTS of TICKET. A cell of 1.0 answers the read of IDENTITY with exception 2 "
+        "and QUERY_FILE with "
         "UNKNOWN_CMD, and wants zeros in PART and PARTS.\n";
     for (const Block* block : all_blocks()) out += print_block(*block);
-    return out + print_codes() + print_machine();
+    return out + what_is_kept + print_codes() + print_machine();
 }
 
 }  // namespace qchopper

@@ -25,6 +25,9 @@ struct CellHooks {
     std::function<void(const std::string&)> log;
     // Removes copies of finished jobs until so many bytes are free or none is left; returns the free KiB.
     std::function<std::uint32_t(const CellMemory&, std::uint64_t bytes)> remove_old_copies;
+    // The marks of the store, in another memory. Both or none; without them the cell does not find an older copy.
+    std::function<SaveMarks()> read_marks;
+    std::function<bool(const SaveMarks&)> write_marks;  // false: it could not
 };
 
 }  // namespace qchopper

@@ -38,20 +38,26 @@ struct CellSim::Parts {
     explicit Parts(CellSimOptions given) : options(std::move(given)) {}
 
     CellHooks hooks() {
-        return {[this](const CellMemory& memory) {
-                    try {
-                        save_memory(store->memory(), memory);
-                        return true;
-                    } catch (const InputError& fault) {
-                        report(fault.what());
-                        return false;
-                    }
-                },
+        return {[this](const CellMemory& memory) { return write([&] { save_memory(store->memory(), memory); }); },
                 [this](const std::string& line) { report(line); },
                 [this](const CellMemory& memory, std::uint64_t bytes) {
                     store->remove_old_copies(memory, bytes);
                     return store->free_kib();
-                }};
+                },
+                [this] { return load_marks(store->marks()); },
+                [this](const SaveMarks& marks) { return write([&] { save_marks(store->marks(), marks); }); }};
+    }
+
+    // False: it could not be written.
+    template <class Write>
+    bool write(const Write& what) const {
+        try {
+            what();
+            return true;
+        } catch (const InputError& fault) {
+            report(fault.what());
+            return false;
+        }
     }
 
     void report(const std::string& line) const {
@@ -110,6 +116,7 @@ struct CellSim::Parts {
             return report(std::string("power stays off: ") + fault.what());
         }
         if (store_is == PowerCut::Store::lost) store->empty();
+        if (store_is == PowerCut::Store::all_back) cell_hooks.write_marks({memory.mark, memory.mark});
         cell = power_on(cell, memory, cell.random, clock.now(), cell_hooks);
         is_off = false;
         handled = 0;

@@ -63,7 +63,8 @@ struct CellAlarm {
 
 // How the next power cut ends; `lost` from the event at which power was cut until boot().
 struct PowerCut {
-    enum class Store { stays, lost, back };
+    // back: an older copy of the store; all_back: an older copy of store and marks.
+    enum class Store { stays, lost, back, all_back };
     std::uint64_t at_event = 0;  // 0: none is due
     Store store = Store::stays;
     bool lost = false;
@@ -81,8 +82,18 @@ struct CellMemory {
     std::uint32_t boot_count = 0;
     std::uint32_t epoch_held = 0;
     std::uint32_t starts_total = 0;
-    std::map<Uuid, JobRecord> jobs;  // every id ever started or cancelled
+    std::uint64_t mark = 0;                         // random, another one at each write; 0 in that of version 1.0
+    std::map<std::uint32_t, std::uint32_t> grants;  // of every CLAIM ever granted: its random number, its epoch
+    std::map<Uuid, JobRecord> jobs;                 // every id ever started or cancelled
     bool operator==(const CellMemory&) const = default;
+};
+
+// Kept outside of the store, in a memory that no backup of the store holds: the store that was written last has one of
+// these marks. Another one is an older copy.
+struct SaveMarks {
+    std::uint64_t last = 0;  // of the last write that came to its end
+    std::uint64_t next = 0;  // of a write that may have begun
+    bool operator==(const SaveMarks&) const = default;
 };
 
 // The last command of one sender and its result.
@@ -138,6 +149,8 @@ struct Pending {
 struct CellState {
     CellLimits limits;
     CellMemory memory;
+    bool checks_store = false;     // against marks in another memory
+    std::uint64_t saved_mark = 0;  // of the store as it is
     PackState state = PackState::stopped;
     PackState state_before = PackState::stopped;
     UnitMode mode = UnitMode::production;

@@ -37,6 +37,8 @@ constexpr NamedFault fault_rows[] = {
     {Fault::power_cut_store_lost, "power-cut-store-lost", "event", 1, "the same, and the store is empty afterwards"},
     {Fault::power_cut_store_back, "power-cut-store-back", "event", 1,
      "the same, and an older copy of the store is back"},
+    {Fault::power_cut_all_back, "power-cut-all-back", "event", 1,
+     "the same, and an older copy of all that the cell remembers is back"},
     {Fault::disk_full, "disk-full", "", 0, "a write of the cell's memory fails"},
     {Fault::store_full, "store-full", "", 0, "there is no room for a job file"},
     {Fault::no_consent, "no-consent", "", 0, "a question is answered no"},

@@ -42,6 +42,7 @@ enum class Fault : std::uint8_t {
     power_cut,
     power_cut_store_lost,
     power_cut_store_back,
+    power_cut_all_back,
     disk_full,
     store_full,
     no_consent,

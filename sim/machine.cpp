@@ -28,12 +28,19 @@ void log(CellState& cell, const CellHooks& hooks, const std::string& line) {
     if (hooks.log) hooks.log(line);
 }
 
-bool save(CellState& cell, const CellMemory& memory, const CellHooks& hooks) {
+bool save(CellState& cell, CellMemory& memory, const CellHooks& hooks) {
     count_step(cell);  // cut before the write
     if (cell.power.lost || take(cell.faults, Fault::disk_full)) return false;
-    const bool is_saved = !hooks.save || hooks.save(memory);
+    const bool has_mark = has_identity(cell.limits.version);
+    memory.mark = has_mark ? next_random(cell.random) | 1U : 0;
+    if (cell.checks_store && !hooks.write_marks({cell.saved_mark, memory.mark})) return false;
+    if (hooks.save && !hooks.save(memory)) return false;
+    cell.saved_mark = memory.mark;
     count_step(cell);  // cut after it
-    return is_saved;
+    // Before the caller goes on: from now on the store before this write is an older one.
+    const bool is_cut = cell.power.lost;
+    if (cell.checks_store && !is_cut && !hooks.write_marks({memory.mark, memory.mark})) cell.warning = true;
+    return true;
 }
 
 std::uint64_t unix_ms(const CellState& cell, CellTime now) {
@@ -54,12 +61,15 @@ std::uint32_t random_number(CellState& cell) {
 
 namespace {
 
-// Precondition: the memory has no id.
 void draw_store_id(CellState& cell, CellTime now) {
     RegisterWriter drawn;
     while (drawn.registers().size() < sizeof(Uuid) / 2) drawn.u32(cell::random_number(cell));
     RegisterReader(drawn.registers()).bytes(cell.memory.store_id);
     cell.memory.store_created_ms = now.unix_ms;
+}
+
+bool is_last_written(const CellMemory& memory, const SaveMarks& marks) {
+    return memory.mark != 0 && (memory.mark == marks.last || memory.mark == marks.next);
 }
 
 }  // namespace
@@ -71,7 +81,12 @@ CellState boot(const CellLimits& limits, CellMemory memory, std::uint64_t seed, 
     cell.random = seed;
     cell.booted = now;
     cell.state_since_ms = now.steady_ms;
-    if (cell.memory.store_id == Uuid{} && has_identity(limits.version)) draw_store_id(cell, now);
+    cell.checks_store = has_identity(limits.version) && hooks.read_marks && hooks.write_marks;
+    cell.saved_mark = cell.memory.mark;
+    const bool is_new = cell.memory.store_id == Uuid{} && has_identity(limits.version);
+    const bool is_older = !is_new && cell.checks_store && !is_last_written(cell.memory, hooks.read_marks());
+    if (is_older) cell::log(cell, hooks, "the store is not the one that was written last: it gets another STORE_ID");
+    if (is_new || is_older) draw_store_id(cell, now);
     ++cell.memory.boot_count;
     for (auto& [id, record] : cell.memory.jobs) {
         if (record.state != JobState::running && record.state != JobState::interrupted) continue;
@@ -222,8 +237,13 @@ Status status_of(const CellState& cell, CellTime now) {
 
 Identity identity_of(const CellState& cell) {
     const CellMemory& memory = cell.memory;
-    return {cell.limits.version, memory.store_id,     memory.boot_count,
-            memory.epoch_held,   memory.starts_total, memory.store_created_ms};
+    return {cell.limits.version,
+            memory.store_id,
+            memory.boot_count,
+            memory.epoch_held,
+            memory.starts_total,
+            memory.store_created_ms,
+            static_cast<std::uint16_t>(cell.checks_store)};
 }
 
 }  // namespace qchopper

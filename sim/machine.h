@@ -16,7 +16,8 @@ namespace qchopper {
 
 // The state after power on. A job that is running in `memory` was interrupted by a power cut: it becomes aborted, and
 // the machine is in Aborted; otherwise it is in Stopped. Nothing starts by itself. A memory without store id gets one,
-// unless the cell is of version 1.0. `seed` is for tokens, receipts and that id.
+// unless the cell is of version 1.0; one whose mark is neither of those that the hooks read gets another. `seed` is for
+// tokens, receipts and that id.
 CellState boot(const CellLimits& limits, CellMemory memory, std::uint64_t seed, CellTime now, const CellHooks& hooks);
 
 // The effects of time: acting states end, the job advances, lease and token expire, automatic consent is given.

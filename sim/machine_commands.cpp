@@ -100,12 +100,14 @@ Answer claim(CellState& cell, const Command& command, CellTime now, const CellHo
     }
     CellMemory next = cell.memory;
     next.epoch_held = command.epoch;
+    const std::uint32_t grant = has_identity(cell.limits.version) ? random_number(cell) : 0;
+    if (grant != 0) next.grants[grant] = command.epoch;
     if (!save(cell, next, hooks)) return {AckResult::store_io, 0};
     cell.memory = std::move(next);
     drop_preparation(cell, AckResult::stale_epoch);
     cell.lease = Lease{command.owner, command.arg1, now.steady_ms + lease_ms, now.steady_ms, std::nullopt};
     cell.watchdog_expired = false;
-    return {};
+    return {AckResult::ok, grant};
 }
 
 Answer release(CellState& cell) {
@@ -152,6 +154,8 @@ Answer query(CellState& cell, const Command& command) {
     const auto known = cell.memory.jobs.find(command.job_id);
     const JobRecord record = known == cell.memory.jobs.end() ? JobRecord{} : known->second;
     ResultRecord answer{record, command.job_id, command.seq, command.owner};
+    const auto grant = cell.memory.grants.find(command.arg0);
+    if (grant != cell.memory.grants.end()) answer.grant_epoch = grant->second;
     if (is_current(cell, command.job_id)) {
         answer.state = cell.job.state;
         answer.result = cell.job.result;

@@ -17,8 +17,8 @@ constexpr std::uint32_t most_epoch_jump = 1U << 20;
 
 // machine.cpp
 void log(CellState& cell, const CellHooks& hooks, const std::string& line);
-// False: it could not be written, or power is gone.
-bool save(CellState& cell, const CellMemory& memory, const CellHooks& hooks);
+// Gives the memory a new mark and writes it. False: it could not be written, or power is gone.
+bool save(CellState& cell, CellMemory& memory, const CellHooks& hooks);
 bool holds_lease(const CellState& cell, std::uint32_t owner, std::uint32_t epoch);
 std::uint32_t random_number(CellState& cell);                // never 0
 std::uint64_t unix_ms(const CellState& cell, CellTime now);  // after the jumps of the clock

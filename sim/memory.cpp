@@ -3,6 +3,7 @@
 
 #include "sim/memory.h"
 
+#include <charconv>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -15,8 +16,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// A memory without a store id, of a cell of version 1.0, has schema 2 and no keys for it.
-constexpr int schema = 3;
+// A memory without a store id, of a cell of version 1.0, has schema 2 and neither mark nor grants.
+constexpr int schema = 4;
 constexpr int schema_without_id = 2;
 
 // Throws std::invalid_argument, caught below.
@@ -25,6 +26,14 @@ std::array<std::uint8_t, N> id_from(const std::string& text) {
     const auto id = from_hex<N>(text);
     if (!id) throw std::invalid_argument("'" + text + "' is not an id");
     return *id;
+}
+
+// Whether it was written so is compared at the end.
+std::uint32_t number_from(const std::string& text) {
+    std::uint32_t number = 0;
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (fault != std::errc() || end != text.data() + text.size()) throw std::invalid_argument("no number");
+    return number;
 }
 
 // The value of a key. nlohmann::json would convert a number of another kind or range without an error.
@@ -74,6 +83,10 @@ CellMemory from_text(std::string_view text) {
     if (given == schema) {
         memory.store_id = id_from<16>(json.at("store_id").get<std::string>());
         memory.store_created_ms = whole<std::uint64_t>(json, "store_created_ms");
+        memory.mark = whole<std::uint64_t>(json, "mark");
+        for (const auto& [number, epoch] : json.at("grants").items()) {
+            memory.grants[number_from(number)] = epoch.get<std::uint32_t>();
+        }
     }
     memory.boot_count = whole<std::uint32_t>(json, "boot_count");
     memory.epoch_held = whole<std::uint32_t>(json, "epoch_held");
@@ -98,6 +111,9 @@ std::string to_json(const CellMemory& memory) {
     if (has_id) {
         all["store_id"] = to_hex(memory.store_id);
         all["store_created_ms"] = memory.store_created_ms;
+        all["mark"] = memory.mark;
+        all["grants"] = Json::object();
+        for (const auto& [number, epoch] : memory.grants) all["grants"][std::to_string(number)] = epoch;
     }
     const std::string text = all.dump(1);
     all["sha256"] = to_hex(sha256({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
@@ -129,6 +145,32 @@ CellMemory load_memory(const std::filesystem::path& file) {
 
 void save_memory(const std::filesystem::path& file, const CellMemory& memory) {
     write_file(file, to_json(memory));
+}
+
+std::string to_json(const SaveMarks& marks) {
+    return Json{{"schema", 1}, {"last", marks.last}, {"next", marks.next}}.dump(1) + "\n";
+}
+
+SaveMarks load_marks(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) return {};
+    SaveMarks marks;
+    try {
+        const Bytes bytes = read_file(file, record_limit);
+        const Json json = Json::parse(bytes.begin(), bytes.end());
+        marks = {whole<std::uint64_t>(json, "last"), whole<std::uint64_t>(json, "next")};
+    } catch (const InputError&) {
+        return {};
+    } catch (const Json::exception&) {
+        return {};
+    } catch (const std::invalid_argument&) {
+        return {};
+    }
+    return marks;
+}
+
+void save_marks(const std::filesystem::path& file, const SaveMarks& marks) {
+    write_file(file, to_json(marks));
 }
 
 }  // namespace qchopper

@@ -26,4 +26,8 @@ CellMemory load_memory(const std::filesystem::path& file);
 // Throws InputError (create, io); then the old file is unchanged.
 void save_memory(const std::filesystem::path& file, const CellMemory& memory);
 
+// The marks of the store, in a file of their own. None if it is missing or damaged: then the store counts as older.
+SaveMarks load_marks(const std::filesystem::path& file);
+void save_marks(const std::filesystem::path& file, const SaveMarks& marks);  // throws InputError
+
 }  // namespace qchopper

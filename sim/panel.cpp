@@ -107,6 +107,8 @@ void arm(CellState& cell, const ArmedFault& fault, CellTime now) {
             return cut(PowerCut::Store::lost);
         case Fault::power_cut_store_back:
             return cut(PowerCut::Store::back);
+        case Fault::power_cut_all_back:
+            return cut(PowerCut::Store::all_back);
         case Fault::clock_jump:
             cell.jump_ms += 1000 * fault.number;
             return;
@@ -133,6 +135,7 @@ CellMemory memory_after(PowerCut::Store store, const CellMemory& saved) {
     CellMemory memory;
     if (store == PowerCut::Store::lost) return memory;
     memory.store_id = saved.store_id;  // the copy that was made when the store was new
+    memory.mark = 1;
     memory.store_created_ms = saved.store_created_ms;
     return memory;
 }

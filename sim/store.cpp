@@ -78,6 +78,13 @@ Store::~Store() {
     close(lock_);
 }
 
+fs::path Store::marks() const {
+    if (own_) return folder_ / "marks.json";
+    const fs::path whole = fs::absolute(folder_).lexically_normal();
+    const fs::path named = whole.has_filename() ? whole : whole.parent_path();  // "store/" is "store"
+    return fs::path(named) += ".marks.json";
+}
+
 fs::path Store::job(const Uuid& id) const {
     return folder_ / "jobs" / (to_text(id) + ".qjob");
 }

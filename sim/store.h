@@ -24,6 +24,8 @@ class Store {
     Store& operator=(const Store&) = delete;
 
     std::filesystem::path memory() const { return folder_ / "memory.json"; }
+    // Of the marks: beside the folder, so that an older copy of the folder does not bring them back.
+    std::filesystem::path marks() const;
     std::filesystem::path job(const Uuid& id) const;  // of the copy of a job's file
     std::uint32_t free_kib() const;                   // 0 if that cannot be read
     void empty() const;                               // memory and copies are lost

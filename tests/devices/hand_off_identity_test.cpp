@@ -77,6 +77,108 @@ TEST(Fault, F24_ACellThatComesBackWithAnEmptyStoreIsUnknownOnceStartMayHaveArriv
     }
 }
 
+// An older copy of all that the cell remembers, of which no number is lower than seen before.
+void put_back_and_raise_again(ScriptedCell& cell) {
+    cell.grants = {{4711, 1}};
+    cell.status.job_id = {};
+    cell.status.job_state = JobState::none;
+    cell.status.state = PackState::stopped;
+    cell.status.owner_held = 0;
+    cell.result = {};
+}
+
+TEST(Fault, F24_AnOlderMemoryThatAnotherPcRaisedAgainIsALostOne) {
+    ScriptedCell cell;
+    lose_first_start(cell, [&](const Command& start) {
+        EXPECT_EQ(start.epoch, 1U);
+        put_back_and_raise_again(cell);
+    });
+    cell.run();
+    expect_store_lost(cell, StartVerdict::unknown);
+    EXPECT_NE(cell.state.why.find("CLAIM"), std::string::npos) << cell.state.why;
+    EXPECT_EQ(cell.count(CellCommand::start), 0);
+}
+
+TEST(Fault, F24_TheNextDispatcherFindsTheOlderMemoryByTheNumberOfTheLastClaim) {
+    HandOffPlan plan = plan_after({{42}, 0x0101, 1, 5, 0});
+    plan.options.past.grant = 66;
+    for (const std::uint32_t number : {66U, 4711U}) {
+        ScriptedCell cell(plan);
+        cell.status.epoch_held = 5;
+        cell.grants[number] = 5;
+        if (number == 66) {
+            end_the_job(cell);
+            EXPECT_EQ(cell.state.verdict, StartVerdict::started);
+            continue;
+        }
+        cell.run();
+        expect_store_lost(cell, StartVerdict::not_started);
+        EXPECT_EQ(cell.order(), "CLAIM QUERY ") << "nothing is stored or started";
+        EXPECT_FALSE(has(cell.events, JournalKind::granted)) << "the old number still is to be asked for";
+    }
+}
+
+TEST(HandOffIdentity, TheNumberOfAClaimIsKeptBeforeTheFirstCommandThatNeedsIt) {
+    ScriptedCell cell;
+    cell.run_to(HandOffStep::start);
+    const auto granted = std::find_if(cell.events.begin(), cell.events.end(),
+                                      [](const JournalEvent& event) { return event.kind == JournalKind::granted; });
+    ASSERT_NE(granted, cell.events.end());
+    EXPECT_EQ(granted->grant, 50001U);
+    EXPECT_EQ(granted->epoch, 1U);
+    EXPECT_EQ(granted->owner, 77U);
+    const auto is_store = [](const JournalEvent& event) {
+        return event.kind == JournalKind::command && event.command == CellCommand::store;
+    };
+    EXPECT_LT(granted, std::find_if(cell.events.begin(), cell.events.end(), is_store));
+}
+
+// Also after the end of the job, when its result is known: the next job must not be sent to this memory.
+TEST(Fault, F24_ACellThatNoLongerKnowsAJobThatHasStartedHasLostItsMemory) {
+    for (const bool has_ended : {false, true}) {
+        ScriptedCell cell;
+        cell.checks_store = 0;
+        cell.run_to(HandOffStep::run);
+        if (has_ended) cell.status.job_state = JobState::ended;
+        bool is_back = false;
+        cell.lose = [&](const HandOffAction& action) {
+            if (is_back || action.kind != Kind::read_status) return false;
+            is_back = true;
+            ++cell.status.boot_count;
+            cell.status.job_id = {};
+            cell.status.job_state = JobState::none;
+            cell.status.state = PackState::stopped;
+            cell.result = {};
+            return true;
+        };
+        cell.run();
+        expect_store_lost(cell, StartVerdict::started);
+    }
+}
+
+TEST(Fault, F24_ARestartAroundStartIsUnknownIfTheCellCannotCheckItsStore) {
+    for (const std::uint16_t checks_store : {0, 1}) {
+        ScriptedCell cell;
+        cell.checks_store = checks_store;
+        lose_first_start(cell, [&](const Command&) {
+            ++cell.status.boot_count;
+            cell.status.job_id = {};
+            cell.status.job_state = JobState::none;
+            cell.status.state = PackState::stopped;
+            cell.result = {};
+        });
+        if (checks_store == 1) {
+            end_the_job(cell);
+            EXPECT_EQ(cell.state.verdict, StartVerdict::started) << cell.state.why;
+            continue;
+        }
+        cell.run();
+        EXPECT_EQ(cell.state.verdict, StartVerdict::unknown) << cell.state.why;
+        EXPECT_NE(cell.state.to_do.find("accept-store"), std::string::npos) << cell.state.to_do;
+        EXPECT_EQ(cell.count(CellCommand::start), 0);
+    }
+}
+
 TEST(Fault, F24_ACellEmptiedWhileTheJobRunsIsStillStarted) {
     ScriptedCell cell;
     cell.run_to(HandOffStep::run);
@@ -94,6 +196,10 @@ TEST(HandOffIdentity, ACellOfMap10IsServedAndTheReportNamesWhatCannotBeSeen) {
     end_the_job(cell);
     EXPECT_EQ(cell.state.verdict, StartVerdict::started);
     EXPECT_EQ(cell.count(CellCommand::query_file), 0);
+    for (const Command& command : cell.commands) {
+        const bool is_query = command.command == CellCommand::query;
+        EXPECT_TRUE(!is_query || command.arg0 == 0) << "it does not know grants";
+    }
     const auto said = [&](const char* words) {
         return std::any_of(cell.lines.begin(), cell.lines.end(),
                            [&](const std::string& line) { return line.find(words) != std::string::npos; });

@@ -108,6 +108,23 @@ TEST(HandOff, ALostLinkIsLeftInTwoSecondsWhateverTheStep) {
     }
 }
 
+// Of a call that took 1.5 s more: the two seconds count from the request, not from its end.
+TEST(Fault, F58_ARequestToStopDuringACallEndsTwoSecondsAfterTheRequest) {
+    for (int turns = 1; turns < 200; ++turns) {
+        ScriptedCell cell;
+        if (!bring_to(cell, turns)) break;
+        const double asked_s = cell.now_s;
+        cell.now_s += 1.5;
+        cell.input = HandOffInput{};
+        cell.input.end = BusEnd::lost;
+        cell.input.cancelled_for_s = 1.5;
+        stop_on_request(cell);
+        cell.lose = [](const HandOffAction&) { return true; };
+        cell.run();
+        EXPECT_LE(cell.now_s - asked_s, 2 + cell.call_s) << turns;
+    }
+}
+
 TEST(HandOff, AskedToStopWhenTheLinkComesBackTheCellConfirmsAllTheSame) {
     ScriptedCell cell;
     cell.run_to(HandOffStep::prepare);

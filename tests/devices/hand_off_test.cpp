@@ -47,8 +47,8 @@ TEST(HandOff, TheJournalTellsTheWholeStory) {
     std::string kinds;
     for (const JournalEvent& event : cell.events) kinds += std::string(name(event.kind)) + " ";
     EXPECT_EQ(kinds,
-              "IDENTITY CLAIM COMMAND COMMAND COMMAND COMMAND COMMAND COMMAND START_INTENT STARTED PROGRESS COMMAND "
-              "RESULT COMMAND COMMAND COMMAND IDENTITY CLOSED ");
+              "IDENTITY CLAIM COMMAND GRANTED COMMAND COMMAND COMMAND COMMAND COMMAND START_INTENT STARTED PROGRESS "
+              "COMMAND RESULT COMMAND COMMAND COMMAND IDENTITY CLOSED ");
     EXPECT_EQ(cell.events.back().verdict, StartVerdict::started);
     EXPECT_EQ(cell.events[cell.events.size() - 2].store.starts_total, 1U);
 }

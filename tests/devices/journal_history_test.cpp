@@ -154,6 +154,25 @@ TEST(Fault, F24_AMemoryOlderThanTheLeaseOfTheLastStartIsALostOne) {
     EXPECT_EQ(rows.history().store->epoch_held, 9U);
 }
 
+TEST(Fault, F24_TheNumberOfTheLastClaimIsKeptUntilAnotherMemoryIsAccepted) {
+    Rows rows;
+    rows.add(Is::created);
+    rows.add(Is::identity, {}).store = {{1}, 0x0101, 3, 0, 0};
+    rows.claim(9, 1);
+    EXPECT_EQ(rows.history().grant, 0U);
+    rows.add(Is::granted).grant = 4711;
+    rows.claim(10, 2);
+    rows.add(Is::start_intent).epoch = 9;
+    rows.add(Is::identity, {}).store = {{1}, 0x0101, 4, 9, 0};
+    const JournalHistory history = rows.history();
+    EXPECT_EQ(history.grant, 4711U);
+    EXPECT_EQ(history.jobs.front().start_boots, 3U) << "not that of after the restart";
+    EXPECT_EQ(past_of(history, &history.jobs.front()).grant, 4711U);
+    EXPECT_EQ(past_of(history, nullptr).grant, 4711U);
+    rows.add(Is::store_accepted, {}).store = {{2}, 0x0101, 1, 0, 0};
+    EXPECT_EQ(rows.history().grant, 0U);
+}
+
 TEST(JournalHistory, APartWaitsForTheCompleteEndOfThePartBefore) {
     WireTicket ticket;
     ticket.project_id = {3};

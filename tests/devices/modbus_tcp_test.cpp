@@ -237,7 +237,26 @@ TEST(ModbusTcpBus, ACallUnderWayEndsSoonAfterTheRequestToStop) {
     signal.join();
     EXPECT_GT(took, 0.45);
     EXPECT_LT(took, 0.8);
+    EXPECT_GE(bus.leaving_for_s(), 0.3) << "since the request, not since the end of the call";
     EXPECT_LT(seconds_of([&] { EXPECT_EQ(bus.read_input(7, 1).end, BusEnd::lost); }), 0.1);
+    bus.leave_when(nullptr, 0);
+    EXPECT_EQ(bus.leaving_for_s(), 0);
+}
+
+// Else the two seconds of the hand-off and those of its bus would end at different times.
+TEST(Fault, F58_TheTimeOfABusToLeaveRunsFromWhenItIsAskedForIt) {
+    const LoopbackServer peer([](int fd, int) { wait_for_close(fd); });
+    ModbusTimings patient;
+    patient.response_s = patient.call_s = 30;
+    ModbusTcpBus bus({"127.0.0.1", peer.port}, 255, patient);
+    std::atomic<bool> cancelled = false;
+    bus.leave_when(&cancelled, 0.5);
+    EXPECT_EQ(bus.leaving_for_s(), 0);
+    cancelled = true;
+    EXPECT_LT(bus.leaving_for_s(), 0.1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    EXPECT_GE(bus.leaving_for_s(), 0.3);
+    EXPECT_LT(seconds_of([&] { EXPECT_EQ(bus.read_input(7, 1).end, BusEnd::lost); }), 0.45);
     bus.leave_when(nullptr, 0);
 }
 

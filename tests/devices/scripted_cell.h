@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -96,6 +97,7 @@ struct ScriptedCell {
         shown.boot_count = status.boot_count;
         shown.epoch_held = status.epoch_held;
         shown.starts_total = status.starts_total;
+        shown.checks_store = checks_store;
         return shown;
     }
 
@@ -115,6 +117,8 @@ struct ScriptedCell {
         switch (command.command) {
             case CellCommand::claim:
                 status.epoch_held = command.epoch;
+                status.ack_detail = 50000 + command.epoch;
+                grants[status.ack_detail] = command.epoch;
                 status.owner_held = command.owner;
                 status.flags |= flag::lease_held;
                 break;
@@ -149,6 +153,7 @@ struct ScriptedCell {
                 result.job_id = command.job_id;
                 result.query_owner = command.owner;
                 result.query_seq = command.seq;
+                result.grant_epoch = grants.contains(command.arg0) ? grants[command.arg0] : 0;
                 if (status.job_id == command.job_id) result.state = status.job_state;
                 result.starts = status.job_id == command.job_id && status.job_state >= JobState::running ? 1 : 0;
                 result.file_sha256 = plan.ticket.file_sha256;
@@ -185,7 +190,9 @@ struct ScriptedCell {
     std::vector<std::string> lines;
     std::vector<JournalEvent> events;
     Uuid store_id{42};
-    std::optional<ResultRecord> carved_before;  // the answer to QUERY_FILE
+    std::uint16_t checks_store = 1;
+    std::map<std::uint32_t, std::uint32_t> grants;  // of CLAIMs: their numbers, their epochs
+    std::optional<ResultRecord> carved_before;      // the answer to QUERY_FILE
     CellCommand request = CellCommand::none;
     std::string request_answer;
     std::function<AckResult(const Command&)> grant;    // the result; none: not acknowledged

@@ -1,5 +1,6 @@
 /* The hand-off of jobs to a cell, in Promela: which words a PC may say of a start while commands are lost, repeated and
- * overtaken, PCs are killed, the cell loses power or its store, the operator cancels, and another PC takes the cell over.
+ * overtaken, PCs are killed, the cell loses power or its store or gets an older copy of it back, the operator cancels,
+ * and another PC takes the cell over.
  *
  * docs/model.md says what is in it and what not, and holds the results of scripts/model. The rows MOVE are compared with
  * the simulated cell (tests/sim/model_test.cpp). Every property is an assertion; no property is about time. */
@@ -18,6 +19,15 @@
 #endif
 #ifndef LOSSES
 #define LOSSES 0     /* power cuts after which the store is empty */
+#endif
+#ifndef COPIES
+#define COPIES 0     /* power cuts after which an older copy of the store is back */
+#endif
+#ifndef MARKS
+#define MARKS 1      /* STORE_CHECK: 1, the store has marks in another memory */
+#endif
+#ifndef MARKS_BACK
+#define MARKS_BACK 0 /* 1: the marks of the copy come back with it; then it is none from between a CLAIM and its START */
 #endif
 #ifndef CANCELS
 #define CANCELS 0
@@ -38,6 +48,13 @@ mtype:cmd f_c[2]; byte f_p[2]; byte f_e[2]; byte f_j[2]; byte f_t[2]; bit f_take
 
 /* The cell. These are in its store: */
 byte epoch; mtype:mem memory[3] = unknown_job; byte store_id = 1;
+#if COPIES
+byte boots; byte grant_of[5]; byte start_epoch[3];     /* grant_of: the number of each epoch's CLAIM */
+bit copied; byte c_epoch; mtype:mem c_memory[3] = unknown_job; byte c_boots; byte c_grant_of[5]; byte c_start_epoch[3];
+byte copies;
+byte grants;                                           /* drawn so far: a new one is never equal to an old one */
+byte j_granted[3]; byte j_grant[3]; byte j_boots[3];   /* journals: last CLAIM that was granted, boots before START */
+#endif
 /* these are not: */
 byte lease; byte job; mtype:job state = none; byte token;
 byte tokens;               /* drawn so far: a new one is never equal to an old one */
@@ -91,6 +108,9 @@ inline forget(i) { f_c[i] = no_cmd; f_p[i] = 0; f_e[i] = 0; f_j[i] = 0; f_t[i] =
 
 inline grant() {
   epoch = f_e[i]; lease = f_p[i];
+#if COPIES
+  grants++; grant_of[epoch] = grants;
+#endif
 #ifndef MUTANT_NO_FENCE_KEEPS
   if :: MOVE(claim, prepared, stored, 1); token = 0 :: else -> skip fi
 #endif
@@ -105,6 +125,9 @@ inline move_the_arm() {
   token = 0;
 #endif
   memory[job] = started
+#if COPIES
+  ; start_epoch[job] = epoch
+#endif
 }
 
 inline obey() {
@@ -133,6 +156,9 @@ inline deliver() {
 /* Without power only the store stays. */
 inline cut_power() {
   lease = 0; job = 0; state = none; token = 0; connected[1] = 0; connected[2] = 0
+#if COPIES
+  ; boots++
+#endif
 #ifdef MUTANT_FORGETS
   ; epoch = 0; memory[1] = unknown_job; memory[2] = unknown_job
 #endif
@@ -141,6 +167,28 @@ inline cut_power() {
 inline lose_store() {
   epoch = 0; memory[1] = unknown_job; memory[2] = unknown_job; store_id++
 }
+
+#if COPIES
+inline copy_store() {
+  copied = 1; c_epoch = epoch; c_memory[1] = memory[1]; c_memory[2] = memory[2]; c_boots = boots;
+  c_grant_of[1] = grant_of[1]; c_grant_of[2] = grant_of[2]; c_grant_of[3] = grant_of[3];
+  c_start_epoch[1] = start_epoch[1]; c_start_epoch[2] = start_epoch[2]
+}
+inline bring_copy_back() {
+  epoch = c_epoch; memory[1] = c_memory[1]; memory[2] = c_memory[2]; boots = c_boots + 1;
+  grant_of[1] = c_grant_of[1]; grant_of[2] = c_grant_of[2]; grant_of[3] = c_grant_of[3];
+  start_epoch[1] = c_start_epoch[1]; start_epoch[2] = c_start_epoch[2]
+#if MARKS && !MARKS_BACK
+  ; store_id++                                         /* the cell finds it */
+#endif
+}
+#define outside(j) (memory[j] != started || c_memory[j] == started || start_epoch[j] > c_epoch)
+#if MARKS && MARKS_BACK && !defined(MUTANT_ANY_COPY)
+#define fits (outside(1) && outside(2))
+#else
+#define fits 1
+#endif
+#endif
 
 active proctype Cell() {
   byte i;
@@ -155,6 +203,10 @@ end:
   :: atomic { cuts < CUTS -> cuts++; cut_power() }
 #if LOSSES
   :: atomic { losses < LOSSES -> losses++; cut_power(); lose_store() }
+#endif
+#if COPIES
+  :: atomic { !copied -> copy_store() }
+  :: atomic { (copied && copies < COPIES && fits) -> copies++; cut_power(); bring_copy_back() }
 #endif
   od
 }
@@ -208,6 +260,13 @@ boot:
   /* QUERY, after the fence */
   atomic {
     if :: !connected[p] -> goto boot :: else -> skip fi;
+#if COPIES && !defined(MUTANT_NO_GRANT)
+    if :: (j_granted[p] != 0 && grant_of[j_granted[p]] != j_grant[p]) -> goto store_lost :: else -> skip fi;
+    if :: owns -> j_granted[p] = epoch; j_grant[p] = grant_of[epoch] :: else -> skip fi;
+#endif
+#if COPIES && !MARKS && !defined(MUTANT_RESTART_IS_NOTHING)
+    if :: (memory[j] == unknown_job && j_word[j] == starting && boots != j_boots[p]) -> goto give_up :: else -> skip fi;
+#endif
     if
     :: memory[j] == started -> goto is_started
     :: memory[j] == cancelled -> goto is_not_started
@@ -228,7 +287,12 @@ boot:
   MAY_BE_KILLED
   MAY_BE_CANCELLED
   od;
-  j_word[j] = starting;                                       /* written before START is sent */
+  atomic {                                                    /* written before START is sent */
+    j_word[j] = starting
+#if COPIES
+    ; j_boots[p] = boots
+#endif
+  }
   if MAY_BE_KILLED MAY_BE_CANCELLED :: skip fi;
   send(start, p, j_epoch[p], j, t, 0);
   if MAY_BE_KILLED MAY_BE_CANCELLED :: skip fi;

@@ -27,8 +27,7 @@ namespace fs = std::filesystem;
 constexpr double faults_end_s = 150;
 constexpr double hang_s = 1500;         // of virtual time: the end of a schedule
 constexpr double longest_turn_s = 700;  // of one dispatcher: consent takes at most 600
-
-constexpr double longest_call_s = 2;  // under way when the operator asks to stop
+constexpr double slices_s = 0.05;       // in which a dispatcher looks for the request to stop
 
 struct Killed {};
 
@@ -142,7 +141,7 @@ class Pc {
             say(std::string("error: ") + error.what());
         }
         const double now_s = world_.now_s();
-        const bool is_late = cancelled_ && now_s - cancelled_s_ > HandOffTimings{}.leave_s + longest_call_s;
+        const bool is_late = cancelled_ && now_s - cancelled_s_ > HandOffTimings{}.leave_s + slices_s;
         if (is_late || now_s - began_s > longest_turn_s) {
             say("HANG: the dispatcher did not end in time");
             ++end_.hangs;
@@ -159,7 +158,8 @@ class Pc {
         bool store_is_lost = false;
         for (const HandedOver& one : handed) {
             judge(one.outcome);
-            store_is_lost = store_is_lost || one.outcome.store_is_lost;
+            store_is_lost = store_is_lost || one.outcome.store_is_lost ||
+                            one.outcome.to_do.find("accept-store") != std::string::npos;
             for (std::size_t i = 0; i < open_.size(); ++i) {
                 const bool has_word = one.outcome.verdict == StartVerdict::started || one.outcome.carved_before;
                 if (open_[i].piece != one.piece || !has_word) continue;

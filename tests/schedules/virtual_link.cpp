@@ -37,7 +37,12 @@ void VirtualLink::leave_when(const std::atomic<bool>* cancelled, double within_s
     leave_by_s_ = 1e300;
 }
 
-double VirtualLink::bounded(double deadline_s) {
+double VirtualLink::leaving_for_s() const {
+    bounded(1e300);
+    return leave_by_s_ > 1e299 ? 0 : within_s_ - (leave_by_s_ - world_.now_s());
+}
+
+double VirtualLink::bounded(double deadline_s) const {
     if (cancelled_ != nullptr && cancelled_->load() && leave_by_s_ > 1e299) leave_by_s_ = world_.now_s() + within_s_;
     return std::min(deadline_s, leave_by_s_);
 }

@@ -22,12 +22,13 @@ class VirtualLink : public RegisterBus {
     BusAnswer read_holding(std::uint16_t address, std::uint16_t count) override;
     BusAnswer write_holding(std::uint16_t address, std::span<const std::uint16_t> registers) override;
     void leave_when(const std::atomic<bool>* cancelled, double within_s) override;
+    double leaving_for_s() const override;
 
  private:
     BusAnswer call(ModbusRequest request);
     BusAnswer exchange(const ModbusRequest& request);
     BusAnswer receive(const ModbusRequest& request);
-    double bounded(double deadline_s);
+    double bounded(double deadline_s) const;
     void drop();
 
     World& world_;
@@ -35,7 +36,7 @@ class VirtualLink : public RegisterBus {
     std::uint16_t transaction_ = 0;
     const std::atomic<bool>* cancelled_ = nullptr;
     double within_s_ = 0;
-    double leave_by_s_ = 1e300;
+    mutable double leave_by_s_ = 1e300;
 };
 
 }  // namespace qchopper::schedules

@@ -44,9 +44,41 @@ World::World(std::uint64_t seed, std::filesystem::path drop)
     limits.speed = 10;
     limits.takeover_code = 4711;
     limits.acting_ms = 20;
+    std::uint64_t other_random = seed ^ 0xC3C3C3C3U;
+    has_marks_ = next_random(other_random) % 4 != 0;
+    old_copies_ = other_random;
     cell_ = boot(limits, {}, next_random_(), cell_time(), hooks());
     cell_.store_free_kib = 1000000;
-    first_stored_ = stored_;
+}
+
+namespace {
+
+// No START is missing from the copy that came under an epoch which the copy knows. One from between CLAIM and START is
+// found by a cell with marks only, and not if they come back as well.
+bool is_outside_of_starts(const CellMemory& copy, const CellMemory& now) {
+    return std::all_of(now.jobs.begin(), now.jobs.end(), [&](const auto& job) {
+        const bool is_missing = job.second.starts > 0 && !copy.jobs.contains(job.first);
+        return !is_missing || job.second.start_epoch > copy.epoch_held;
+    });
+}
+
+}  // namespace
+
+// With marks: half of the time the store alone, which may then be any copy. Without: the restart shows.
+CellMemory World::older_copy() {
+    const bool all = has_marks_ && next_random(old_copies_) % 2 == 0;
+    std::vector<CellMemory> fit;
+    for (const CellMemory& copy : copies_) {
+        // A write that had not come to its end has moved nothing, and the copy before it counts as the last one.
+        if (copy.mark != stored_.mark && copy.mark != marks_.last && (!all || is_outside_of_starts(copy, stored_)))
+            fit.push_back(copy);
+    }
+    if (fit.empty()) return stored_;
+    const CellMemory copy = fit[next_random(old_copies_) % fit.size()];
+    if (all) marks_ = {copy.mark, copy.mark};
+    say(std::string(all ? "all that it remembers" : "the store") + " is the copy with EPOCH_HELD " +
+        std::to_string(copy.epoch_held) + ", BOOT_COUNT " + std::to_string(copy.boot_count));
+    return copy;
 }
 
 std::uint64_t World::next_random_() {
@@ -61,8 +93,16 @@ CellHooks World::hooks() {
     CellHooks hooks;
     hooks.save = [this](const CellMemory& memory) {
         stored_ = memory;
+        copies_.push_back(memory);
         return true;
     };
+    if (has_marks_) {
+        hooks.read_marks = [this] { return marks_; };
+        hooks.write_marks = [this](const SaveMarks& marks) {
+            marks_ = marks;
+            return true;
+        };
+    }
     hooks.log = [this](const std::string& line) { say("cell: " + line); };
     return hooks;
 }
@@ -206,14 +246,15 @@ void World::arrive_at_cell(int connection, const Bytes& bytes) {
 
 void World::cut_power(PowerCut::Store store) {
     if (is_off_) return;
-    constexpr const char* ends[] = {"the store stays", "the store is lost", "an older store is back"};
+    constexpr const char* ends[] = {"the store stays", "the store is lost", "an older store is back", ""};
     say(std::string("POWER CUT, ") + ends[static_cast<std::size_t>(store)]);
     is_off_ = true;
     cell_.power = {};
     for (auto& [number, link] : links_) link.is_closed = link.is_cut = true;
     if (store != PowerCut::Store::stays) {
         store_was_lost_ = true;
-        stored_ = store == PowerCut::Store::lost ? CellMemory{} : first_stored_;
+        if (store == PowerCut::Store::lost) copies_.clear();
+        stored_ = store == PowerCut::Store::lost ? CellMemory{} : older_copy();
         counted_.clear();
         for (const auto& [id, record] : stored_.jobs) {
             if (record.starts > 0) counted_.insert(id);
@@ -228,11 +269,9 @@ void World::cut_power_at_event(std::uint64_t events, PowerCut::Store store) {
 
 void World::power_on_again() {
     is_off_ = false;
-    const bool is_new = stored_.store_id == Uuid{};
     cell_ = boot(cell_.limits, stored_, next_random_(), cell_time(), hooks());
     cell_.store_free_kib = 1000000;
     checked_ = 0;
-    if (is_new) first_stored_ = stored_;
     say("power is on");
 }
 

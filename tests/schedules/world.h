@@ -76,6 +76,7 @@ class World {
     void step();
     void after_step();
     void power_on_again();
+    CellMemory older_copy();
     void check_file();
     void deliver(int connection, Way way, const std::vector<Piece>& pieces);
     void arrive_at_cell(int connection, const Bytes& bytes);
@@ -91,7 +92,10 @@ class World {
     bool is_off_ = false;
     CellState cell_;
     CellMemory stored_;
-    CellMemory first_stored_;
+    std::vector<CellMemory> copies_;  // all that was ever stored, since the store was lost last
+    SaveMarks marks_;
+    bool has_marks_ = true;
+    std::uint64_t old_copies_ = 1;  // generator of which copy comes back
     std::uint64_t checked_ = 0;
     bool store_was_lost_ = false;
 

@@ -37,6 +37,11 @@ class Trial {
             stored_ = memory;
             return true;
         };
+        hooks_.read_marks = [this] { return marks_; };
+        hooks_.write_marks = [this](const SaveMarks& marks) {
+            marks_ = marks;
+            return true;
+        };
         boot_cell();
         JobTicket ticket;
         ticket.about.piece_no = ticket.about.piece_count = 1;
@@ -184,6 +189,7 @@ class Trial {
     HandOffPlan plan_;
     CellLimits limits_;
     CellMemory stored_;
+    SaveMarks marks_;
     CellHooks hooks_;
     CellTime time_{100000, 1700000000000};
     CellState cell_;

@@ -18,6 +18,8 @@ CellMemory a_memory() {
     memory.boot_count = 3;
     memory.epoch_held = 0xFFFFFFFE;
     memory.starts_total = 17;
+    memory.mark = 0xFEDCBA9876543210U;
+    memory.grants = {{4711, 1}, {0xFFFFFFFF, 0xFFFFFFFE}};
     for (std::uint8_t n = 1; n <= 20; ++n) {
         JobRecord& record = memory.jobs[Uuid{n, 0xAB}];
         record.state = JobState::ended;
@@ -45,7 +47,8 @@ TEST(Memory, LoadingGivesBackWhatWasSaved) {
 TEST(Memory, ThatOfACellOfTheFirstVersionHasNoStoreId) {
     CellMemory memory = a_memory();
     memory.store_id = {};
-    memory.store_created_ms = 0;
+    memory.store_created_ms = memory.mark = 0;
+    memory.grants.clear();
     const std::string text = to_json(memory);
     EXPECT_EQ(text.find("store_"), std::string::npos);
     EXPECT_EQ(memory_from_json(text, "m"), memory);
@@ -119,6 +122,41 @@ TEST(Memory, ValuesThatNoCellWritesAreRefused) {
     EXPECT_NE(with(job + "/state", 8), "taken");
     EXPECT_NE(with("/more", 8), "taken");
     EXPECT_THROW(memory_from_json(std::string(5'000'000, '['), "m"), InputError);
+}
+
+TEST(Memory, MarksAreReadBackAndDamagedOnesAreNone) {
+    const rig::Folder folder;
+    const auto file = folder.path / "store.marks.json";
+    EXPECT_EQ(load_marks(file), SaveMarks{}) << "it is not there";
+    const SaveMarks marks{0xFEDCBA9876543210U, 3};
+    save_marks(file, marks);
+    EXPECT_EQ(load_marks(file), marks);
+    for (const char* damaged : {"", "[]", "{\"last\":1}", "{\"last\":1,\"next\":-1}", "{\"last\":1,\"next\":\"2\"}"}) {
+        write_file(file, std::string_view(damaged));
+        EXPECT_EQ(load_marks(file), SaveMarks{}) << damaged;
+    }
+}
+
+// What a person does who restores a backup of the store's folder.
+TEST(Store, AnOlderCopyOfTheFolderIsFoundByTheMarksBesideIt) {
+    const rig::Folder folder;
+    CellSimOptions options = rig::quick_cell(folder.path);
+    options.store_folder = folder.path / "store";
+    const auto id = [&] {
+        CellSim cell(options);
+        cell.start();
+        const auto bus = rig::connect(cell);
+        return decode_identity(bus->read_input(identity_block.base, identity_block.count).registers).value.store_id;
+    };
+    const Uuid first = id();
+    EXPECT_EQ(id(), first);
+    std::filesystem::copy(folder.path / "store", folder.path / "backup", std::filesystem::copy_options::recursive);
+    EXPECT_EQ(id(), first);
+    std::filesystem::remove_all(folder.path / "store");
+    std::filesystem::rename(folder.path / "backup", folder.path / "store");
+    const Uuid restored = id();
+    EXPECT_NE(restored, first);
+    EXPECT_EQ(id(), restored) << "from then on it is the one written last";
 }
 
 TEST(Store, BelongsToOneCellAtATime) {

@@ -124,7 +124,11 @@ TEST(Script, PowerAndTheStore) {
     EXPECT_EQ(identity().store_id, first.store_id);
     EXPECT_EQ(identity().boot_count, 2U);
     ASSERT_TRUE(cell.run("power off\npower store-back\n"));
-    EXPECT_EQ(identity().store_id, first.store_id);
+    const Identity older = identity();
+    EXPECT_NE(older.store_id, first.store_id) << "its mark is not the one written last";
+    EXPECT_EQ(older.boot_count, 1U);
+    ASSERT_TRUE(cell.run("power off\npower on\npower off\npower all-back\n"));
+    EXPECT_EQ(identity().store_id, older.store_id);
     EXPECT_EQ(identity().boot_count, 1U) << "lower than seen before";
     ASSERT_TRUE(cell.run("power off\npower store-lost\n"));
     EXPECT_NE(identity().store_id, first.store_id);
