@@ -81,13 +81,12 @@ std::string program_word(const PieceReport& piece) {
 
 // What the proof says against the program of a piece.
 std::string refusal_word(const PieceReport& piece, const std::string& folder) {
-    for (const JobVerdict& verdict : piece.verdicts) {
-        if (verdict.is_positive) continue;
-        const std::string why = verdict.findings.empty() ? "nothing was carved" : describe(verdict.findings.front());
-        return "piece " + piece.name + ": its program is not proven: " + why + "; see qchopper verify " + folder +
-               " --piece " + piece.name;
-    }
-    return {};
+    const auto refused = std::find_if(piece.verdicts.begin(), piece.verdicts.end(),
+                                      [](const JobVerdict& verdict) { return !verdict.is_positive; });
+    if (refused == piece.verdicts.end()) return {};
+    const std::string why = refused->findings.empty() ? "nothing was carved" : describe(refused->findings.front());
+    return "piece " + piece.name + ": its program is not proven: " + why + "; see qchopper verify " + folder +
+           " --piece " + piece.name;
 }
 
 // Why no job of a cell that takes programs has one, once for all pieces of the same reason.
