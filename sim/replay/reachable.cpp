@@ -120,9 +120,10 @@ void clear_holder(const ReplayScene& scene, std::size_t direction, const Carving
     double above = tool.stick_out;
     for (const HolderStep& step : tool.holder) discs.push_back({0.5 * step.diameter, above}), above += step.length;
     if (spindle.body_radius > 0) discs.push_back({spindle.body_radius, above + spindle.body_offset});
-    const auto [least, most] = std::minmax_element(tips.height.begin(), tips.height.end());
+    const auto [lowest, highest] = std::minmax_element(tips.height.begin(), tips.height.end());
+    const double depth = *highest - *lowest;  // before tips are raised
     for (const auto& [radius, height] : discs) {
-        if (*most - *least < height) continue;
+        if (depth < height) continue;
         SurfaceMap coarse = target_surface(scene, direction, holder_cell, radius);
         coarse.height = morph(coarse, taps_of({ToolShape::flat, radius, 0, 0, 1}, holder_cell), 1);
         for (std::int32_t j = 0; j < tips.rows; ++j) {
