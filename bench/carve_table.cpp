@@ -13,7 +13,7 @@
 #include "bench/carve_summary.h"
 #include "bench/judge_check.h"
 #include "bench/specimens.h"
-#include "segment/mesh/measure.h"
+#include "bench/table_models.h"
 
 namespace {
 
@@ -32,29 +32,7 @@ constexpr const char* usage =
   --print  prints what is there and makes no run
 )";
 
-constexpr double longest_side_mm = 1000;
 constexpr std::size_t sample_faces = 60'000;
-
-struct Model {
-    std::string name;
-    std::string file;  // empty: the specimen
-    std::optional<Specimen> specimen;
-};
-
-// The cheapest first.
-const std::vector<Model>& models() {
-    static const std::vector<Model> all{{"femur_3548", "femur_3548.stl", std::nullopt},
-                                        {"vertebra", "", Specimen::vertebra},
-                                        {"femur", "", Specimen::femur},
-                                        {"skull", "", Specimen::skull},
-                                        {"skull_scan_25k", "skull_scan_25k.stl", std::nullopt},
-                                        {"bunny", "bunny_bun_zipper.ply", std::nullopt},
-                                        {"igea", "igea_268k.ply", std::nullopt},
-                                        {"gorilla", "gorilla_skull_159k.ply", std::nullopt},
-                                        {"ct_head_371k", "ct_head_371k.ply", std::nullopt},
-                                        {"dragon", "dragon_vrip_871k.ply", std::nullopt}};
-    return all;
-}
 
 struct TableChoice {
     std::filesystem::path out = "carve-table";
@@ -87,7 +65,7 @@ void fill_in(TableChoice& choice) {
     if (choice.tilts.empty()) choice.tilts = {60, 30, 90};
     if (choice.beams.empty()) choice.beams = {1, 4};
     std::vector<std::string> ordered;
-    for (const Model& model : models()) {
+    for (const TableModel& model : table_models()) {
         const bool is_named = std::find(choice.models.begin(), choice.models.end(), model.name) != choice.models.end();
         if (choice.models.empty() || is_named) ordered.push_back(model.name);
     }
@@ -134,21 +112,6 @@ bool parse_table(int argc, char** argv, TableChoice& choice) {
     return true;
 }
 
-std::optional<TriangleMesh> mesh_of(const Model& model, const TableChoice& choice) {
-    std::optional<TriangleMesh> mesh;
-    if (model.specimen) {
-        SampleOptions options;
-        options.faces = choice.is_small ? 8000 : sample_faces;
-        mesh = sample(*model.specimen, options);
-    } else if (const auto read = scan(choice.data / model.file, 1)) {
-        mesh = *read;
-    }
-    if (!mesh) return std::nullopt;
-    const Vec3 size = bounds(*mesh).size();
-    for (Vec3& p : mesh->points) p = (longest_side_mm / std::max({size.x, size.y, size.z})) * p;
-    return mesh;
-}
-
 // Of these tilts, those whose run is not complete.
 std::vector<int> missing(const TableChoice& choice, const std::string& model, const std::string& method,
                          const std::vector<int>& tilts) {
@@ -159,13 +122,13 @@ std::vector<int> missing(const TableChoice& choice, const std::string& model, co
     return all;
 }
 
-void make_runs(const TableChoice& choice, const Model& model, int beam, int tilt) {
+void make_runs(const TableChoice& choice, const TableModel& model, int beam, int tilt) {
     const std::string carve = "carve " + std::to_string(beam);
     const std::vector<int> by_carve = missing(choice, model.name, carve, {tilt});
     std::vector<int> by_thesis;  // its cuts do not depend on the tilt: all at once
     if (beam == 1) by_thesis = missing(choice, model.name, "thesis", choice.tilts);
     if (by_carve.empty() && by_thesis.empty()) return;
-    const std::optional<TriangleMesh> mesh = mesh_of(model, choice);
+    const std::optional<TriangleMesh> mesh = mesh_of(model, choice.data, choice.is_small ? 8000 : sample_faces);
     if (!mesh) return;
     if (!by_thesis.empty()) {
         search_and_judge(*mesh, model.name, "thesis", *preset("bunny"), by_thesis, choice.run, choice.out);
@@ -183,7 +146,7 @@ void make_table(const TableChoice& choice) {
     std::filesystem::create_directories(choice.out);
     for (const int beam : choice.beams) {
         for (const int tilt : choice.tilts) {
-            for (const Model& model : models()) {
+            for (const TableModel& model : table_models()) {
                 const bool is_wanted =
                     std::find(choice.models.begin(), choice.models.end(), model.name) != choice.models.end();
                 if (is_wanted && !choice.only_prints) make_runs(choice, model, beam, tilt);
