@@ -117,7 +117,7 @@ Segmentation segmented(const TriangleMesh& scan, SearchSettings settings, std::s
     if (settings.measures_scan()) segmentation.scan = measure_scan(segmentation);
     if (settings.objectives.needs_seam()) find_seam_costs(segmentation.pieces);
     EvaluationCache cache(settings.objectives, settings.candidates);
-    search(segmentation, settings, cache, {}, {}, {});
+    search(segmentation, settings, cache, {}, [](const Segmentation&) {}, {});
     return segmentation;
 }
 
