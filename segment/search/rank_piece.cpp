@@ -6,9 +6,19 @@
 #include <cassert>
 
 #include "segment/score/cut_reach.h"
+#include "segment/search/further_candidates.h"
 #include "segment/search/reach_rank.h"
 
 namespace qchopper {
+namespace {
+
+void add(PieceEvaluations& all, const std::vector<Candidate>& candidates,
+         const std::vector<std::optional<CutEvaluation>>& evaluations) {
+    all.candidates.insert(all.candidates.end(), candidates.begin(), candidates.end());
+    all.evaluations.insert(all.evaluations.end(), evaluations.begin(), evaluations.end());
+}
+
+}  // namespace
 
 std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
                          EvaluationCache& cache, const Context& context, std::size_t best,
@@ -21,7 +31,24 @@ std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, co
     const Piece* target = &segmentation.pieces[piece];
     cache.evaluate(std::span(&target, 1), context);
     const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, cache);
-    return rank(cache.evaluations(*target), others, settings.objectives);
+    const auto ranking = [&](const PieceEvaluations& planes) { return rank(planes, others, settings.objectives); };
+    const std::vector<Candidate> further = further_candidates(segmentation, piece, settings.candidates);
+    std::vector<Ranked> ranked;
+    if (further.empty()) {
+        ranked = ranking(cache.evaluations(*target));
+    } else {
+        PieceEvaluations all = cache.evaluations(*target);
+        add(all, further, cache.further_evaluations(*target, further, context));
+        ranked = ranking(all);
+    }
+    if (settings.candidates.normals != CandidateNormals::sphere || ranked.empty()) return ranked;
+    if (ranked.front().normal_index < 0) return ranked;
+    const std::vector<Candidate> around = offsets_around(*target, ranked.front(), settings.candidates);
+    const std::vector<Ranked> finer = ranking({around, cache.further_evaluations(*target, around, context)});
+    if (!finer.empty() && finer.front().terms.total + tie < ranked.front().terms.total) {
+        ranked.insert(ranked.begin(), finer.front());
+    }
+    return ranked;
 }
 
 std::vector<Ranked> rank_whole_normals(const Segmentation& segmentation, std::size_t piece,
