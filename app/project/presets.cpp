@@ -43,6 +43,9 @@ SearchSettings chopper() {
     w.symmetry = 0.25;
     settings.objectives.fragility_form = FragilityForm::binary;
     settings.objectives.scope = TermScope::cut;
+    settings.candidates.normals = CandidateNormals::sphere;
+    settings.candidates.offset_step_mm = 5;
+    settings.candidates.takes_symmetry = true;
     return settings;
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/project/enum_names.h"
+#include "base/error.h"
 #include "segment/score/tool_directions.h"
 
 namespace qchopper {
@@ -22,6 +23,17 @@ constexpr EnumName<VerdictOutcome> outcome_names[] = {{VerdictOutcome::replaced,
                                                       {VerdictOutcome::kept, "kept"},
                                                       {VerdictOutcome::carries_cut, "carries_cut"},
                                                       {VerdictOutcome::decided, "decided"}};
+
+// Shorter ones would make grids that no memory holds.
+double length_from(double length) {
+    constexpr double least = 0.1;
+    constexpr double most = 1e6;
+    if (length >= least && length <= most) return length;
+    throw InputError(InputFault::config, "a length of its print volume or connectors is not from 0.1 to 1e6 mm");
+}
+double length_from(const Json& json) {
+    return length_from(json.get<double>());
+}
 
 Json json_of(const CarvedSurface& s) {
     return {{"unreachable_mm2", s.unreachable_mm2}, {"area_mm2", s.area_mm2}};
@@ -148,12 +160,15 @@ SearchSettings settings_from(const Json& json) {
     s.objectives.fragment_volume_mm3 = json.at("fragment_volume_mm3").get<double>();
     if (json.value("terms_over", "whole") == "cut") s.objectives.scope = TermScope::cut;
     if (json.value("utilization_over", "cut") == "whole") s.objectives.utilization_scope = TermScope::whole;
-    if (json.contains("print_volume_mm")) s.objectives.print_volume = vec3_from(json.at("print_volume_mm"));
+    if (json.contains("print_volume_mm")) {
+        const Vec3 box = vec3_from(json.at("print_volume_mm"));
+        s.objectives.print_volume = Vec3{length_from(box.x), length_from(box.y), length_from(box.z)};
+    }
     if (json.contains("connector")) {
         const Json& c = json.at("connector");
-        s.objectives.connector = {value_of_name(connector_names, c.at("form")), c.at("diameter_mm").get<double>(),
-                                  c.at("depth_mm").get<double>(), c.at("wall_mm").get<double>(),
-                                  c.at("spacing_mm").get<double>()};
+        s.objectives.connector = {value_of_name(connector_names, c.at("form")), length_from(c.at("diameter_mm")),
+                                  length_from(c.at("depth_mm")), length_from(c.at("wall_mm")),
+                                  length_from(c.at("spacing_mm"))};
     }
     if (json.contains("forbidden")) s.objectives.forbidden = json.at("forbidden").get<std::vector<std::string>>();
     s.objectives.tilt_deg = json.value("tilt_deg", default_tilt_deg);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "segment/score/cut_reach.h"
+#include "segment/search/further_candidates.h"
 #include "segment/search/late_rank.h"
 #include "segment/search/reach_rank.h"
 
@@ -15,6 +16,11 @@ namespace {
 
 // So many of the best planes per place in the beam, because near duplicates among them are culled.
 constexpr std::size_t children_per_place = 8;
+
+void add(PieceEvaluations& all, const PieceEvaluations& more) {
+    all.candidates.insert(all.candidates.end(), more.candidates.begin(), more.candidates.end());
+    all.evaluations.insert(all.evaluations.end(), more.evaluations.begin(), more.evaluations.end());
+}
 
 }  // namespace
 
@@ -26,19 +32,42 @@ std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, co
         return rank_by_reach(segmentation, piece, settings, cache, context, std::max(best, least_best_planes),
                              too_large_for);
     }
+    const Piece* target = &segmentation.pieces[piece];
     const Objectives& objectives = settings.objectives;
+    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, objectives, cache);
+    const ScanShare scan = scan_share(segmentation, piece, objectives, cache);
+    const auto ranking = [&](const PieceEvaluations& planes) { return rank(planes, others, objectives, scan); };
+    PieceEvaluations further{further_candidates(segmentation, piece, settings.candidates), {}};
+    if (!further.candidates.empty())
+        further.evaluations = cache.further_evaluations(*target, further.candidates, context);
+    std::vector<Ranked> ranked;
     if (is_ranked_late(settings)) {
         const std::size_t wanted =
             std::max({best, settings.runners_up + 1, most_own_boxes, children_per_place * settings.beam});
-        return with_own_boxes(rank_late(segmentation, piece, settings, cache, context, wanted), segmentation, piece,
-                              objectives, cache, context);
+        ranked = rank_late(segmentation, piece, settings, cache, context, wanted, further);
+    } else {
+        cache.evaluate(std::span(&target, 1), context);
+        if (further.candidates.empty()) {
+            ranked = ranking(cache.evaluations(*target));
+        } else {
+            PieceEvaluations all = cache.evaluations(*target);
+            add(all, further);
+            ranked = ranking(all);
+        }
     }
-    const Piece* target = &segmentation.pieces[piece];
-    cache.evaluate(std::span(&target, 1), context);
-    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, cache);
-    std::vector<Ranked> ranked =
-        rank(cache.evaluations(*target), others, objectives, scan_share(segmentation, piece, objectives, cache));
-    return with_own_boxes(std::move(ranked), segmentation, piece, objectives, cache, context);
+    const auto finish = [&] {
+        return with_own_boxes(std::move(ranked), segmentation, piece, objectives, cache, context);
+    };
+    if (settings.candidates.normals != CandidateNormals::sphere || ranked.empty()) return finish();
+    if (ranked.front().normal_index < 0) return finish();
+    const std::vector<Candidate> around = offsets_around(*target, ranked.front(), settings.candidates);
+    const std::vector<Ranked> finer = ranking({around, cache.further_evaluations(*target, around, context)});
+    const auto key = [&](const Ranked& r) { return std::pair(is_forbidden(r.terms, objectives), r.terms.total + tie); };
+    if (!finer.empty() &&
+        key(finer.front()) < std::pair(is_forbidden(ranked.front().terms, objectives), ranked.front().terms.total)) {
+        ranked.insert(ranked.begin(), finer.front());
+    }
+    return finish();
 }
 
 std::vector<Ranked> rank_whole_normals(const Segmentation& segmentation, std::size_t piece,

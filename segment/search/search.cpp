@@ -9,6 +9,7 @@
 
 #include "base/timings.h"
 #include "segment/search/beam.h"
+#include "segment/search/further_candidates.h"
 #include "segment/search/late_rank.h"
 #include "segment/search/reach_rank.h"
 #include "segment/search/trial.h"
@@ -128,7 +129,10 @@ class Search {
                 const Piece& piece = b.segmentation.pieces[*b.next.piece];
                 b.ranked =
                     rank(b.segmentation, *b.next.piece, settings_, cache_, context_, 1, judge_.too_large_for(piece));
-                b.children = without_near_duplicates(b.ranked, settings_.candidates.offsets_per_normal, settings_.near);
+                b.children =
+                    settings_.candidates.normals == CandidateNormals::sphere
+                        ? without_near_planes(b.ranked, piece, cache_.box(piece))
+                        : without_near_duplicates(b.ranked, most_offsets(settings_.candidates), settings_.near);
                 if (!b.ranked.empty()) continue;
                 b.passed_over.push_back(piece.name);
                 find_next_piece(b);

@@ -12,6 +12,7 @@
 #include "segment/mesh/disjoint_sets.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
+#include "segment/score/dowel_columns.h"
 #include "segment/score/sweep.h"
 #include "tests/pieces.h"
 #include "tests/shapes.h"

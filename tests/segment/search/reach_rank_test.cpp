@@ -36,7 +36,8 @@ TriangleMesh bone(Specimen specimen) {
 // All planes of all normals with all their terms, nothing left out.
 std::vector<Ranked> rank_all(const Segmentation& segmentation, const SearchSettings& settings) {
     EvaluationCache cache(settings.objectives, settings.candidates);
-    const int count = static_cast<int>(reach_normals(cache.box(segmentation.pieces[0])).size());
+    const int count =
+        static_cast<int>(candidate_normals(cache.box(segmentation.pieces[0]), CandidateNormals::sphere).size());
     std::vector<Ranked> all;
     for (int n = 0; n < count; ++n) all = rank_whole_normals_by_reach(segmentation, 0, settings, cache, {}, 0, n);
     std::erase_if(all, [](const Ranked& r) { return r.normal_index == refined_index; });
