@@ -60,7 +60,10 @@ std::string new_project_option(const ProjectArguments& a, bool is_replay_given =
         {a.fragments.has_value(), "--fragments"}, {a.out.has_value(), "--out"},
         {a.fragility.has_value(), "--fragility"}, {is_replay_given, "--replay"},
         {is_repair_given, "a choice of repair"},  {a.ignore_surface.has_value(), "--ignore-surface"},
-        {a.ignore_inside, "--ignore-inside"}};
+        {a.ignore_inside, "--ignore-inside"},     {a.normals.has_value(), "--normals"},
+        {a.offsets.has_value(), "--offsets"},     {a.offset_step_mm.has_value(), "--offset-step"},
+        {a.planes.has_value(), "--planes"},       {a.symmetry, "--symmetry"},
+        {a.no_cut.has_value(), "--no-cut"}};
     for (const auto& [is_given, name] : options) {
         if (is_given) return name;
     }
