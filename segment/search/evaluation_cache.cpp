@@ -61,6 +61,10 @@ const OrientedBox& EvaluationCache::box(const Piece& piece) {
     return *e.box;
 }
 
+std::vector<Candidate> EvaluationCache::candidates(const Piece& piece) {
+    return candidate_planes(piece, box(piece), options_);
+}
+
 const SolidEvaluation& EvaluationCache::solid_evaluation(const Piece& piece) {
     Entry& e = entry(piece);
     if (!e.solid) e.solid = measure(piece);
@@ -110,8 +114,8 @@ void EvaluationCache::evaluate(std::span<const Piece* const> pieces, const Conte
     SharedProgress progress(context, planes);
     parallel_for(0, tasks.size(), [&](std::size_t i) {
         Task& task = tasks[i];
-        task.evaluations.evaluations =
-            evaluate_all(*task.piece, task.evaluations.candidates, objectives_, progress.of_one_piece());
+        task.evaluations.evaluations = evaluate_all(*task.piece, task.evaluations.candidates, objectives_,
+                                                    progress.of_one_piece(), &task.entry->box->axis);
     });
     for (Task& task : tasks) {
         if (store_.keep) store_.keep(*task.piece, task.evaluations);
@@ -145,7 +149,8 @@ std::vector<std::optional<CutEvaluation>> EvaluationCache::further_evaluations(c
     }
     if (!fresh.empty()) {
         const StageTimer stage(context, "planes evaluated");
-        std::vector<std::optional<CutEvaluation>> evaluated = evaluate_all(piece, fresh, objectives_, context);
+        std::vector<std::optional<CutEvaluation>> evaluated =
+            evaluate_all(piece, fresh, objectives_, context, &box(piece).axis);
         known.candidates.insert(known.candidates.end(), fresh.begin(), fresh.end());
         known.evaluations.insert(known.evaluations.end(), evaluated.begin(), evaluated.end());
     }
@@ -156,7 +161,8 @@ std::vector<std::optional<CutEvaluation>> EvaluationCache::further_evaluations(c
 
 std::optional<CutEvaluation> EvaluationCache::evaluation_of(const Piece& piece, const Candidate& plane,
                                                             const Context& context) {
-    return evaluate_all(piece, std::span(&plane, 1), objectives_, context).front();
+    const std::array<Vec3, 3>* axes = objectives_.needs_sizes() ? &box(piece).axis : nullptr;
+    return evaluate_all(piece, std::span(&plane, 1), objectives_, context, axes).front();
 }
 
 void EvaluationCache::keep_only(std::span<const Segmentation* const> segmentations) {

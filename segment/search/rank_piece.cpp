@@ -4,19 +4,18 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 #include "segment/score/cut_reach.h"
 #include "segment/search/further_candidates.h"
+#include "segment/search/late_rank.h"
 #include "segment/search/reach_rank.h"
 
 namespace qchopper {
 namespace {
 
-void add(PieceEvaluations& all, const std::vector<Candidate>& candidates,
-         const std::vector<std::optional<CutEvaluation>>& evaluations) {
-    all.candidates.insert(all.candidates.end(), candidates.begin(), candidates.end());
-    all.evaluations.insert(all.evaluations.end(), evaluations.begin(), evaluations.end());
-}
+// So many of the best planes per place in the beam, because near duplicates among them are culled.
+constexpr std::size_t children_per_place = 8;
 
 }  // namespace
 
@@ -28,23 +27,34 @@ std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, co
         return rank_by_reach(segmentation, piece, settings, cache, context, std::max(best, least_best_planes),
                              too_large_for);
     }
-    const Piece* target = &segmentation.pieces[piece];
-    cache.evaluate(std::span(&target, 1), context);
-    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, cache);
-    const auto ranking = [&](const PieceEvaluations& planes) { return rank(planes, others, settings.objectives); };
-    const std::vector<Candidate> further = further_candidates(segmentation, piece, settings.candidates);
+    const Objectives& objectives = settings.objectives;
+    const CandidateOptions& options = settings.candidates;
+    const Piece& target = segmentation.pieces[piece];
+    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, objectives, cache);
+    const ScanShare scan = scan_share(segmentation, piece, objectives, cache);
+    const auto ranked_further = [&](std::vector<Candidate> planes) {
+        auto evaluations = cache.further_evaluations(target, planes, context);
+        return rank({std::move(planes), std::move(evaluations)}, others, objectives, scan);
+    };
+    const auto with_boxes = [&](std::vector<Ranked> ranked) {
+        return with_own_boxes(std::move(ranked), segmentation, piece, objectives, cache, context);
+    };
     std::vector<Ranked> ranked;
-    if (further.empty()) {
-        ranked = ranking(cache.evaluations(*target));
+    if (is_ranked_late(settings)) {
+        const std::size_t wanted =
+            std::max({best, settings.runners_up + 1, most_own_boxes, children_per_place * settings.beam});
+        ranked = rank_late(segmentation, piece, settings, cache, context, wanted);
     } else {
-        PieceEvaluations all = cache.evaluations(*target);
-        add(all, further, cache.further_evaluations(*target, further, context));
-        ranked = ranking(all);
+        const Piece* one = &target;
+        cache.evaluate(std::span(&one, 1), context);
+        ranked = rank(cache.evaluations(target), others, objectives, scan);
     }
-    if (settings.candidates.normals != CandidateNormals::sphere || ranked.empty()) return ranked;
-    if (ranked.front().normal_index < 0) return ranked;
-    const std::vector<Candidate> around = offsets_around(*target, ranked.front(), settings.candidates);
-    const std::vector<Ranked> finer = ranking({around, cache.further_evaluations(*target, around, context)});
+    const std::vector<Ranked> further = ranked_further(further_candidates(segmentation, piece, options));
+    ranked.insert(ranked.end(), further.begin(), further.end());
+    if (!further.empty()) sort_ranking(ranked, objectives);
+    ranked = with_boxes(std::move(ranked));
+    if (options.normals != CandidateNormals::sphere || ranked.empty() || ranked.front().normal_index < 0) return ranked;
+    const std::vector<Ranked> finer = with_boxes(ranked_further(offsets_around(target, ranked.front(), options)));
     if (!finer.empty() && finer.front().terms.total + tie < ranked.front().terms.total) {
         ranked.insert(ranked.begin(), finer.front());
     }
@@ -59,7 +69,7 @@ std::vector<Ranked> rank_whole_normals(const Segmentation& segmentation, std::si
         return rank_whole_normals_by_reach(segmentation, piece, settings, cache, context, normals, other,
                                            too_large_for);
     }
-    return rank(segmentation, piece, settings, cache, context);
+    return rank(segmentation, piece, settings, cache, context, std::numeric_limits<std::size_t>::max());
 }
 
 std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t piece, const Candidate& plane,
@@ -70,7 +80,8 @@ std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t p
         alone.evaluations.front()->reach = cut_reach(target, plane.plane, settings.objectives.tilt_deg);
     }
     const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, cache);
-    const std::vector<Ranked> ranked = rank(alone, others, settings.objectives);
+    const std::vector<Ranked> ranked =
+        rank(alone, others, settings.objectives, scan_share(segmentation, piece, settings.objectives, cache));
     return ranked.empty() ? std::nullopt : std::optional(ranked.front());
 }
 

@@ -67,7 +67,8 @@ class ReachRanking {
           settings_(settings),
           context_(context),
           reach_(cache.reach(piece_)),
-          is_of_cut_(settings.objectives.scope == TermScope::cut && settings.objectives.weights.undercut == 0) {
+          is_of_cut_(settings.objectives.scope == TermScope::cut && settings.objectives.weights.undercut == 0 &&
+                     !settings.objectives.needs_sizes() && !settings.objectives.needs_seam()) {
         if (reach_.normals.empty()) {
             const StageTimer stage(context, "reach swept");
             reach_ = swept(piece_, cache.box(piece_), settings, context);
@@ -86,6 +87,8 @@ class ReachRanking {
         no_cut_ = no_cut_triangles(*piece_.mesh, settings.candidates.no_cut);
         further_ = further_candidates(segmentation, piece, settings.candidates);
         others_ = shares_of_others(segmentation, piece, settings.objectives, cache);
+        scan_ = scan_share(segmentation, piece, settings.objectives, cache);
+        box_axes_ = cache.box(piece_).axis;
         for (const PieceShare& other : others_) others_unreachable_mm2_ += other.unreachable_mm2;
         find_candidates(cache.unreachable_mm2(piece_, settings.objectives.tilt_deg));
     }
@@ -172,7 +175,7 @@ class ReachRanking {
         std::vector<std::optional<CutEvaluation>> evaluation =
             sweep_solids(prepared_piece(), plane.normal, {&plane.offset, 1});
         if (evaluation.front()) {
-            add_fragility(prepared_piece(), plane.normal, {&plane.offset, 1}, settings_.objectives, evaluation);
+            add_late_terms(prepared_piece(), plane.normal, {&plane.offset, 1}, settings_.objectives, evaluation);
             evaluation.front()->reach = cut_reach(piece_, plane, settings_.objectives.tilt_deg);
         }
         return {candidate, true, std::move(evaluation.front()), true, false};
@@ -204,7 +207,7 @@ class ReachRanking {
                    scan_area_mm2(piece_);
         }
         if (!at->second.evaluation) return at->second.is_swept ? infinite : 0;
-        const std::optional<Terms> t = terms(*at->second.evaluation, counted_others(), settings_.objectives);
+        const std::optional<Terms> t = terms(*at->second.evaluation, counted_others(), settings_.objectives, scan_);
         return t ? t->total : infinite;
     }
 
@@ -332,7 +335,7 @@ class ReachRanking {
                 evaluations.push_back(std::move(plane->evaluation));
             }
             if (planes.empty()) return;
-            add_fragility(prepared, reach_.normals[groups[g].normal], offsets, settings_.objectives, evaluations);
+            add_late_terms(prepared, reach_.normals[groups[g].normal], offsets, settings_.objectives, evaluations);
             for (std::size_t i = 0; i < planes.size(); ++i) {
                 planes[i]->evaluation = std::move(evaluations[i]);
                 planes[i]->has_fragility = true;
@@ -341,7 +344,7 @@ class ReachRanking {
     }
 
     const PreparedPiece& prepared_piece() {
-        if (!prepared_) prepared_ = prepare(piece_, settings_.objectives);
+        if (!prepared_) prepared_ = prepare(piece_, settings_.objectives, &box_axes_);
         return *prepared_;
     }
 
@@ -358,7 +361,7 @@ class ReachRanking {
         }
         if (!reach_.refined) return ranked;
         const std::vector<Ranked> refined =
-            rank({{reach_.refined->candidate}, {reach_.refined->evaluation}}, others_, settings_.objectives);
+            rank({{reach_.refined->candidate}, {reach_.refined->evaluation}}, others_, settings_.objectives, scan_);
         ranked.insert(ranked.begin(), refined.begin(), refined.end());
         return ranked;
     }
@@ -385,11 +388,12 @@ class ReachRanking {
         std::vector<std::optional<CutEvaluation>> evaluation =
             sweep_solids(prepared_piece(), found.plane.normal, {&nudged->offset, 1});
         if (!evaluation.front() || evaluation.front()->solids.size() != 2) return;
-        add_fragility(prepared_piece(), found.plane.normal, {&nudged->offset, 1}, settings_.objectives, evaluation);
+        add_late_terms(prepared_piece(), found.plane.normal, {&nudged->offset, 1}, settings_.objectives, evaluation);
         evaluation.front()->reach = CutReach{found.unreachable_mm2, area};
-        const std::optional<Terms> after = terms(*evaluation.front(), counted_others(), settings_.objectives);
+        const std::optional<Terms> after = terms(*evaluation.front(), counted_others(), settings_.objectives, scan_);
         refined.evaluation->reach->unreachable_mm2 = before;
-        const std::optional<Terms> unrefined = terms(*refined.evaluation, counted_others(), settings_.objectives);
+        const std::optional<Terms> unrefined =
+            terms(*refined.evaluation, counted_others(), settings_.objectives, scan_);
         if (!after || after->total >= unrefined->total - tie) return;
         evaluation.front()->reach = cut_reach(piece_, refined.candidate.plane, settings_.objectives.tilt_deg);
         refined.evaluation = std::move(evaluation.front());
@@ -409,7 +413,7 @@ class ReachRanking {
             all.candidates.push_back(candidate);
             all.evaluations.push_back(plane.evaluation);
         }
-        return rank(all, others, settings_.objectives);
+        return rank(all, others, settings_.objectives, scan_);
     }
 
     // Of the planes that are taken as the best, the first whose sides are several solids and that was not cut yet.
@@ -445,6 +449,8 @@ class ReachRanking {
     std::vector<Candidate> further_;
     std::vector<PieceShare> others_;
     double others_unreachable_mm2_ = 0;
+    ScanShare scan_;
+    std::array<Vec3, 3> box_axes_;
     bool is_restricted_ = true;  // to the candidates
     bool is_along_box_only_ = false;
     double most_unreachable_mm2_ = 0;  // of a candidate
