@@ -175,7 +175,7 @@ class ReachRanking {
         std::vector<std::optional<CutEvaluation>> evaluation =
             sweep_solids(prepared_piece(), plane.normal, {&plane.offset, 1});
         if (evaluation.front()) {
-            add_fragility(prepared_piece(), plane.normal, {&plane.offset, 1}, settings_.objectives, evaluation);
+            add_late_terms(prepared_piece(), plane.normal, {&plane.offset, 1}, settings_.objectives, evaluation);
             evaluation.front()->reach = cut_reach(piece_, plane, settings_.objectives.tilt_deg);
         }
         return {candidate, true, std::move(evaluation.front()), true, false};
