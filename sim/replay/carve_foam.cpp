@@ -217,8 +217,10 @@ const TipLine* neighbour(const ToolPath& path, std::size_t index, bool is_next) 
 
 double lowest_of_tool(const CarvingTool& tool, Vec3 tip, Vec3 out) {
     const Cutter cutter = cutter_of(tool);
-    if (cutter.shape == ToolShape::cone) return tip.z;
     const double sine = std::sqrt(std::max(0.0, 1 - out.z * out.z));
+    if (cutter.sin_half > 0) {
+        return tip.z + std::min(0.0, profile_height(cutter, cutter.radius) * out.z - cutter.radius * sine);
+    }
     return tip.z + cutter.corner * out.z - cutter.corner - (cutter.radius - cutter.corner) * sine;
 }
 
