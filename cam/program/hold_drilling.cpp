@@ -47,8 +47,8 @@ std::vector<double> angles_for(const Setup& setup, const Cell& cell, Vec3 out) {
 }
 
 // What refuses a hole; empty: the arm holds it.
-std::string refusal_of(const PathRun& run, const Operation& operation, const Setup& setup,
-                       const WorkEnvelope& envelope, const Cell& cell) {
+std::string refusal_of(const PathRun& run, const Operation& operation, const Setup& setup, const WorkEnvelope& envelope,
+                       const Cell& cell) {
     HoldSearch search(setup, envelope, cell, operation);
     const std::vector<PathRun> alone{run};
     return search.longest(alone, sampled_path(alone)).runs == 1 ? std::string() : search.refusal();

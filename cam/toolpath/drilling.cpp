@@ -19,8 +19,8 @@
 namespace qchopper {
 namespace {
 
-constexpr double foam_step = 0.5;    // mm, along the axis over the mouth
-constexpr double holder_step = 4;    // mm, between points of holder and spindle
+constexpr double foam_step = 0.5;  // mm, along the axis over the mouth
+constexpr double holder_step = 4;  // mm, between points of holder and spindle
 constexpr double peck_diameters = 2;
 constexpr double same_direction = 1e-6;  // between unit vectors
 
@@ -28,7 +28,13 @@ class HolePlanner {
  public:
     HolePlanner(const Setup& setup, const TriangleMesh& mesh, const Cell& cell, const InProcessStock& foam,
                 const DrillOptions& options)
-        : setup_(setup), mesh_(mesh), tree_(mesh), cell_(cell), machine_(*cell.machine), foam_(foam), options_(options) {}
+        : setup_(setup),
+          mesh_(mesh),
+          tree_(mesh),
+          cell_(cell),
+          machine_(*cell.machine),
+          foam_(foam),
+          options_(options) {}
 
     // The index of the drill. Fills in the reason, or the run.
     std::optional<std::size_t> plan(DrillHole& hole, PathRun& run) const {
@@ -72,8 +78,8 @@ class HolePlanner {
         return {};
     }
 
-    // Whether the piece comes nearer to the drill above the cap than it may. Around the mouth itself the joint keeps its
-    // wall.
+    // Whether the piece comes nearer to the drill above the cap than it may. Around the mouth itself the joint keeps
+    // its wall.
     bool is_under_piece(const DrillHole& hole) const {
         const double radius = 0.5 * hole.diameter + options_.clear;
         const double highest = height_of_retract(hole);
@@ -181,9 +187,9 @@ Drilling drill_holes(std::span<const DrillHole> holes, const Setup& setup, const
         const auto tool = hole.by_hand.empty() ? planner.plan(hole, run) : std::nullopt;
         if (!tool) continue;
         const std::size_t direction = direction_index(setup, hole.out, drilling.directions);
-        const auto place = std::find_if(drilling.operations.begin(), drilling.operations.end(), [&](const Operation& o) {
-            return std::pair(o.tool, o.direction) >= std::pair(*tool, direction);
-        });
+        const auto place = std::find_if(
+            drilling.operations.begin(), drilling.operations.end(),
+            [&](const Operation& o) { return std::pair(o.tool, o.direction) >= std::pair(*tool, direction); });
         if (place != drilling.operations.end() && place->tool == *tool && place->direction == direction) {
             place->runs.push_back(std::move(run));
             continue;

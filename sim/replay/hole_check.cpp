@@ -95,7 +95,7 @@ void HoleCheck::take_hole(std::size_t index, const TipLine& line, const CarvingT
     const double offset = offset_of(hole, line);
     figures_.largest_offset = std::max(figures_.largest_offset, offset);
     if (offset > hole_tolerance) {
-        state.is_faulty = true;
+        state.is_refused = true;
         log_.add(FindingKind::shifted_hole, line.place, offset, offset, [&] {
             return name_of(hole) + " is drilled " + fixed(offset, 2) + " mm beside its axis, at most " +
                    fixed(hole_tolerance, 2) + " are allowed";
@@ -103,7 +103,7 @@ void HoleCheck::take_hole(std::size_t index, const TipLine& line, const CarvingT
     }
     const double wider = tool.diameter - hole.diameter;
     if (std::abs(wider) > drill_tolerance) {
-        state.is_faulty = true;
+        state.is_refused = true;
         log_.add(FindingKind::hole_diameter, line.place, tool.diameter, std::abs(wider), [&] {
             return name_of(hole) + " is drilled with tool " + std::to_string(tool.number) + " of " +
                    fixed(tool.diameter, 2) + " mm, it is to be " + fixed(hole.diameter, 2) + " mm wide";
@@ -113,7 +113,7 @@ void HoleCheck::take_hole(std::size_t index, const TipLine& line, const CarvingT
     const double depth = tip - point_height(tool);
     if (depth > state.reached || state.place.line == 0) state.reached = depth, state.place = line.place;
     if (depth <= hole.depth + hole_tolerance) return;
-    state.is_faulty = true;
+    state.is_refused = true;
     log_.add(FindingKind::hole_depth, line.place, depth, depth - hole.depth, [&] {
         return name_of(hole) + " is drilled " + fixed(depth, 2) + " mm deep, it is to be " + fixed(hole.depth, 2) +
                " mm deep";
@@ -136,7 +136,7 @@ HoleFigures HoleCheck::finish() {
                        fixed(hole.depth, 2) + " mm deep";
             });
         }
-        if (lacks <= hole_tolerance && !state.is_faulty) ++figures_.drilled;
+        if (lacks <= hole_tolerance && !state.is_refused) ++figures_.drilled;
     }
     return figures_;
 }
