@@ -81,6 +81,7 @@ std::map<OperationKind, Totals> totals_of(const Toolpath& path) {
 
 const char* word_of(OperationKind kind) {
     if (kind == OperationKind::roughing) return "roughing";
+    if (kind == OperationKind::drilling) return "drilling";
     return kind == OperationKind::finishing ? "finishing" : "fine finishing";
 }
 

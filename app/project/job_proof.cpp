@@ -10,6 +10,8 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "cam/setup/block_placement.h"
+#include "cam/setup/drill_direction.h"
 #include "segment/io/read_mesh.h"
 #include "sim/program/chunk_summary.h"
 #include "sim/program/krl_reader.h"
@@ -96,10 +98,12 @@ std::vector<bool> base_of(const Setup& setup, const TriangleMesh& mesh) {
 ReplayScene scene_of(const ProofInput& input) {
     ReplayScene scene;
     scene.cell = &input.cell;
-    const Setup& setup = input.setup;
+    const Setup setup = with_drill_directions(input.setup, input.program.drilling);
+    const std::size_t own = input.setup.reach.directions.size();
     for (std::size_t d = 0; d < setup.reach.directions.size(); ++d) {
         const Vec3 out = normalized(rotate(setup.piece_in_setup, setup.reach.directions[d].out));
-        const Pose& frame = input.setup_in_cell[std::min(d, input.setup_in_cell.size() - 1)];
+        const Pose frame = d < own ? input.setup_in_cell[std::min(d, input.setup_in_cell.size() - 1)]
+                                   : setup_in_cell(input.cell, setup.spoil, setup.placement, d);
         scene.directions.push_back({out, setup.placement.table_angle(d), frame});
     }
     for (const JobChunk& chunk : input.program.chunks) {
@@ -111,6 +115,11 @@ ReplayScene scene_of(const ProofInput& input) {
     scene.target = &input.mesh;
     scene.is_base = base_of(setup, input.mesh);
     scene.scallop = input.program.scallop_mm;
+    const std::vector<std::size_t>& drilled = input.program.holes;
+    for (const JobHole& hole : input.holes) {
+        const bool is_due = std::binary_search(drilled.begin(), drilled.end(), hole.number);
+        scene.holes.push_back({hole.number, hole.point, hole.axis, hole.diameter, hole.depth, hole.by_robot, is_due});
+    }
     scene.is_last = input.program.part.number == input.program.part.count;
     return scene;
 }
@@ -148,6 +157,13 @@ std::vector<ProofFigure> figures_of(const ReplayReport& report, double cell, boo
         {"time_s", "time", report.time.seconds, "s", 0},
         {"cell_mm", "cells of the replay", cell, "mm", 2}};
     if (!is_last) std::erase_if(figures, is_of_surface);
+    const HoleFigures& holes = report.carving.holes;
+    if (holes.due > 0) {
+        figures.push_back({"holes_due", "holes to be drilled by this program", static_cast<double>(holes.due), "", 0});
+        figures.push_back({"holes_drilled", "of them drilled as ordered", static_cast<double>(holes.drilled), "", 0});
+        figures.push_back(
+            {"max_hole_offset_mm", "largest distance from the axis of a hole", holes.largest_offset, "mm", 3});
+    }
     return figures;
 }
 

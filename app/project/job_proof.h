@@ -25,6 +25,7 @@ struct ProofInput {
     const JobProgram& program;        // its chunks are compared with what is read, unless there are none
     const std::map<std::string, std::string>& texts;  // of all its files
     const Bytes* stock = nullptr;                     // stock.bin of a part but the first
+    std::vector<JobHole> holes = {};                  // of all caps
     double replay_cell = 0.25;                        // mm; that of the stock
 };
 

@@ -3,16 +3,34 @@
 #include "app/project/kept_programs.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "app/project/job_verdict.h"
 #include "base/error.h"
+#include "cam/job/job_caps.h"
 #include "cam/job/read_job.h"
 #include "segment/io/write_stl.h"
 #include "segment/mesh/transform.h"
 
 namespace qchopper {
 namespace {
+
+// The caps of the source with the decisions of the job; nothing if the job has other holes.
+std::optional<std::vector<DrawnCap>> decided(const ReadJob& job, const ProgramSource& source) {
+    std::vector<DrawnCap> caps = source.caps;
+    std::vector<std::size_t> drilled;
+    std::map<std::size_t, std::string> reasons;
+    for (const JobHole& hole : holes_of(job.caps)) {
+        if (hole.by_robot) drilled.push_back(hole.number);
+        reasons[hole.number] = hole.by_hand;
+    }
+    decide_holes(caps, drilled, reasons, {});
+    std::vector<JobCap> own;
+    for (const DrawnCap& drawn : caps) own.push_back(drawn.cap);
+    if (own != job.caps) return std::nullopt;
+    return caps;
+}
 
 bool is_made_from(const ReadJob& job, const JobVerdict& verdict, const ProgramSource& source, const Bytes& mesh) {
     return job.program && job.setup == source.setup && job.piece_no == source.piece_no &&
@@ -67,6 +85,9 @@ std::optional<PiecePrograms> kept_programs(const std::filesystem::path& jobs, co
             if (!verdict) return std::nullopt;
             const ReadJob job = parse_job(read_job(file), file.string());
             if (!is_made_from(job, *verdict, source, mesh) || job.program->part.number != part) return std::nullopt;
+            std::optional<std::vector<DrawnCap>> caps = decided(job, source);
+            if (!caps) return std::nullopt;
+            programs.caps = std::move(*caps);
             count = job.program->part.count;
             programs.parts.push_back(program_of(job, *verdict));
         }

@@ -20,6 +20,7 @@ struct ProgramSource {
     const Piece& piece;
     const Setup& setup;
     std::uint16_t piece_no = 1;
+    const std::vector<DrawnCap>& caps;   // before anything was decided about their holes
     Sha256 cell_sha256;                  // of the cell file
     const std::string& program_version;  // of qchopper
 };

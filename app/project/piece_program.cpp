@@ -8,9 +8,12 @@
 
 #include "app/project/deviation_picture.h"
 #include "base/error.h"
+#include "cam/job/job_caps.h"
 #include "cam/post/krl.h"
+#include "cam/program/hold_drilling.h"
 #include "cam/program/make_program.h"
 #include "cam/setup/block_placement.h"
+#include "cam/setup/drill_direction.h"
 #include "cam/toolpath/make_toolpath.h"
 #include "segment/io/write_stl.h"
 #include "segment/mesh/transform.h"
@@ -25,9 +28,79 @@ std::vector<Pose> frames_of(const Setup& setup, const Cell& cell) {
     return frames;
 }
 
+// A toolpath and the drilling that follows it.
+struct MadePath {
+    Toolpath toolpath;
+    Drilling drilling;
+};
+
+// The wall of the dowels of a size; 0 if the cell lists none.
+double wall_of(const JobHole& hole, const Cell& cell) {
+    double wall = 0;
+    for (const DowelSize& size : cell.dowels) {
+        if (size.diameter == hole.diameter && size.depth == hole.depth) wall = size.wall;
+    }
+    return wall;
+}
+
+MadePath make_path(const Piece& piece, const Carving& carving, const Cell& cell, const std::vector<DrawnCap>& caps,
+                   const Context& context) {
+    const Setup& setup = carving.setup();
+    InProcessStock left(setup);
+    MadePath made{make_toolpath(setup, *piece.mesh, cell, {}, context, &left), {}};
+    std::vector<DrillHole> holes;
+    for (const DrawnCap& drawn : caps) {
+        for (const JobHole& hole : holes_of({drawn.cap})) {
+            holes.push_back(
+                {hole.number, hole.point, -hole.axis, hole.diameter, hole.depth, wall_of(hole, cell), hole.by_hand});
+        }
+    }
+    if (holes.empty()) return made;
+    made.drilling = drill_holes(holes, setup, apply(setup.piece_in_setup, *piece.mesh), cell, left);
+    hold_drilling(made.drilling, setup, carving.work_envelope, cell, context);
+    return made;
+}
+
+std::vector<ProgramPart> post(const MadePath& made, const Carving& carving, std::uint16_t piece_no, const Cell& cell,
+                              const Context& context) {
+    Toolpath whole = made.toolpath;
+    const std::vector<Operation>& drilled = made.drilling.operations;
+    whole.operations.insert(whole.operations.end(), drilled.begin(), drilled.end());
+    const Setup setup = with_drill_directions(carving.setup(), made.drilling.directions);
+    return post_krl(make_program(whole, setup, carving.work_envelope, cell, context), cell, {piece_no});
+}
+
+// With the holes, or without them where the program cannot be made with them.
+std::vector<ProgramPart> make_parts(MadePath& made, const Carving& carving, std::uint16_t piece_no, const Cell& cell,
+                                    const Context& context) {
+    if (made.drilling.operations.empty()) return post(made, carving, piece_no, cell, context);
+    try {
+        return post(made, carving, piece_no, cell, context);
+    } catch (const InputError& error) {
+        made.drilling.operations.clear();
+        made.drilling.directions.clear();
+        for (DrillHole& hole : made.drilling.holes) {
+            if (hole.by_hand.empty()) hole.by_hand = std::string("the program cannot drill: ") + error.what();
+        }
+    }
+    return post(made, carving, piece_no, cell, context);
+}
+
+std::vector<DrawnCap> decided(std::vector<DrawnCap> caps, const Drilling& drilling) {
+    std::vector<std::size_t> drilled;
+    std::map<std::size_t, std::string> reasons;
+    for (const DrillHole& hole : drilling.holes) {
+        if (hole.by_hand.empty()) drilled.push_back(hole.number);
+        reasons[hole.number] = hole.by_hand;
+    }
+    decide_holes(caps, drilled, reasons, {});
+    return caps;
+}
+
 // Of a part as it was posted; the figures of its chunks are read back later.
-ProgramInput program_of(const ProgramPart& part, std::size_t number, std::size_t count, const Toolpath& toolpath) {
+ProgramInput program_of(const ProgramPart& part, std::size_t number, std::size_t count, const MadePath& made) {
     ProgramInput input;
+    input.program.drilling = made.drilling.directions;
     input.program.entry = part.entry;
     for (const ProgramText& file : part.files) {
         input.program.files.push_back(file.name);
@@ -39,11 +112,13 @@ ProgramInput program_of(const ProgramPart& part, std::size_t number, std::size_t
         record.tool = chunk.tool_number;
         record.direction = chunk.direction;
         input.program.chunks.push_back(record);
+        input.program.holes.insert(input.program.holes.end(), chunk.holes.begin(), chunk.holes.end());
         if (input.tools.empty() || input.tools.back() != chunk.tool_number) input.tools.push_back(chunk.tool_number);
     }
     input.program.part.number = static_cast<std::uint16_t>(number);
     input.program.part.count = static_cast<std::uint16_t>(count);
-    for (const Operation& operation : toolpath.operations) {
+    std::sort(input.program.holes.begin(), input.program.holes.end());
+    for (const Operation& operation : made.toolpath.operations) {
         input.program.scallop_mm = std::max(input.program.scallop_mm, operation.scallop);
     }
     return input;
@@ -67,27 +142,36 @@ std::string no_programs_for(const Cell& cell) {
     return std::string("programs in the dialect ") + to_word(dialect) + " are not written yet";
 }
 
+std::vector<DrawnCap> caps_by_hand(std::vector<DrawnCap> caps, const std::string& none_because) {
+    decide_holes(caps, {}, {}, "there is no program: " + none_because);
+    return caps;
+}
+
 PiecePrograms make_programs(const Piece& piece, const Carving& carving, std::uint16_t piece_no, const Cell& cell,
-                            const Context& context) {
+                            std::vector<DrawnCap> caps, const Context& context) {
     const Setup& setup = carving.setup();
     std::vector<ProgramPart> parts;
-    Toolpath toolpath;
+    MadePath made;
     try {
-        toolpath = make_toolpath(setup, *piece.mesh, cell, {}, context);
-        parts = post_krl(make_program(toolpath, setup, carving.work_envelope, cell, context), cell, {piece_no});
+        made = make_path(piece, carving, cell, caps, context);
+        parts = make_parts(made, carving, piece_no, cell, context);
     } catch (const InputError& error) {
-        return {{}, error.what()};
+        return {{}, error.what(), caps_by_hand(std::move(caps), error.what())};
     }
     const TriangleMesh mesh = job_mesh(to_stl(apply(setup.piece_in_setup, *piece.mesh)), piece.name);
     const std::vector<Pose> frames = frames_of(setup, cell);
     PiecePrograms programs;
+    programs.caps = decided(std::move(caps), made.drilling);
+    std::vector<JobCap> job_caps;
+    for (const DrawnCap& drawn : programs.caps) job_caps.push_back(drawn.cap);
     Bytes stock;  // what the part before left
     for (const ProgramPart& part : parts) {
         ProvenProgram proven;
-        proven.input = program_of(part, programs.parts.size() + 1, parts.size(), toolpath);
+        proven.input = program_of(part, programs.parts.size() + 1, parts.size(), made);
         proven.input.stock = std::move(stock);
-        proven.proof =
-            prove({cell, setup, frames, mesh, proven.input.program, proven.input.texts, &proven.input.stock}, context);
+        proven.proof = prove({cell, setup, frames, mesh, proven.input.program, proven.input.texts, &proven.input.stock,
+                              holes_of(job_caps)},
+                             context);
         stock = std::move(proven.proof.stock_left);
         add_proof(proven.input, proven.proof, mesh);
         programs.parts.push_back(std::move(proven));

@@ -11,6 +11,7 @@
 #include "app/project/job_proof.h"
 #include "app/project/setups.h"
 #include "base/context.h"
+#include "cam/job/job_cap.h"
 #include "cam/job/job_program.h"
 #include "segment/cut/piece.h"
 
@@ -24,14 +25,20 @@ struct ProvenProgram {
 struct PiecePrograms {
     std::vector<ProvenProgram> parts;  // in their order; empty: no program
     std::string none_because;          // for people, without a full stop
+    std::vector<DrawnCap> caps;        // of the piece, with who drills each hole (decide_holes())
 };
 
 // Empty for a cell for whose jobs programs can be made, else why not: version 1, or a dialect that cannot be written.
 std::string no_programs_for(const Cell& cell);
 
-// Preconditions: the carving is that of the piece and fits, piece_no >= 1, no_programs_for(cell) is empty. Where the
-// machine cannot follow the toolpath there is no program, and none_because says why. Throws Cancelled.
+// The caps are those of the piece (caps_of()): of their holes those that the robot can drill are drilled after
+// finishing. Where the machine can carve the piece but not drill, all holes are left to the hand. Preconditions: the
+// carving is that of the piece and fits, piece_no >= 1, no_programs_for(cell) is empty. Where the machine cannot follow
+// the toolpath there is no program, and none_because says why. Throws Cancelled.
 PiecePrograms make_programs(const Piece& piece, const Carving& carving, std::uint16_t piece_no, const Cell& cell,
-                            const Context& context);
+                            std::vector<DrawnCap> caps, const Context& context);
+
+// Caps of a piece that gets no program.
+std::vector<DrawnCap> caps_by_hand(std::vector<DrawnCap> caps, const std::string& none_because);
 
 }  // namespace qchopper

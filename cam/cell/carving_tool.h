@@ -11,8 +11,9 @@
 
 namespace qchopper {
 
-// bull: flat with rounded edge. cone: pointed, with straight flanks up to the diameter.
-enum class ToolShape { ball, flat, bull, cone };
+// bull: flat with rounded edge. cone: pointed, with straight flanks up to the diameter. drill: the same shape, and it
+// goes only along its axis: it makes the holes of the job and carves nothing else.
+enum class ToolShape { ball, flat, bull, cone, drill };
 
 // A cylinder of the holder. The first step begins at stick_out above the tip, each next one where the last ends; the
 // last one ends at the spindle nose.
@@ -28,7 +29,7 @@ struct CarvingTool {
     ToolShape shape = ToolShape::ball;
     double diameter = 0;
     double corner_radius = 0;  // ball: half the diameter; flat: 0; cone: of its tip
-    double tip_angle = 0;      // of a cone, from flank to flank, radians, below pi; else 0
+    double tip_angle = 0;      // of a cone or drill, from flank to flank, radians, below pi; else 0
     double flute_length = 0;   // of the cutting edges
     double stick_out = 0;      // from the tip to the holder
     std::vector<HolderStep> holder;
@@ -42,8 +43,15 @@ struct CarvingTool {
     bool operator==(const CarvingTool&) const = default;
 };
 
-// "ball", "flat", "bull", "cone"
+inline bool is_drill(const CarvingTool& tool) {
+    return tool.shape == ToolShape::drill;
+}
+
+// "ball", "flat", "bull", "cone", "drill"
 const char* to_word(ToolShape shape);
+
+// From the tip of a cone or drill to where it has its diameter.
+double point_height(const CarvingTool& tool);
 
 // From the tip to the spindle nose. O(steps).
 double gauge_length(const CarvingTool& tool);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 #include "cam/cell/cell_tables.h"
@@ -15,13 +16,15 @@ constexpr double slowest_feed = 1;    // mm/s
 constexpr double fastest_feed = 500;  // mm/s
 constexpr std::size_t most_tools = 100;
 constexpr std::size_t most_steps = 20;
+constexpr double least_point_deg = 60;  // of a drill
+constexpr double most_point_deg = 170;
 
-constexpr std::array<const char*, 4> shapes{"ball", "flat", "bull", "cone"};  // in the order of ToolShape
+constexpr std::array<const char*, 5> shapes{"ball", "flat", "bull", "cone", "drill"};  // in the order of ToolShape
 
 ToolShape read_shape(const TomlReader& reader) {
     const std::string word = reader.text("shape");
     const auto* found = std::find(shapes.begin(), shapes.end(), word);
-    if (found == shapes.end()) reader.refuse("shape", "unknown shape " + word, "use ball, flat, bull or cone");
+    if (found == shapes.end()) reader.refuse("shape", "unknown shape " + word, "use ball, flat, bull, cone or drill");
     return static_cast<ToolShape>(found - shapes.begin());
 }
 
@@ -38,9 +41,10 @@ void read_profile(const TomlReader& reader, CarvingTool& tool) {
     const bool is_bull = tool.shape == ToolShape::bull;
     const bool is_cone = tool.shape == ToolShape::cone;
     refuse_unless(reader, "corner_radius", is_bull || is_cone, tool.shape);
-    refuse_unless(reader, "tip_angle_deg", is_cone, tool.shape);
+    refuse_unless(reader, "tip_angle_deg", is_cone || is_drill(tool), tool.shape);
     if (tool.shape == ToolShape::ball) tool.corner_radius = radius;
     if (is_cone) tool.tip_angle = reader.number("tip_angle_deg", 1, 179) * degree;
+    if (is_drill(tool)) tool.tip_angle = reader.number("tip_angle_deg", least_point_deg, most_point_deg) * degree;
     if (!is_bull && !reader.has("corner_radius")) return;
     tool.corner_radius = reader.number("corner_radius", is_bull ? smallest : 0, widest);
     if (tool.corner_radius >= radius) reader.refuse("corner_radius", "must be less than half the diameter");
@@ -98,6 +102,10 @@ const char* to_word(ToolShape shape) {
     return shapes[static_cast<std::size_t>(shape)];
 }
 
+double point_height(const CarvingTool& tool) {
+    return 0.5 * tool.diameter / std::tan(0.5 * tool.tip_angle);
+}
+
 double gauge_length(const CarvingTool& tool) {
     return std::accumulate(tool.holder.begin(), tool.holder.end(), tool.stick_out,
                            [](double sum, const HolderStep& step) { return sum + step.length; });
@@ -113,6 +121,10 @@ std::vector<CarvingTool> read_tools(const TomlReader& root, Origins& origins) {
         if (is_second) {
             row.refuse("number", "a second tool with the number " + std::to_string(read.number),
                        "give each tool a number of its own");
+        }
+        if (tools.empty() && is_drill(read)) {
+            row.refuse("shape", "the first tool is the one that jobs name, and a drill carves nothing",
+                       "list a tool that carves first");
         }
         add_origins(row, keys_2::tool, "tool " + std::to_string(read.number), origins);
         tools.push_back(read);

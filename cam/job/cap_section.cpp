@@ -12,14 +12,14 @@ namespace {
 using namespace sheet;
 
 std::string holes_of(const JobCap& cap) {
-    Rows rows{{word("towards"), right("diameter"), right("depth"), right("x on the cap"), right("y on the cap"),
-               right("x"), right("y"), right("z"), word("drilled")}};
+    Rows rows{{right("hole"), word("towards"), right("diameter"), right("depth"), right("x on the cap"),
+               right("y on the cap"), right("x"), right("y"), right("z"), word("drilled")}};
     for (const CapJoint& joint : cap.joints) {
         for (const JobHole& hole : joint.holes) {
-            rows.push_back({word(joint.neighbour), number(hole.diameter, 1), number(hole.depth, 1),
-                            number(hole.on_cap.x, 1), number(hole.on_cap.y, 1), number(hole.point.x, 1),
-                            number(hole.point.y, 1), number(hole.point.z, 1),
-                            word(hole.by_robot ? "robot can, or by hand" : "by hand")});
+            rows.push_back({right(std::to_string(hole.number)), word(joint.neighbour), number(hole.diameter, 1),
+                            number(hole.depth, 1), number(hole.on_cap.x, 1), number(hole.on_cap.y, 1),
+                            number(hole.point.x, 1), number(hole.point.y, 1), number(hole.point.z, 1),
+                            word(hole.by_robot ? "by the robot" : "by hand: " + hole.by_hand)});
         }
     }
     return rows.size() > 1 ? table(rows) : paragraph("No dowel.");
@@ -45,11 +45,11 @@ std::string cap_section(const JobInput& input) {
         html += holes_of(drawn.cap) + drawing_of(drawn.cap);
     }
     if (html.empty()) return section("14. Joints", paragraph("The piece is joined to no other one."));
-    return section("14. Joints",
-                   paragraph("Holes for dowels are perpendicular to their cap. x, y and z are those of the setup. The "
-                             "program does not drill them: drill by hand with the template, or by the robot where it "
-                             "can.") +
-                       html);
+    return section(
+        "14. Joints",
+        paragraph("Holes for dowels are perpendicular to their cap. x, y and z are those of the setup. What is "
+                  "drilled by the robot is part of the program; drill the others by hand with the template.") +
+            html);
 }
 
 }  // namespace qchopper

@@ -23,7 +23,7 @@ constexpr double mark = 4;           // beyond the rim of a hole
 
 std::string hole_text(const JobHole& hole) {
     return significant(hole.diameter, 4) + " mm, " + significant(hole.depth, 4) + " deep" +
-           (hole.by_robot ? " (robot can)" : "");
+           (hole.by_robot ? " (robot)" : "");
 }
 
 void add_hole(CapTemplate& drawing, const JobHole& hole, Point2 at) {

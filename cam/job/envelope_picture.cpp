@@ -35,7 +35,7 @@ struct Body {
 const CarvingTool& tool_of(const CellMachine& machine, const EnvelopePose& pose) {
     const CarvingTool* longest = &machine.tools.front();
     for (const CarvingTool& tool : machine.tools) {
-        if (tool.stick_out > longest->stick_out) longest = &tool;
+        if (!is_drill(tool) && tool.stick_out > longest->stick_out) longest = &tool;
     }
     if (!machine.robot || !pose.joints || pose.kind != PoseKind::tool_change) return *longest;
     for (const CarvingTool& tool : machine.tools) {

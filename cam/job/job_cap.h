@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -15,12 +16,14 @@
 namespace qchopper {
 
 struct JobHole {
+    std::size_t number = 0;  // from 1, through all caps of the piece in their order
     double diameter = 0;
     double depth = 0;
     Point2 on_cap;          // of its middle, in the frame of the cap
     Vec3 point;             // the same in setup coordinates
     Vec3 axis;              // unit vector in setup coordinates, into the piece
-    bool by_robot = false;  // the robot could drill it in this setup; otherwise by hand with the template
+    bool by_robot = false;  // the program of the job drills it; otherwise by hand with the template
+    std::string by_hand;    // why it is not the robot's, without a full stop; empty: it is, or nobody has said so yet
     bool operator==(const JobHole&) const = default;
 };
 
@@ -47,6 +50,9 @@ struct DrawnCap {
     std::vector<Point2> names_at;  // one per joint: where the neighbour's name stands
     Point2 size;                   // of the rectangle around the outline
 };
+
+// All holes in the order of their numbers.
+std::vector<JobHole> holes_of(const std::vector<JobCap>& caps);
 
 // "template-3.svg", "template-3.pdf", of the cap of cut 3.
 std::string template_name(std::int32_t cut, const std::string& ending);

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include "cam/setup/held_directions.h"
+#include "base/text.h"
 #include "segment/mesh/plane_frame.h"
 
 namespace qchopper {
@@ -37,32 +38,28 @@ Point2 middle_of(const FlatRegion& contact, const Plane& plane, const Pose& cap_
     return in_cap(cap_in_piece, 1 / count * sum);
 }
 
-bool has_tool_for(const Cell& cell, const DowelSize& size) {
-    if (!cell.machine) return cell.tool.diameter <= size.diameter;
-    return std::any_of(cell.machine->tools.begin(), cell.machine->tools.end(), [&](const CarvingTool& tool) {
-        return tool.diameter <= size.diameter && tool.stick_out >= size.depth;
-    });
-}
-
-// Whether the tool may come out along the cap's normal.
-bool is_tool_direction(const HalfSpace& half_space, const Setup& setup, const Cell& cell) {
-    if (setup.base && *setup.base == half_space.cut) return false;
+// Why no tool may come out along the cap's normal; empty: one may.
+std::string not_drilled_because(const HalfSpace& half_space, const Setup& setup, const Cell& cell) {
+    constexpr double degree = std::numbers::pi / 180;
+    if (setup.base && *setup.base == half_space.cut) return "its cap is the base, which lies on the table";
+    if (!cell.machine) return "the cell file describes no machine";
     const Vec3 out = rotate(setup.piece_in_setup, -half_space.up());
-    const double most_tilt = cell.machine && cell.machine->robot ? cell.machine->max_tilt : 0;
-    if (std::acos(std::clamp(out.z, -1.0, 1.0)) > most_tilt + 1e-6) return false;
-    return held_directions(cell, setup.box, setup.spoil, std::span(&out, 1)).front() != 0;
+    const double tilt = std::acos(std::clamp(out.z, -1.0, 1.0));
+    const double most_tilt = cell.machine->robot ? cell.machine->max_tilt : 0;
+    if (tilt <= most_tilt + 1e-6) return {};
+    return "the tool would lean by " + fixed(tilt / degree, 0) + " degrees, and " + fixed(most_tilt / degree, 0) +
+           " are allowed";
 }
 
-CapJoint cap_joint(const PieceJoint& joint, const Pose& cap_in_piece, const Setup& setup, const Cell& cell,
-                   bool is_direction) {
+CapJoint cap_joint(const PieceJoint& joint, const Pose& cap_in_piece, const Setup& setup, const std::string& by_hand) {
     CapJoint made;
     made.area_mm2 = joint.contact.area_mm2;
     const Vec3 out = rotate(cap_in_piece, {0, 0, 1});
     for (const Dowel& dowel : joint.dowels) {
         const Point2 at = in_cap(cap_in_piece, dowel.point);
-        made.holes.push_back({dowel.size.diameter, dowel.size.depth, at,
+        made.holes.push_back({0, dowel.size.diameter, dowel.size.depth, at,
                               apply(setup.piece_in_setup, apply(cap_in_piece, {at.x, at.y, 0})),
-                              -rotate(setup.piece_in_setup, out), is_direction && has_tool_for(cell, dowel.size)});
+                              -rotate(setup.piece_in_setup, out), false, by_hand});
     }
     return made;
 }
@@ -97,7 +94,7 @@ std::vector<DrawnCap> caps_of(std::span<const Piece> pieces, std::size_t index, 
                 draw_outline(drawn, pieces[index], half_space);
             }
             const Pose& frame = drawn.cap.cap_in_piece;
-            CapJoint made = cap_joint(joint, frame, setup, cell, is_tool_direction(half_space, setup, cell));
+            CapJoint made = cap_joint(joint, frame, setup, not_drilled_because(half_space, setup, cell));
             made.neighbour = pieces[joint.below == index ? joint.above : joint.below].name;
             made.note = describe_fault(joint, pieces, joints);
             drawn.cap.joints.push_back(std::move(made));
@@ -106,7 +103,27 @@ std::vector<DrawnCap> caps_of(std::span<const Piece> pieces, std::size_t index, 
         if (!drawn.cap.joints.empty()) caps.push_back(std::move(drawn));
     }
     std::sort(caps.begin(), caps.end(), [](const DrawnCap& a, const DrawnCap& b) { return a.cap.cut < b.cap.cut; });
+    std::size_t number = 0;
+    for (DrawnCap& drawn : caps) {
+        for (CapJoint& joint : drawn.cap.joints) {
+            for (JobHole& hole : joint.holes) hole.number = ++number;
+        }
+    }
     return caps;
+}
+
+void decide_holes(std::vector<DrawnCap>& caps, const std::vector<std::size_t>& drilled,
+                  const std::map<std::size_t, std::string>& reasons, const std::string& because) {
+    for (DrawnCap& drawn : caps) {
+        for (CapJoint& joint : drawn.cap.joints) {
+            for (JobHole& hole : joint.holes) {
+                hole.by_robot = std::binary_search(drilled.begin(), drilled.end(), hole.number);
+                if (hole.by_robot || !hole.by_hand.empty()) continue;
+                const auto own = reasons.find(hole.number);
+                hole.by_hand = own == reasons.end() || own->second.empty() ? because : own->second;
+            }
+        }
+    }
 }
 
 }  // namespace qchopper

@@ -5,7 +5,9 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "cam/cell/cell.h"
@@ -15,10 +17,15 @@
 
 namespace qchopper {
 
-// The caps of piece number `index` that have joints, in the order of the cuts. A hole is the robot's if its cap is not
-// the base, the tool may lean and the arm holds it along the cap's normal (held_directions.h), and a tool fits into the
-// hole and is long enough.
+// The caps of piece number `index` that have joints, in the order of the cuts. A hole is for the hand if its
+// cap is the base or the tool may not lean so far; of the others no reason is given yet, and who drills them is decided
+// with the program (JobHole::by_hand).
 std::vector<DrawnCap> caps_of(std::span<const Piece> pieces, std::size_t index, std::span<const PieceJoint> joints,
                               const Setup& setup, const Cell& cell);
+
+// Says of every hole who drills it: the robot those of the numbers `drilled`, ascending; the others are for the hand,
+// because of the reason that they have already, or that of their number, or else `because`.
+void decide_holes(std::vector<DrawnCap>& caps, const std::vector<std::size_t>& drilled,
+                  const std::map<std::size_t, std::string>& reasons, const std::string& because);
 
 }  // namespace qchopper

@@ -17,6 +17,7 @@
 #include "base/file.h"
 #include "base/sha256.h"
 #include "cam/cell/cell.h"
+#include "cam/setup/drill_direction.h"
 
 namespace qchopper {
 
@@ -24,7 +25,7 @@ namespace qchopper {
 struct JobChunk {
     std::string file;
     std::uint16_t tool = 0;     // its number in the cell file
-    std::size_t direction = 0;  // index in SurfaceReach::directions
+    std::size_t direction = 0;  // index in SurfaceReach::directions, with JobProgram::drilling behind them
     std::uint64_t moves = 0;    // straight ones
     double length_mm = 0;       // of the straight moves
     Box box;                    // of the points that the tip moves to
@@ -47,8 +48,10 @@ struct JobProgram {
     std::vector<std::string> files;  // all of the program, in the order in which they are loaded
     std::vector<JobChunk> chunks;    // in the order in which they run; at least one
     JobPart part;
-    double scallop_mm = 0;  // scallop height that finishing was made for
-    double time_s = 0;      // estimated, accelerations and tool changes included
+    std::vector<DrillDirection> drilling;  // of all parts: directions behind those of the setup
+    std::vector<std::size_t> holes;        // numbers of those that this program drills, ascending
+    double scallop_mm = 0;                 // scallop height that finishing was made for
+    double time_s = 0;                     // estimated, accelerations and tool changes included
     bool operator==(const JobProgram&) const = default;
 };
 

@@ -293,9 +293,9 @@ std::vector<JobEntry> to_entries(const Json& json) {
 ReadJob to_job(const Json& json) {
     if (text(json, "format") != format_name) throw wrong("format", "is not a qchopper job");
     const auto schema = whole<std::uint32_t>(json, "schema");
-    if (schema != job_schema_version) {
-        throw wrong("schema", std::to_string(schema) + " is not " + std::to_string(job_schema_version) +
-                                  ", the one that this program reads");
+    if (schema < oldest_job_schema || schema > job_schema_version) {
+        throw wrong("schema", std::to_string(schema) + " is not one of those that this program reads, " +
+                                  std::to_string(oldest_job_schema) + " to " + std::to_string(job_schema_version));
     }
     ReadJob job;
     const Json& piece = member(json, "piece");
@@ -312,7 +312,7 @@ ReadJob to_job(const Json& json) {
     if (job.cell_id == 0) throw wrong("id", "is the number of no cell");
     job.half_spaces = to_half_spaces(json);
     job.setup = to_setup(member(json, "setup"), member(json, "stock"));
-    job.caps = to_caps(member(json, "caps"), job.setup.piece_in_setup);
+    job.caps = to_caps(member(json, "caps"), job.setup.piece_in_setup, schema);
     job.setup_in_cell = to_frames(member(json, "setup"), job.setup);
     job.alternatives = to_alternatives(json);
     job.max_unreachable = real_within(json, "max_unreachable", 0, 1);
@@ -324,7 +324,9 @@ ReadJob to_job(const Json& json) {
     const Json& poses = member(json, "work_envelope");
     job.is_arm_checked = truth(poses, "arm_checked");
     job.holds_poses = truth(poses, "holds");
-    job.program = to_program(member(json, "programs"));
+    job.program = to_program(member(json, "programs"), schema);
+    const std::string fault = fault_of_holes(job.program, job.caps);
+    if (!fault.empty()) throw wrong("holes", fault);
     job.no_program_because = text(json, "no_program_because");
     if (job.program.has_value() != job.no_program_because.empty()) {
         throw wrong("no_program_because", "contradicts the programs");

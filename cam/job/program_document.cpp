@@ -3,11 +3,13 @@
 #include "cam/job/program_document.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/json.h"
 #include "base/portable_name.h"
+#include "cam/job/cap_document.h"
 
 namespace qchopper {
 namespace {
@@ -69,7 +71,20 @@ bool is_listed(const std::vector<std::string>& files, const std::string& name) {
     return std::find(files.begin(), files.end(), name) != files.end();
 }
 
-JobProgram to_single(const Json& json) {
+void read_drilling(const Json& json, JobProgram& program) {
+    for (const Json& direction : items(json, "drilling")) {
+        program.drilling.push_back({vector(direction, "out"), real(direction, "table_angle_rad")});
+        if (!(std::abs(norm(program.drilling.back().out) - 1) < 1e-6)) throw wrong("out", "is not of length 1");
+    }
+    for (const Json& hole : items(json, "holes")) {
+        if (!hole.is_number_unsigned()) throw wrong("holes", "is not a list of numbers of holes");
+        program.holes.push_back(hole.get<std::size_t>());
+        const std::size_t count = program.holes.size();
+        if (count > 1 && program.holes[count - 2] >= program.holes[count - 1]) throw wrong("holes", "are not in order");
+    }
+}
+
+JobProgram to_single(const Json& json, std::uint32_t schema) {
     JobProgram program;
     program.dialect = to_dialect(text(json, "dialect"));
     program.entry = text(json, "entry");
@@ -87,6 +102,7 @@ JobProgram to_single(const Json& json) {
     }
     if (program.chunks.empty()) throw wrong("chunks", "is empty");
     program.part = to_part(member(json, "part"));
+    if (schema >= schema_of_drilling) read_drilling(json, program);
     program.scallop_mm = real_within(json, "scallop_mm", 0, most);
     program.time_s = real_within(json, "time_s", 0, most);
     return program;
@@ -103,19 +119,40 @@ Json from_program(const std::optional<JobProgram>& program) {
     if (!program) return Json::array();
     Json chunks = Json::array();
     for (const JobChunk& chunk : program->chunks) chunks.push_back(from_chunk(chunk));
+    Json drilling = Json::array();
+    for (const DrillDirection& direction : program->drilling) {
+        drilling.push_back({{"out", from_vector(direction.out)}, {"table_angle_rad", direction.table_angle}});
+    }
     return Json::array({Json{{"dialect", to_word(program->dialect)},
                              {"entry", program->entry},
                              {"files", program->files},
                              {"part", from_part(program->part)},
+                             {"drilling", drilling},
+                             {"holes", program->holes},
                              {"scallop_mm", program->scallop_mm},
                              {"time_s", program->time_s},
                              {"chunks", chunks}}});
 }
 
-std::optional<JobProgram> to_program(const Json& json) {
+std::optional<JobProgram> to_program(const Json& json, std::uint32_t schema) {
     if (!json.is_array() || json.size() > 1) throw wrong("programs", "is not a list of at most one program");
     if (json.empty()) return std::nullopt;
-    return to_single(json.front());
+    return to_single(json.front(), schema);
+}
+
+std::string fault_of_holes(const std::optional<JobProgram>& program, const std::vector<JobCap>& caps) {
+    const std::vector<std::size_t> drilled = program ? program->holes : std::vector<std::size_t>{};
+    std::vector<std::size_t> by_robot;
+    for (const JobHole& hole : holes_of(caps)) {
+        if (hole.by_robot) by_robot.push_back(hole.number);
+    }
+    for (const std::size_t number : drilled) {
+        if (std::find(by_robot.begin(), by_robot.end(), number) == by_robot.end()) {
+            return "the program drills hole " + std::to_string(number) + ", which is not the robot's";
+        }
+    }
+    const bool is_whole = !program || program->part.count == 1;
+    return is_whole && drilled != by_robot ? "holes of the robot are drilled by no program" : "";
 }
 
 std::string fault_of_program_files(const std::optional<JobProgram>& program,

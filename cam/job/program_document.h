@@ -4,12 +4,14 @@
 
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
 #include "base/file.h"
+#include "cam/job/job_cap.h"
 #include "cam/job/job_program.h"
 
 namespace qchopper {
@@ -18,10 +20,14 @@ namespace qchopper {
 nlohmann::ordered_json from_program(const std::optional<JobProgram>& program);
 
 // The inverse. Throws std::runtime_error that names the key and the reason.
-std::optional<JobProgram> to_program(const nlohmann::ordered_json& json);
+std::optional<JobProgram> to_program(const nlohmann::ordered_json& json, std::uint32_t schema);
 
 // Why the files of a job do not belong to its program: a file that is missing, or a program file that the program does
 // not name. Empty: they do.
 std::string fault_of_program_files(const std::optional<JobProgram>& program, const std::map<std::string, Bytes>& files);
+
+// Why the holes that a program drills are not those of the caps that are the robot's: of a part of several each must be
+// one of them, otherwise they are the same. Empty: they are.
+std::string fault_of_holes(const std::optional<JobProgram>& program, const std::vector<JobCap>& caps);
 
 }  // namespace qchopper

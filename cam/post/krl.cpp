@@ -166,14 +166,19 @@ std::vector<std::size_t> part_starts(const std::vector<WrittenChunk>& all, std::
 
 PostedChunk listed(const Program& program, const Cell& cell, const WrittenChunk& chunk, std::size_t order) {
     const ProgramSection& section = program.sections[chunk.range.section];
-    return {chunk.file.name,
-            order,
-            chunk.range.section,
-            section.tool,
-            cell.machine->tools[section.tool].number,
-            section.direction,
-            chunk.range.first,
-            chunk.range.count};
+    PostedChunk posted{chunk.file.name,
+                       order,
+                       chunk.range.section,
+                       section.tool,
+                       cell.machine->tools[section.tool].number,
+                       section.direction,
+                       chunk.range.first,
+                       chunk.range.count,
+                       {}};
+    for (std::size_t r = chunk.range.first; r < chunk.range.first + chunk.range.count; ++r) {
+        if (section.runs[r].hole > 0) posted.holes.push_back(section.runs[r].hole);
+    }
+    return posted;
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ struct PostedChunk {
     std::size_t direction = 0;      // index in SurfaceReach::directions
     std::size_t first_run = 0;      // of the section
     std::size_t runs = 0;
+    std::vector<std::size_t> holes;  // numbers of those that its runs drill
     bool operator==(const PostedChunk&) const = default;
 };
 

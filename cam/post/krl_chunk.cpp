@@ -144,6 +144,7 @@ void KrlChunks::add_description(const RunRange& range, std::size_t order, std::s
 KrlText KrlChunks::run(const ProgramSection& section, const ProgramRun& run, bool is_first, double& speed) const {
     const bool has_rounding = section.rounding >= rounding_unit;
     KrlText text;
+    if (run.hole > 0) text.comment("hole " + std::to_string(run.hole));
     std::string here = krl::position(run.start, point_decimals);
     set_speed(run.link_speed, speed, text);
     text.line(is_first ? full_pose(section, run.start) : "LIN {" + here + "}");

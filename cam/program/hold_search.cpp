@@ -231,6 +231,7 @@ ProgramRun HoldSearch::run_of(const PathRun& run, const SampledPath& path, const
     const double least = cell_.machine->tools[operation_.tool].feed_min_mm_per_s;
     ProgramRun made;
     made.start = run.start;
+    made.hole = run.hole;
     std::size_t at = path.first[index];
     if (!judge_.is_gantry()) made.start_joints = held.joints[at], made.end_joints = held.joints[path.last[index]];
     const std::size_t before = index > 0 ? path.last[index - 1] : at;

@@ -60,6 +60,7 @@ struct ProgramRun {
     double link_speed = 0;          // from the end of the run before, or from the raised start
     bool starts_from_home = false;  // whether a joint move from home to its start is clear
     std::vector<ProgramMove> moves;
+    std::size_t hole = 0;  // as PathRun::hole
     bool operator==(const ProgramRun&) const = default;
 };
 
@@ -77,7 +78,7 @@ struct JointWay {
 struct ProgramSection {
     std::size_t operation = 0;  // index in Toolpath::operations
     std::size_t tool = 0;       // index in CellMachine::tools
-    std::size_t direction = 0;  // index in SurfaceReach::directions
+    std::size_t direction = 0;  // index in SurfaceReach::directions, with those of drilling behind them
     Vec3 out;                   // unit, in setup coordinates
     ArmBranch branch;
     double tool_turn = 0;    // about the tool axis, of tip_frame() (work_envelope.h)

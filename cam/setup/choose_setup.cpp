@@ -103,7 +103,9 @@ double tilt_of(const Cell& cell, const SetupOptions& options) {
 double smallest_radius(const Cell& cell) {
     if (!cell.machine) return cell.tool.diameter / 2;
     double least = cell.machine->tools.front().diameter;
-    for (const CarvingTool& tool : cell.machine->tools) least = std::min(least, tool.diameter);
+    for (const CarvingTool& tool : cell.machine->tools) {
+        if (!is_drill(tool)) least = std::min(least, tool.diameter);
+    }
     return least / 2;
 }
 

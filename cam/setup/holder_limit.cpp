@@ -10,6 +10,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/parallel.h"
 
@@ -95,8 +96,9 @@ class FloorLimit {
 
 const CarvingTool& longest_tool(std::span<const CarvingTool> tools) {
     assert(!tools.empty());
-    return *std::max_element(tools.begin(), tools.end(),
-                             [](const CarvingTool& a, const CarvingTool& b) { return a.stick_out < b.stick_out; });
+    return *std::max_element(tools.begin(), tools.end(), [](const CarvingTool& a, const CarvingTool& b) {
+        return std::pair(!is_drill(a), a.stick_out) < std::pair(!is_drill(b), b.stick_out);
+    });
 }
 
 ToolBody tool_body(const CarvingTool& tool, const Spindle& spindle) {

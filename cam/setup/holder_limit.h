@@ -21,7 +21,8 @@ struct ToolBody {
     std::vector<HolderStep> steps;  // of the holder and then of the spindle's body, upwards from stick_out
 };
 
-// Of the tools of a cell the one with the largest stick-out, the first of equal ones. Precondition: there is one.
+// Of the tools of a cell, without its drills, the one with the largest stick-out, the first of equal ones.
+// Precondition: there is one tool that is no drill.
 const CarvingTool& longest_tool(std::span<const CarvingTool> tools);
 // What lies between the spindle nose and the front of the spindle's body is taken to be as wide as the holder there.
 ToolBody tool_body(const CarvingTool& tool, const Spindle& spindle);

@@ -31,13 +31,6 @@ constexpr double finishing_border = 0.075;  // mm, of the cells of finishing (Ti
 constexpr double upright = 0.9999;          // cosine of the tilt of a direction from above
 constexpr double skin_cells = 2.5;          // by which foam may be known as more than it is
 
-// Height along a direction, in setup coordinates, in which the tool comes and goes (carving_poses.h).
-double retract_height(const Setup& setup, Vec3 out, double clearance) {
-    const Vec3 half{0.5 * setup.block.size.x, 0.5 * setup.block.size.y, 0};
-    const double top = std::max(0.0, out.z) * (setup.block.size.z - setup.spoil);
-    return std::abs(out.x) * half.x + std::abs(out.y) * half.y + top + clearance;
-}
-
 class ToolpathMaker {
  public:
     ToolpathMaker(const Setup& setup, const TriangleMesh& mesh, const Cell& cell, const ToolpathSettings& settings,
@@ -76,6 +69,7 @@ class ToolpathMaker {
         toolpath_.path_tolerance = settings_.path_tolerance;
         return std::move(toolpath_);
     }
+    InProcessStock take_stock() { return std::move(stock_); }
 
  private:
     void report() {
@@ -216,14 +210,23 @@ class ToolpathMaker {
 
 }  // namespace
 
+double retract_height(const Setup& setup, Vec3 out, double clearance) {
+    const Vec3 half{0.5 * setup.block.size.x, 0.5 * setup.block.size.y, 0};
+    const double top = std::max(0.0, out.z) * (setup.block.size.z - setup.spoil);
+    return std::abs(out.x) * half.x + std::abs(out.y) * half.y + top + clearance;
+}
+
 Toolpath make_toolpath(const Setup& setup, const TriangleMesh& mesh, const Cell& cell, const ToolpathSettings& settings,
-                       const Context& context) {
+                       const Context& context, InProcessStock* left) {
     assert(!setup.reach.directions.empty());
     if (!cell.machine) {
         throw InputError(InputFault::config, "the cell file tells no tools: it is of version 1",
                          "give a cell file of version 2");
     }
-    return ToolpathMaker(setup, mesh, cell, settings, context).make();
+    ToolpathMaker maker(setup, mesh, cell, settings, context);
+    Toolpath toolpath = maker.make();
+    if (left != nullptr) *left = maker.take_stock();
+    return toolpath;
 }
 
 }  // namespace qchopper

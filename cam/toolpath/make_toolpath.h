@@ -10,16 +10,23 @@
 #include "base/context.h"
 #include "cam/cell/cell.h"
 #include "cam/setup/setup.h"
+#include "cam/toolpath/in_process_stock.h"
 #include "cam/toolpath/toolpath.h"
 #include "cam/toolpath/toolpath_settings.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {
 
-// At least one operation. Reports operations done; can be cancelled. Preconditions: the mesh is that of the piece, and
-// setup.reach.directions is not empty. Throws InputError: config if the cell has no machine (version 1) or no tool for
-// it, use if a setting is not valid, if maps would have too many cells, or if no operation has anything to cut.
+// Height along a direction, in setup coordinates, in which the tool comes and goes (carving_poses.h): `clearance` above
+// all of the block.
+double retract_height(const Setup& setup, Vec3 out, double clearance);
+
+// At least one operation. `left`, if given, becomes the foam that stands afterwards. Reports operations done; can be
+// cancelled. Preconditions: the mesh is that of the piece, and setup.reach.directions is not empty. Throws InputError:
+// config if the cell has no machine (version 1) or no tool for it, use if a setting is not valid, if maps would have
+// too many cells, or if no operation has anything to cut.
 Toolpath make_toolpath(const Setup& setup, const TriangleMesh& mesh, const Cell& cell,
-                       const ToolpathSettings& settings = {}, const Context& context = {});
+                       const ToolpathSettings& settings = {}, const Context& context = {},
+                       InProcessStock* left = nullptr);
 
 }  // namespace qchopper

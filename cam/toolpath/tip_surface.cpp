@@ -43,7 +43,8 @@ struct RoundProfile {
 
 RoundProfile profile_of(const CarvingTool& tool, double allowance) {
     const double radius = 0.5 * tool.diameter + allowance;
-    if (tool.shape == ToolShape::cone) return {radius, tool.corner_radius + allowance, 0.5 * tool.tip_angle};
+    if (tool.shape == ToolShape::cone || is_drill(tool))
+        return {radius, tool.corner_radius + allowance, 0.5 * tool.tip_angle};
     if (tool.shape == ToolShape::ball) return {radius, radius, 0};
     return {radius, (tool.shape == ToolShape::flat ? 0 : tool.corner_radius) + allowance, 0};
 }

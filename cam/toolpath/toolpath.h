@@ -14,8 +14,8 @@
 namespace qchopper {
 
 // Roughing leaves an allowance. Fine finishing goes only where the tool of the finishing left more than the scallop
-// height.
-enum class OperationKind : std::uint8_t { roughing, finishing, fine_finishing };
+// height. Drilling comes last and makes the holes for dowels (drilling.h).
+enum class OperationKind : std::uint8_t { roughing, finishing, fine_finishing, drilling };
 
 // What a move is for, which decides its speed: an approach enters the foam from above, a cut removes foam, a link leads
 // to the next cut through space that is already clear, a retract leaves.
@@ -36,6 +36,7 @@ struct PathMove {
 struct PathRun {
     Vec3 start;
     std::vector<PathMove> moves;  // at least two
+    std::size_t hole = 0;         // the number of the hole that it drills; 0: none
     bool operator==(const PathRun&) const = default;
 };
 
@@ -43,7 +44,7 @@ struct PathRun {
 struct Operation {
     OperationKind kind = OperationKind::roughing;
     std::size_t tool = 0;       // index in CellMachine::tools
-    std::size_t direction = 0;  // index in SurfaceReach::directions of the setup
+    std::size_t direction = 0;  // index in SurfaceReach::directions of the setup; of drilling also beyond (drilling.h)
     double feed = 0;            // of cuts
     double approach_feed = 0;
     double link_feed = 0;  // of links and retracts

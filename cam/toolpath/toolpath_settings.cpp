@@ -44,6 +44,9 @@ std::size_t given(const CellMachine& machine, std::size_t tool, const std::strin
     if (must_be_ball && !is_ball(machine.tools[tool])) {
         refuse(name + ": tool " + std::to_string(machine.tools[tool].number) + " is not ball-ended");
     }
+    if (is_drill(machine.tools[tool])) {
+        refuse(name + ": tool " + std::to_string(machine.tools[tool].number) + " is a drill");
+    }
     return tool;
 }
 

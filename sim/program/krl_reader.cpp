@@ -3,6 +3,7 @@
 #include "sim/program/krl_reader.h"
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 #include <numbers>
 
@@ -17,6 +18,7 @@ namespace {
 constexpr double radian = std::numbers::pi / 180;
 constexpr std::size_t most_files = 20'000;
 constexpr std::uint32_t most_outputs = 8192;
+constexpr std::uint32_t most_holes = 10'000;
 constexpr int look_ahead_restored = 3;
 
 struct Source {
@@ -33,6 +35,7 @@ class KrlExecution {
  private:
     void check_data(const KrlFile& file) const;
     void execute(Source& source, bool is_main);
+    void read_comment(std::string_view line);
     void execute_line(const Source& source, std::size_t at, bool is_main);
     void take_external(const KrlLine& line, const KrlAggregate& target);
     void read_ptp(KrlLine& line);
@@ -58,6 +61,7 @@ class KrlExecution {
     SourcePlace place_;
     std::array<double, 6> pose_{};
     std::optional<double> e1_;
+    std::uint32_t hole_ = 0;  // that the lines drill
     bool is_initialised_ = false;
     bool has_moved_ = false;  // in the chunk that is executed
     std::optional<SourcePlace> chained_, without_e1_, with_e1_;
@@ -107,8 +111,20 @@ ParsedProgram KrlExecution::run() {
     return std::move(program_);
 }
 
+// Other comments say nothing that is needed, and one with another number than 1 to 9999 is another comment.
+void KrlExecution::read_comment(std::string_view line) {
+    constexpr std::string_view before = ";hole ";
+    if (lower_case(line.substr(0, before.size())) != before) return;
+    const std::string_view digits = line.substr(before.size());
+    std::uint32_t number = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    const bool is_number = error == std::errc() && end == digits.data() + digits.size();
+    if (is_number && number < most_holes) hole_ = number;
+}
+
 void KrlExecution::begin_chunk(bool is_main) {
     stated_ = {};
+    hole_ = 0;
     has_moved_ = false;
     program_.chunks.push_back({place_.file, program_.steps.size(), program_.steps.size(), is_main});
 }
@@ -123,7 +139,11 @@ void KrlExecution::execute(Source& source, bool is_main) {
     begin_chunk(is_main);
     for (std::size_t i = source.file.first; i < source.file.end; ++i) {
         place_ = {source.number, static_cast<std::uint32_t>(i + 1)};
-        if (!is_krl_comment(source.file.lines[i])) execute_line(source, i, is_main);
+        if (is_krl_comment(source.file.lines[i])) {
+            read_comment(source.file.lines[i]);
+        } else {
+            execute_line(source, i, is_main);
+        }
     }
     place_ = {source.number, static_cast<std::uint32_t>(source.file.end + 1)};
     if (!is_main && !has_moved_) refuse_line(*source.file.name, place_.line, "the chunk has no move");
@@ -155,6 +175,7 @@ ProgramStep& KrlExecution::add(StepKind kind) {
     step.kind = kind;
     step.place = place_;
     step.state = static_cast<std::uint32_t>(program_.states.size() - 1);
+    step.hole = hole_;
     program_.steps.push_back(step);
     return program_.steps.back();
 }

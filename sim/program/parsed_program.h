@@ -78,6 +78,7 @@ struct ProgramStep {
     SourcePlace place;
     std::uint32_t state = 0;  // index in ParsedProgram::states
     std::uint32_t text = 0;   // index in ParsedProgram::texts
+    std::uint32_t hole = 0;   // that the last comment ";hole N" before it in its file names; 0: there is none
     std::array<double, 6> values{};
     std::optional<double> e1;  // radians; of a linear_move the last one stated
     double value = 0;

@@ -26,12 +26,15 @@ constexpr double rim_step = 8;  // mm between points of a body that is sampled
 class FoamCarver {
  public:
     FoamCarver(Foam& foam, const ReplayScene& scene, FindingLog& log)
-        : foam_(foam), scene_(scene), machine_(*scene.cell->machine), log_(log) {
+        : foam_(foam), scene_(scene), machine_(*scene.cell->machine), log_(log), holes_(scene, log) {
         for (const CarvingTool& tool : machine_.tools) cutters_.push_back(cutter_of(tool));
     }
     void take_line(const TipLine& line, const std::vector<Vec3>& way);
     void take_sweep(const JointSweep& sweep);
-    const CarveFigures& figures() const { return figures_; }
+    const CarveFigures& finish() {
+        figures_.holes = holes_.finish();
+        return figures_;
+    }
 
  private:
     void check_bounds(const TipLine& line, const CarvingTool& tool);
@@ -46,6 +49,7 @@ class FoamCarver {
     const ReplayScene& scene_;
     const CellMachine& machine_;
     FindingLog& log_;
+    HoleCheck holes_;
     std::vector<Cutter> cutters_;
     CarveFigures figures_;
 };
@@ -76,6 +80,7 @@ void FoamCarver::take_line(const TipLine& line, const std::vector<Vec3>& way) {
         });
     }
     if (all.touches) check_cut(line, tool, all);
+    if (all.touches && is_drill(tool)) holes_.take_cut(line);
     check_holder(line, tool);
 }
 
@@ -217,8 +222,10 @@ const TipLine* neighbour(const ToolPath& path, std::size_t index, bool is_next) 
 
 double lowest_of_tool(const CarvingTool& tool, Vec3 tip, Vec3 out) {
     const Cutter cutter = cutter_of(tool);
-    if (cutter.shape == ToolShape::cone) return tip.z;
     const double sine = std::sqrt(std::max(0.0, 1 - out.z * out.z));
+    if (cutter.sin_half > 0) {
+        return tip.z + std::min(0.0, profile_height(cutter, cutter.radius) * out.z - cutter.radius * sine);
+    }
     return tip.z + cutter.corner * out.z - cutter.corner - (cutter.radius - cutter.corner) * sine;
 }
 
@@ -264,7 +271,7 @@ CarveFigures carve_foam(Foam& foam, const ToolPath& path, const ReplayScene& sce
         }
     }
     context.progress("moves carved", done, path.order.size());
-    return carving.figures();
+    return carving.finish();
 }
 
 }  // namespace qchopper

@@ -10,6 +10,7 @@
 #include "base/context.h"
 #include "sim/replay/finding.h"
 #include "sim/replay/foam.h"
+#include "sim/replay/hole_check.h"
 #include "sim/replay/scene.h"
 #include "sim/replay/tool_path.h"
 
@@ -21,6 +22,7 @@ struct CarveFigures {
     double air_mm = 0;       // of them, what removes nothing
     std::size_t cuts = 0;    // lines that remove foam
     std::size_t rapids = 0;  // lines above the tool's window, and joint moves
+    HoleFigures holes;
 };
 
 // Is `is_worst` true, corners that may be rounded are: the foam outside of the parabola stays. Throws Cancelled.

@@ -27,6 +27,7 @@ double distance_from(const Cutter& cutter, double r, double z) {
             const double outside = std::hypot(std::max(dr, 0.0), std::max(dz, 0.0));
             return (outside > 0 ? outside : std::max(dr, dz)) - cutter.corner;
         }
+        case ToolShape::drill:
         case ToolShape::cone: {
             // The cone with its apex in the middle of the tip's sphere, grown by the sphere's radius.
             const double up = z - cutter.corner;
@@ -59,7 +60,7 @@ Cutter cutter_of(const CarvingTool& tool) {
     Cutter cutter{tool.shape, 0.5 * tool.diameter, tool.corner_radius, 0, 1};
     if (tool.shape == ToolShape::ball) cutter.corner = cutter.radius;
     if (tool.shape == ToolShape::flat) cutter.corner = 0;
-    if (tool.shape == ToolShape::cone) {
+    if (tool.shape == ToolShape::cone || is_drill(tool)) {
         cutter.sin_half = std::sin(0.5 * tool.tip_angle);
         cutter.cos_half = std::cos(0.5 * tool.tip_angle);
     }
@@ -83,6 +84,7 @@ double profile_height(const Cutter& cutter, double r) {
         case ToolShape::bull:
             if (from_corner <= 0) return 0;
             return cutter.corner - std::sqrt(std::max(0.0, cutter.corner * cutter.corner - from_corner * from_corner));
+        case ToolShape::drill:
         case ToolShape::cone:
             break;
     }

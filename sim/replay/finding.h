@@ -43,9 +43,14 @@ enum class FindingKind : std::uint8_t {
     gouge_volume,
     leftover,       // too small a share of the reachable surface is within tolerance
     standing_foam,  // foam beside the piece that the tools reach
+    missing_hole,
+    shifted_hole,
+    hole_depth,     // too deep, or not deep enough
+    hole_diameter,  // drilled with another drill
+    extra_hole,     // a drill in foam where the program is to drill no hole
     no_cut          // the program removes nothing
 };
-constexpr std::size_t finding_kinds = 28;
+constexpr std::size_t finding_kinds = 33;
 
 // "chunk_order", "rapid_in_foam"
 const char* to_word(FindingKind kind);

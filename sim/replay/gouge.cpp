@@ -13,11 +13,13 @@
 #include "segment/mesh/triangle_tree.h"
 #include "sim/replay/carve_foam.h"
 #include "sim/replay/direction_frame.h"
+#include "sim/replay/hole_check.h"
 
 namespace qchopper {
 namespace {
 
 constexpr std::size_t lot = 512;            // lines
+constexpr double flat_cap = 0.05;           // mm, of the corners of a cap from its plane
 constexpr std::size_t most_parts = 20'000;  // of a triangle; then the bound is taken
 
 struct Part {
@@ -61,7 +63,8 @@ class DirectionGouges {
         top_ = -1e9;
         for (const Vec3 p : turned_.points) top_ = std::max(top_, p.z);
     }
-    void test(const Cutter& cutter, Vec3 from, Vec3 to, double floor, std::uint32_t line,
+    // `hole`: the one that the line drills, whose cap is not asked; nullptr: none.
+    void test(const Cutter& cutter, Vec3 from, Vec3 to, double floor, std::uint32_t line, const SceneHole* hole,
               std::unordered_map<std::uint32_t, Hit>& hits) const;
 
  private:
@@ -77,7 +80,8 @@ class DirectionGouges {
 };
 
 void DirectionGouges::test(const Cutter& cutter, Vec3 from, Vec3 to, double floor, std::uint32_t line,
-                           std::unordered_map<std::uint32_t, Hit>& hits) const {
+                           const SceneHole* hole, std::unordered_map<std::uint32_t, Hit>& hits) const {
+    const double mouth = hole != nullptr ? apply_inverse(frame_, hole->mouth).z : 0;
     const Vec3 a = apply_inverse(frame_, from);
     const Vec3 move = apply_inverse(frame_, to) - a;
     const double low = a.z + std::min(0.0, move.z);
@@ -91,10 +95,21 @@ void DirectionGouges::test(const Cutter& cutter, Vec3 from, Vec3 to, double floo
         const auto known = hits.find(t);
         const double enough = known == hits.end() ? floor : std::max<double>(floor, known->second.depth);
         std::array<Vec3, 3> corners = corners_of(turned_, t);
+        const bool is_cap = hole != nullptr && std::all_of(corners.begin(), corners.end(),
+                                                           [&](Vec3 c) { return std::abs(c.z - mouth) <= flat_cap; });
+        if (is_cap) return;
         for (Vec3& c : corners) c = c - a;
         const double depth = deepest_in(swept, corners, enough);
         if (depth > enough) hits[t] = {t, static_cast<float>(depth), line};
     });
+}
+
+// The hole that a line of a drill is on; nullptr: none.
+const SceneHole* hole_along(const TipLine& line, const ReplayScene& scene) {
+    if (!is_drill(scene.cell->machine->tools[line.tool])) return nullptr;
+    const auto found = std::find_if(scene.holes.begin(), scene.holes.end(),
+                                    [&](const SceneHole& hole) { return hole.is_due && is_along(hole, line, scene); });
+    return found == scene.holes.end() ? nullptr : &*found;
 }
 
 // The straight parts of a line that are tested: exact, and what rounding of its corner adds.
@@ -160,8 +175,10 @@ GougeFigures find_gouges(const ToolPath& path, const ReplayScene& scene, double 
             parallel_for(0, count, [&](std::size_t k) {
                 const std::size_t end = std::min(lines.size(), (first + k + 1) * lot);
                 for (std::size_t i = (first + k) * lot; i < end; ++i) {
+                    const SceneHole* hole = hole_along(path.lines[lines[i]], scene);
                     for (const auto& part : parts_of(path, lines[i])) {
-                        gouges.test(cutters[path.lines[lines[i]].tool], part[0], part[1], floor, lines[i], hits[k]);
+                        gouges.test(cutters[path.lines[lines[i]].tool], part[0], part[1], floor, lines[i], hole,
+                                    hits[k]);
                     }
                 }
             });

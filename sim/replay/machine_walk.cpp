@@ -402,7 +402,8 @@ void Walk::add_line(Vec3 from, Vec3 to, Vec3 out, const ProgramStep& step, const
                  step.is_rounded ? state.rounding : 0,
                  turn <= aligned_turn,
                  follows_line_,
-                 spindle_};
+                 spindle_,
+                 step.hole};
     path_.order.push_back({true, path_.lines.size()});
     path_.lines.push_back(line);
 }

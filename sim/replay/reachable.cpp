@@ -197,6 +197,7 @@ std::vector<std::optional<std::size_t>> finest_tools(const ReplayScene& scene) {
     for (const StockTool& used : used_tools(scene)) {
         for (std::size_t i = 0; i < tools.size(); ++i) {
             if (tools[i].number != used.tool || used.direction >= finest.size()) continue;
+            if (is_drill(tools[i])) continue;  // it leaves the surface as it is
             std::optional<std::size_t>& best = finest[used.direction];
             if (!best || tools[i].diameter < tools[*best].diameter) best = i;
         }

@@ -37,7 +37,7 @@ SurfaceMap closing_of(const ReplayScene& scene, std::size_t direction, const Car
 std::vector<StockTool> used_tools(const ReplayScene& scene);
 
 // The finest tool that each direction of the program has a chunk for, parts before included: index in
-// CellMachine::tools, of equal ones the first; nothing for a direction without a chunk.
+// CellMachine::tools, of equal ones the first; nothing for a direction without a chunk. Drills do not count.
 std::vector<std::optional<std::size_t>> finest_tools(const ReplayScene& scene);
 
 }  // namespace qchopper

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -29,6 +30,17 @@ struct SceneChunk {
     std::size_t direction = 0;  // index in ReplayScene::directions
 };
 
+// A hole for a dowel, as the job states it.
+struct SceneHole {
+    std::size_t number = 0;
+    Vec3 mouth;           // of its axis, on the cap
+    Vec3 axis{0, 0, -1};  // unit, into the piece
+    double diameter = 0;
+    double depth = 0;        // of the full diameter
+    bool is_robots = false;  // a program of the job drills it; otherwise it is drilled by hand
+    bool is_due = false;     // this program does
+};
+
 struct ReplayScene {
     const Cell* cell = nullptr;  // with a machine and a robot
     std::vector<SceneDirection> directions;
@@ -37,6 +49,7 @@ struct ReplayScene {
     double spoil = 10;
     const TriangleMesh* target = nullptr;  // closed
     std::vector<bool> is_base;             // per triangle of the target; empty: none
+    std::vector<SceneHole> holes;          // all of the piece
     double scallop = 0.25;                 // the scallop height that was set
     double start_table_angle = 0;          // the joints at the start are CellMachine::start
     // Of a program in parts, each replayed for itself: what the part before left, nullptr for the first; and whether

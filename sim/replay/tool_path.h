@@ -33,6 +33,7 @@ struct TipLine {
     bool is_aligned = true;     // the tool axis is along the direction
     bool follows_line = false;  // it begins where the line before it ends
     SpindleState spindle;
+    std::uint32_t hole = 0;  // that a comment of the program names for it; 0: none
 };
 
 // The tool on the way of a joint move.

@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "segment/mesh/triangle_tree.h"
+#include "sim/replay/hole_check.h"
 #include "sim/replay/reachable.h"
 
 namespace qchopper {
@@ -155,7 +156,8 @@ class Measuring {
           options_(options),
           grid_(grid_over(scene, options)),
           zone_(*scene.target, grid_, options.around),
-          tree_(*scene.target) {
+          tree_(*scene.target),
+          holes_(scene) {
         const auto finest = finest_tools(scene);
         for (std::size_t d = 0; d < finest.size(); ++d) {
             if (!finest[d]) continue;
@@ -185,6 +187,7 @@ class Measuring {
     Grid grid_;
     Zone zone_;
     TriangleTree tree_;
+    HoleSpace holes_;
     std::vector<SurfaceMap> closings_;
     std::vector<std::vector<std::uint32_t>> by_row_;
 };
@@ -240,8 +243,12 @@ void Measuring::add_line(double x, double y, const std::vector<FoamInterval>& ta
         });
     }
     for (const FoamInterval& i : difference(target, foam)) {
-        sum.gouge_mm3 += area * (i.high - i.low);
+        if (holes_.is_empty()) sum.gouge_mm3 += area * (i.high - i.low);
         parts(i, [&](Vec3 p, double volume) {
+            if (!holes_.is_empty()) {
+                if (holes_.has(p)) return;
+                sum.gouge_mm3 += volume;
+            }
             if (!tree_.is_any_nearer(*scene_.target, p, options_.gouge_tolerance)) sum.beyond_mm3 += volume;
         });
     }

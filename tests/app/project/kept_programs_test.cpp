@@ -9,6 +9,7 @@
 #include "app/project/job_verdict.h"
 #include "base/file.h"
 #include "base/temporary_folder.h"
+#include "cam/job/job_caps.h"
 #include "cam/job/read_job.h"
 #include "cam/job/write_job.h"
 #include "tests/cam/job/some_job.h"
@@ -23,6 +24,9 @@ class KeptPrograms : public testing::Test {
  protected:
     void SetUp() override {
         input_ = tilting_job(3);
+        caps_ = {capped(input_, 2)};
+        input_.caps = caps_;
+        decide_holes(input_.caps, {1}, {}, "the arm does not hold it");
         Sha256 before;
         for (std::uint16_t part = 1; part <= 2; ++part) before = write(part, before);
     }
@@ -31,6 +35,7 @@ class KeptPrograms : public testing::Test {
         ProgramInput program;
         program.program.entry = "qc_2_p" + std::to_string(part) + ".src";
         program.program.files = {program.program.entry};
+        if (part == 2) program.program.holes = {1};
         program.program.chunks = {{program.program.entry, 7, 0, 12, 345, {{-1, -2, 0}, {3, 4, 60}}, {}, {1, 1, 60}}};
         program.program.part = {part, 2, part > 1 ? std::optional(before) : std::nullopt};
         program.texts[program.program.entry] = "DEF part " + std::to_string(part);
@@ -52,13 +57,14 @@ class KeptPrograms : public testing::Test {
     }
 
     std::filesystem::path file(std::uint16_t part) const { return folder_.path() / job_file_name("AB", part); }
-    ProgramSource source() const { return {input_.piece, input_.setup, input_.piece_no, cell_, version_}; }
+    ProgramSource source() const { return {input_.piece, input_.setup, input_.piece_no, caps_, cell_, version_}; }
     bool is_kept(const ProgramSource& source) const { return kept_programs(folder_.path(), source).has_value(); }
 
     TemporaryFolder folder_{"qchopper-kept-"};
     JobInput input_;
     Sha256 cell_ = sha256({});
     std::string version_ = "0.1.0";
+    std::vector<DrawnCap> caps_;  // of two holes, as before the program
 };
 
 TEST_F(KeptPrograms, AreThoseThatWereWritten) {
@@ -72,6 +78,9 @@ TEST_F(KeptPrograms, AreThoseThatWereWritten) {
     EXPECT_EQ(last.input.program.part.number, 2);
     EXPECT_EQ(last.input.tools, std::vector<std::uint16_t>{7});
     EXPECT_TRUE(last.proof.is_proven());
+    EXPECT_EQ(last.input.program.holes, std::vector<std::size_t>{1});
+    ASSERT_EQ(kept->caps.size(), 1U);
+    EXPECT_EQ(kept->caps[0].cap, input_.caps[0].cap) << "who drills each hole is known again";
     EXPECT_EQ(last.proof.time_s, 77);
     EXPECT_EQ(last.proof.length_mm, 1500);
     ProgramInput again = last.input;
@@ -85,18 +94,21 @@ TEST_F(KeptPrograms, AreMadeAgainWhereTheirSourceChanged) {
     EXPECT_TRUE(is_kept(source()));
     qchopper::Setup setup = input_.setup;
     setup.placement.x += 1;
-    EXPECT_FALSE(is_kept({input_.piece, setup, input_.piece_no, cell_, version_}));
-    EXPECT_FALSE(is_kept({input_.piece, input_.setup, 3, cell_, version_}));
+    EXPECT_FALSE(is_kept({input_.piece, setup, input_.piece_no, caps_, cell_, version_}));
+    EXPECT_FALSE(is_kept({input_.piece, input_.setup, 3, caps_, cell_, version_}));
     Sha256 other_cell = cell_;
     other_cell.bytes[0] ^= 1U;
-    EXPECT_FALSE(is_kept({input_.piece, input_.setup, input_.piece_no, other_cell, version_}));
+    EXPECT_FALSE(is_kept({input_.piece, input_.setup, input_.piece_no, caps_, other_cell, version_}));
     const std::string newer = "0.2.0";
-    EXPECT_FALSE(is_kept({input_.piece, input_.setup, input_.piece_no, cell_, newer}));
+    EXPECT_FALSE(is_kept({input_.piece, input_.setup, input_.piece_no, caps_, cell_, newer}));
     Piece piece = input_.piece;
     TriangleMesh mesh = *piece.mesh;
     mesh.points.front().x += 0.01;
     piece.mesh = std::make_shared<const TriangleMesh>(mesh);
-    EXPECT_FALSE(is_kept({piece, input_.setup, input_.piece_no, cell_, version_}));
+    EXPECT_FALSE(is_kept({piece, input_.setup, input_.piece_no, caps_, cell_, version_}));
+    std::vector<DrawnCap> other_hole = caps_;
+    other_hole[0].cap.joints[0].holes[0].depth += 1;
+    EXPECT_FALSE(is_kept({input_.piece, input_.setup, input_.piece_no, other_hole, cell_, version_}));
 }
 
 TEST_F(KeptPrograms, AreMadeAgainWhereAFileIsMissingOrDamaged) {

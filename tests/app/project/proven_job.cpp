@@ -15,11 +15,13 @@ namespace {
 
 constexpr const char* version = "0.1.0";
 
-ProvenJob made(const std::string& cell_name) {
+}  // namespace
+
+ProvenJob made_and_proven(const std::string& cell_name, const Piece& piece, const CapsOf& caps) {
     ProvenJob made;
     made.cell = read_cell_file(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / (cell_name + ".toml"));
     JobInput input;
-    input.piece = uncut(ball_cap(), 0).pieces.front();
+    input.piece = piece;
     input.program_version = version;
     input.cell = made.cell.cell;
     Setups setups(input.cell);
@@ -29,7 +31,9 @@ ProvenJob made(const std::string& cell_name) {
     input.setup = carving.setup();
     input.envelope = carving.envelope;
     input.work_envelope = carving.work_envelope;
-    PiecePrograms programs = make_programs(input.piece, carving, 1, input.cell, {});
+    if (caps) input.caps = caps(input.setup);
+    PiecePrograms programs = make_programs(input.piece, carving, 1, input.cell, input.caps, {});
+    input.caps = programs.caps;
     if (programs.parts.size() != 1) throw std::runtime_error("no single program: " + programs.none_because);
     input.program = programs.parts.front().input;
     made.job = parse_job(job_file(input), "A.qjob");
@@ -39,12 +43,12 @@ ProvenJob made(const std::string& cell_name) {
     return made;
 }
 
-}  // namespace
-
 const ProvenJob& proven_job(const std::string& cell_name) {
     static std::map<std::string, ProvenJob> jobs;
     const auto known = jobs.find(cell_name);
-    return known != jobs.end() ? known->second : jobs.emplace(cell_name, made(cell_name)).first->second;
+    return known != jobs.end()
+               ? known->second
+               : jobs.emplace(cell_name, made_and_proven(cell_name, uncut(ball_cap(), 0).pieces.front())).first->second;
 }
 
 JobVerdict judged(const ReadJob& job, const CellFile& cell) {

@@ -2,8 +2,10 @@
 
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "app/project/verify_jobs.h"
 
@@ -14,6 +16,11 @@ struct ProvenJob {
     ReadJob job;         // as read back from its bytes
     JobVerdict verdict;  // as prepare writes it, but for the version
 };
+
+// The caps of a piece that lies in a setup.
+using CapsOf = std::function<std::vector<DrawnCap>(const Setup&)>;
+
+ProvenJob made_and_proven(const std::string& cell_name, const Piece& piece, const CapsOf& caps = {});
 
 // Of the piece of tests/app/ball_cap.h. `cell_name` as in cells/NAME.toml.
 const ProvenJob& proven_job(const std::string& cell_name);

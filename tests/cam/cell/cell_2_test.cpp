@@ -104,7 +104,7 @@ TEST(CellVersion2, ARobotIsReadAsItIsWritten) {
     EXPECT_EQ(machine.obstacles[0].box, (Box{{-600, 1800, 0}, {600, 2600, 1400}}));
     EXPECT_EQ(machine.start.joints[1], -90 * degree);
     EXPECT_EQ(machine.program, (ProgramSettings{Dialect::krl, 3'000'000, 1'400, 300, std::nullopt}));
-    ASSERT_EQ(machine.tools.size(), 4U);
+    ASSERT_EQ(machine.tools.size(), 7U);
     CarvingTool tool;
     tool.number = 4;
     tool.name = "ball nose 6 mm";
@@ -121,6 +121,9 @@ TEST(CellVersion2, ARobotIsReadAsItIsWritten) {
     tool.removal_mm3_per_s = 1500;
     EXPECT_EQ(machine.tools[3], tool);
     EXPECT_EQ(gauge_length(tool), 200);
+    EXPECT_TRUE(is_drill(machine.tools[4]));
+    EXPECT_EQ(machine.tools[4].diameter, 8);
+    EXPECT_NEAR(point_height(machine.tools[4]), 2.4034, 1e-4);  // 4 mm / tan 59 degrees
     EXPECT_EQ(cell.stock[2], (Stock{"large", {1000, 600, 500}, Material::pu_foam, true, 3}));
 }
 
@@ -254,6 +257,13 @@ TEST(CellVersion2, NamesLineAndKeyOfEveryFault) {
         {"shape = \"flat\"", "shape = \"bull\"", "name = \"flat", "tool.corner_radius", "missing"},
         {"shape = \"flat\"", "shape = \"cone\"", "name = \"flat", "tool.tip_angle_deg", "missing"},
         {"shape = \"flat\"", "shape = \"flat\"\ntip_angle_deg = 30.0", "tip_angle", "tool.tip_angle_deg", "no meaning"},
+        {"tip_angle_deg = 118.0", "tip_angle_deg = 30.0", "tip_angle_deg = 30", "tool.tip_angle_deg", "out of bounds"},
+        {"tip_angle_deg = 118.0\n", "", "name = \"drill 8", "tool.tip_angle_deg", "missing"},
+        {"tip_angle_deg = 118.0", "tip_angle_deg = 118.0\ncorner_radius = 1.0", "corner_radius = 1.0",
+         "tool.corner_radius", "no meaning"},
+        {"flute_length = 80.0\nstick_out = 120.0", "flute_length = 80.0\nstick_out = 70.0", "stick_out = 70",
+         "tool.stick_out", "flute_length"},
+        {"shape = \"ball\"", "shape = \"drill\"\ntip_angle_deg = 118.0", "shape = \"drill", "tool.shape", "first tool"},
         {"stick_out = 150.0", "stick_out = 99.0", "stick_out = 99", "tool.stick_out", "flute_length"},
         {"holder = [[40.0, 50.0]]", "holder = [[19.0, 50.0]]", "holder = [[19", "tool.holder", "narrower"},
         {"holder = [[40.0, 50.0]]", "holder = [40.0, 50.0]", "holder = [40", "tool.holder", "two numbers"},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 
 #include "base/error.h"
@@ -51,6 +52,7 @@ const JobsOfPieces& some_jobs() {
             input.setup = choose_setup(pieces[p], input.cell, options).setups.front();
             input.envelope = check_envelope(input.setup, input.cell);
             input.caps = caps_of(pieces, p, made.joints, input.setup, input.cell);
+            decide_holes(input.caps, {}, {}, "there is no program");
             made.jobs.push_back(parse_job(job_file(input), pieces[p].name));
             made.inputs.push_back(std::move(input));
         }
@@ -134,31 +136,54 @@ TEST(JobCaps, ABaseIsNeverDrilledByTheRobotAndEveryCapHasItsTemplates) {
     }
 }
 
-TEST(JobCaps, TheRobotDrillsWhereTheToolMayComeOutAlongTheCap) {
+TEST(JobCaps, AHoleWhoseCapNoToolComesOutOfIsForTheHand) {
     Segmentation s = uncut(shapes::box({0, 0, 0}, {120, 100, 100}, 2), 0);
     ASSERT_TRUE(cut_at(s, "A", {{0, 0, 1}, 50}));
     const std::vector<PieceJoint> joints = piece_joints(s.pieces, {});
     const std::size_t below = joints.at(0).below;
     qchopper::Setup setup;  // as it lies in the scan: its cap looks up
     setup.box = bounds(*s.pieces[below].mesh);
-    Cell version_1 = cell();
-    version_1.tool.diameter = 4;
-    const auto by_robot = [&](const qchopper::Setup& lying, const Cell& in) {
+    const auto reasons = [&](const qchopper::Setup& lying, const Cell& in) {
         const std::vector<DrawnCap> caps = caps_of(s.pieces, below, joints, lying, in);
-        std::vector<bool> by;
+        std::vector<std::string> by;
         for (const JobHole& hole : caps.at(0).cap.joints.at(0).holes) {
-            by.push_back(hole.by_robot);
+            EXPECT_EQ(hole.number, by.size() + 1);
+            EXPECT_FALSE(hole.by_robot) << "nobody has decided yet";
+            by.push_back(hole.by_hand);
         }
         return by;
     };
-    EXPECT_EQ(by_robot(setup, version_1), (std::vector<bool>{true, true}));
-    version_1.tool.diameter = 7;  // too thick for the 6 mm hole
-    EXPECT_EQ(by_robot(setup, version_1), (std::vector<bool>{true, false}));
+    const auto twice = [](const std::string& why) { return std::vector<std::string>{why, why}; };
+    const Cell robot = read_cell(QCHOPPER_SOURCE_DIR "/cells/kr60-ha.toml");
+    EXPECT_EQ(reasons(setup, robot), twice(""));
+    EXPECT_EQ(reasons(setup, cell()), twice("the cell file describes no machine"));
+    const double degree = std::numbers::pi / 180;
+    const double c = std::cos(70 * degree);
+    const double s70 = std::sin(70 * degree);
+    setup.piece_in_setup = {{Vec3{1, 0, 0}, Vec3{0, c, -s70}, Vec3{0, s70, c}}, {}};
+    EXPECT_EQ(reasons(setup, robot), twice("the tool would lean by 70 degrees, and 60 are allowed"));
     setup.base = 1;
-    EXPECT_EQ(by_robot(setup, version_1), (std::vector<bool>{false, false}));
-    setup.base.reset();
-    setup.piece_in_setup = {{Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, -1}}, {}};
-    EXPECT_EQ(by_robot(setup, version_1), (std::vector<bool>{false, false}));
+    EXPECT_EQ(reasons(setup, robot), twice("its cap is the base, which lies on the table"));
+}
+
+TEST(JobCaps, OfEveryHoleItIsSaidWhoDrillsIt) {
+    DrawnCap drawn;
+    drawn.cap.joints.resize(1);
+    for (std::size_t number = 1; number <= 4; ++number) {
+        JobHole hole;
+        hole.number = number;
+        if (number == 2) hole.by_hand = "its cap is the base";
+        drawn.cap.joints[0].holes.push_back(hole);
+    }
+    std::vector<DrawnCap> caps{drawn};
+    decide_holes(caps, {1}, {{3, "the piece stands over it"}}, "there is no program");
+    std::vector<std::string> why;
+    for (const JobHole& hole : holes_of({caps[0].cap})) {
+        why.push_back(hole.by_hand);
+        EXPECT_EQ(hole.by_robot, hole.by_hand.empty());
+    }
+    EXPECT_EQ(why,
+              (std::vector<std::string>{"", "its cap is the base", "the piece stands over it", "there is no program"}));
 }
 
 // As the text of a manifest gives it back.
@@ -176,13 +201,19 @@ TEST(JobCaps, AForgedHoleIsRefused) {
         lying = job.setup.piece_in_setup;
     }
     ASSERT_FALSE(caps.empty());
-    EXPECT_EQ(to_caps(as_read(caps), lying), caps);
+    EXPECT_EQ(to_caps(as_read(caps), lying, 6), caps);
     std::vector<JobCap> forged = caps;
     forged[0].joints[0].holes[0].point.x += 0.01;
-    EXPECT_THROW(to_caps(as_read(forged), lying), std::runtime_error);
+    EXPECT_THROW(to_caps(as_read(forged), lying, 6), std::runtime_error);
     forged = caps;
     forged[0].joints[0].holes[0].axis = -forged[0].joints[0].holes[0].axis;
-    EXPECT_THROW(to_caps(as_read(forged), lying), std::runtime_error);
+    EXPECT_THROW(to_caps(as_read(forged), lying, 6), std::runtime_error);
+    forged = caps;
+    forged[0].joints[0].holes[0].number = 7;
+    EXPECT_THROW(to_caps(as_read(forged), lying, 6), std::runtime_error);
+    forged = caps;
+    forged[0].joints[0].holes[0].by_robot = true;  // and a reason for the hand
+    EXPECT_THROW(to_caps(as_read(forged), lying, 6), std::runtime_error);
     EXPECT_NE(fault_of_templates(caps, {}).find("missing"), std::string::npos);
     EXPECT_NE(fault_of_templates({}, {{"template-9.svg", {}}}).find("no cap"), std::string::npos);
 }

@@ -116,7 +116,7 @@ TEST(Job, WhatTheToolReachesIsReadBack) {
         {3, "without a cap, lying on its side", ReachMethod::sampled, 0.225, 12345, 890, {58, 56, 44}, 2}};
     EXPECT_EQ(job.alternatives, others);
     const auto manifest = nlohmann::json::parse(text_of(job.files.at("manifest.json")));
-    EXPECT_EQ(manifest["schema"], 5);
+    EXPECT_EQ(manifest["schema"], 6);
     EXPECT_EQ(manifest["state"], "unreachable");
     EXPECT_EQ(manifest["setup"]["reach"]["method"], "mapped");
     EXPECT_EQ(manifest["setup"]["reach"]["unreachable_share"], 0.05);
@@ -208,10 +208,10 @@ TEST(Job, TheTextsInsideHaveOneForm) {
     const auto compact = [](const std::string& text) { return nlohmann::ordered_json::parse(text).dump(); };
     EXPECT_NE(with(compact).find("the one form"), std::string::npos) << with(compact);
     EXPECT_NE(with([](const std::string& text) { return text + " "; }).find("the one form"), std::string::npos);
-    const auto twice = [](const std::string& text) { return "{\n  \"schema\": 5," + text.substr(1); };
+    const auto twice = [](const std::string& text) { return "{\n  \"schema\": 6," + text.substr(1); };
     EXPECT_NE(with(twice).find("the one form"), std::string::npos) << with(twice);
     const auto huge = [](std::string text) {
-        return text.replace(text.find("\"schema\": 5"), 11, "\"schema\": 1e999");
+        return text.replace(text.find("\"schema\": 6"), 11, "\"schema\": 1e999");
     };
     EXPECT_NE(with(huge).find("out of range"), std::string::npos) << with(huge);
     const auto deep = [](const std::string&) { return std::string(5'000'000, '['); };
@@ -242,7 +242,7 @@ TEST(Job, AnyValueOfAnotherKindEndsInOneWay) {
 TEST(Job, ForgedManifestsAreRefusedAndSayWhere) {
     using Json = nlohmann::ordered_json;
     const std::vector<std::pair<std::function<void(Json&)>, std::string>> cases{
-        {[](Json& j) { j["schema"] = 2; }, "schema 2 is not 5"},
+        {[](Json& j) { j["schema"] = 2; }, "schema 2 is not one of those that this program reads, 5 to 6"},
         {[](Json& j) { j["format"] = "other"; }, "format"},
         {[](Json& j) { j.erase("piece"); }, "piece is missing"},
         {[](Json& j) { j["piece"]["number"] = 70000; }, "number is not a whole number"},

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/zip.h"
+#include "cam/job/job_caps.h"
 #include "cam/job/program_document.h"
 #include "cam/job/read_job.h"
 #include "cam/job/write_job.h"
@@ -67,6 +68,68 @@ TEST(JobProgram, IsReadAsItWasWritten) {
     EXPECT_EQ(job.ticket.parts, 0);
 }
 
+JobInput job_that_drills() {
+    JobInput input = job_with_program();
+    input.caps = {capped(input, 3)};
+    decide_holes(input.caps, {1, 3}, {{2, "the piece stands over it"}}, "");
+    input.program->program.drilling = {{{0.6, 0, 0.8}, 0.25}, {{0, 0.6, 0.8}, -0.5}};
+    input.program->program.holes = {1, 3};
+    return input;
+}
+
+TEST(JobProgram, WhatItDrillsIsReadAsItWasWritten) {
+    const JobInput input = job_that_drills();
+    const ReadJob job = parse_job(job_file(input), "AB.qjob");
+    EXPECT_EQ(*job.program, input.program->program);
+    ASSERT_EQ(job.caps.size(), 1U);
+    EXPECT_EQ(job.caps[0], input.caps[0].cap);
+    const Bytes& sheet = job.files.at("setup.html");
+    const std::string text(sheet.begin(), sheet.end());
+    EXPECT_NE(text.find("by the robot"), std::string::npos);
+    EXPECT_NE(text.find("by hand: the piece stands over it"), std::string::npos);
+}
+
+TEST(JobProgram, WhatItDrillsIsWhatTheCapsSay) {
+    const auto refused = [](const std::function<void(JobInput&)>& change) {
+        JobInput input = job_that_drills();
+        change(input);
+        return refusal(job_file(input));
+    };
+    EXPECT_EQ(refused([](JobInput&) {}), "taken");
+    EXPECT_NE(refused([](JobInput& i) { i.program->program.holes = {1}; }).find("drilled by no program"),
+              std::string::npos);
+    EXPECT_NE(refused([](JobInput& i) { i.program->program.holes = {1, 2, 3}; }).find("hole 2"), std::string::npos);
+    EXPECT_NE(refused([](JobInput& i) { i.program->program.holes = {3, 1}; }).find("not in order"), std::string::npos);
+    EXPECT_NE(refused([](JobInput& i) { i.program->program.drilling[0].out.x = 0.7; }).find("length 1"),
+              std::string::npos);
+    EXPECT_NE(refused([](JobInput& i) { i.program.reset(); }).find("drilled by no program"), std::string::npos);
+}
+
+// As jobs were written before programs drilled.
+TEST(JobProgram, AJobOfSchema5IsReadAndDrillsNothing) {
+    JobInput input = job_that_drills();
+    input.program->program.drilling.clear();
+    std::map<std::string, Bytes> files = unzip(job_file(input), "AB.qjob");
+    const Bytes& bytes = files.at("manifest.json");
+    nlohmann::ordered_json manifest = nlohmann::ordered_json::parse(bytes.begin(), bytes.end());
+    manifest["schema"] = 5;
+    manifest["programs"][0].erase("drilling");
+    manifest["programs"][0].erase("holes");
+    for (auto& hole : manifest["caps"][0]["joints"][0]["holes"]) {
+        hole.erase("number");
+        hole.erase("by_hand_because");
+    }
+    const std::string text = manifest.dump(2) + "\n";
+    files["manifest.json"] = {text.begin(), text.end()};
+    const ReadJob job = parse_job(zip(files), "AB.qjob");
+    EXPECT_TRUE(job.program->holes.empty());
+    const std::vector<JobHole> holes = holes_of(job.caps);
+    ASSERT_EQ(holes.size(), 3U);
+    EXPECT_EQ(holes[2].number, 3U);
+    EXPECT_FALSE(holes[0].by_robot);
+    EXPECT_NE(holes[0].by_hand.find("schema 5"), std::string::npos);
+}
+
 TEST(JobProgram, AJobWithoutOneSaysWhy) {
     JobInput input = tilting_job(3);
     input.no_program_because = "the cell file describes no machine";
@@ -113,7 +176,7 @@ std::string fault_after(const Change& change) {
     nlohmann::ordered_json json = from_program(some_program().program);
     change(json.front());
     try {
-        to_program(json);
+        to_program(json, 6);
     } catch (const std::runtime_error& error) {
         return error.what();
     }

@@ -119,4 +119,22 @@ inline std::string text_of(const Bytes& bytes) {
     return {bytes.begin(), bytes.end()};
 }
 
+// A square cap with holes of 8 mm in a row, numbered and not decided about.
+inline DrawnCap capped(const JobInput& input, std::size_t holes) {
+    DrawnCap drawn;
+    drawn.cap.cut = 4;
+    drawn.cap.cap_in_piece.shift = {1, 2, 30};
+    drawn.outline = {{{0, 0}, {100, 0}, {100, 100}, {0, 100}}};
+    drawn.names_at = {{50, 50}};
+    drawn.size = {100, 100};
+    drawn.cap.joints = {{"B", 10'000, "", {}}};
+    const Pose cap_in_setup = input.setup.piece_in_setup * drawn.cap.cap_in_piece;
+    for (std::size_t number = 1; number <= holes; ++number) {
+        const Point2 at{20.0 * static_cast<double>(number), 30};
+        drawn.cap.joints[0].holes.push_back(
+            {number, 8, 22, at, apply(cap_in_setup, {at.x, at.y, 0}), rotate(cap_in_setup, {0, 0, -1}), false, ""});
+    }
+    return drawn;
+}
+
 }  // namespace qchopper::test_pieces

@@ -1,0 +1,23 @@
+// Which holes of a drilling the arm can hold, and to which angle a rotary table is turned for them.
+//
+// mm, radians. A hole that no hold of the arm carries is left to the hand, with what refuses it.
+// tests/cam/program/hold_drilling_test.cpp.
+
+#pragma once
+
+#include "base/context.h"
+#include "cam/cell/cell.h"
+#include "cam/setup/setup.h"
+#include "cam/setup/work_envelope.h"
+#include "cam/toolpath/drilling.h"
+
+namespace qchopper {
+
+// Takes from the operations the holes that the arm does not hold, and operations without holes; gives the directions
+// their table angles: of those tried the first at which most holes are held. They are those that turn the hole to where
+// the arm carves another direction of the setup, those of these directions, and steps of 15 degrees. Preconditions:
+// the drilling is of this setup, the cell has a machine. O(angles * holes * poses) answers of the arm.
+void hold_drilling(Drilling& drilling, const Setup& setup, const WorkEnvelope& envelope, const Cell& cell,
+                   const Context& context = {});
+
+}  // namespace qchopper
