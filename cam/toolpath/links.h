@@ -36,9 +36,20 @@ struct CarvingSpace {
     double retract = 0;                    // height of the retract plane
 };
 
+// The height of the cell of a map under a point; -infinity beside the map.
+double least_height(const HeightMap& map, double x, double y);
+
+double length_of(const Pass& pass);
+
+// How near to foam holder and spindle come, and how exactly that is known.
+struct HolderGap {
+    double clearance = 0.3;  // mm
+    double wide_cells = 1;   // cells of the foam, each way, that are taken as one for wide steps of the holder
+};
+
 // The least height of the tip at which holder and spindle stay clear of foam, for each cell of its map.
 // O(cells * widest radius / cell).
-HeightMap holder_limit_over(const HeightMap& foam, const ToolBody& body);
+HeightMap holder_limit_over(const HeightMap& foam, const ToolBody& body, const HolderGap& gap = {});
 
 struct LinkOptions {
     bool has_ramps = false;  // of roughing
@@ -87,9 +98,5 @@ class RunBuilder {
     PathRun run_;
     std::vector<PathRun> runs_;
 };
-
-// The parts of passes along which the tip stays above the holder's limit and removes nothing above its flute.
-// O(length / cell * (radius / cell)^2).
-std::vector<Pass> clipped(const std::vector<Pass>& passes, const CarvingSpace& space, const CarvingTool& tool);
 
 }  // namespace qchopper

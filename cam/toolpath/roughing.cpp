@@ -19,6 +19,8 @@ namespace {
 constexpr double least_foam = 0.2;    // mm above a level that is worth a cut
 constexpr double cells_beside = 2.5;  // by which a pass goes on beyond the foam, so that it begins beside it
 
+constexpr HolderGap holder_gap{1, 4};  // roughing passes farther beside its way than finishing, and asks at each level
+
 struct LevelSpan {
     double top = 0;
     double bottom = 0;
@@ -98,7 +100,7 @@ std::vector<PathRun> rough(CarvingSpace& space, const CarvingTool& tool, const T
         context.check_cancelled();
         const double level = k == count ? heights.bottom : heights.top - static_cast<double>(k) * down;
         // The float of the lowest tip is not above the level.
-        space.holder_limit = holder_limit_over(space.foam, body);
+        space.holder_limit = holder_limit_over(space.foam, body, holder_gap);
         runs.add(roughing_passes(levels.region(level), level, operation.step));
     }
     return runs.finish();
