@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "cam/toolpath/disc_max.h"
@@ -63,10 +62,10 @@ double length_of(const std::vector<Pass>& passes) {
 }
 
 ClippedPasses clipped(const std::vector<Pass>& passes, const CarvingSpace& space, const CarvingTool& tool) {
-    const double inner = std::max(0.0, 0.5 * tool.diameter - std::numbers::sqrt2 * space.foam.cell);
+    const double inner = std::max(0.0, 0.5 * tool.diameter - flute_rim);
     const auto is_free = [&](Vec3 p) {
         return least_height(space.holder_limit, p.x, p.y) <= p.z &&
-               static_cast<double>(disc_max_at(space.foam, p.x, p.y, inner)) <= p.z + tool.flute_length;
+               static_cast<double>(disc_max_at(space.middle_foam, p.x, p.y, inner)) <= p.z + tool.flute_length;
     };
     ClippedPasses parts;
     for (const Pass& pass : passes) {

@@ -118,7 +118,8 @@ RunBuilder::RunBuilder(CarvingSpace& space, const CarvingTool& tool, const Opera
       tool_(&tool),
       operation_(&operation),
       options_(options),
-      sweep_(tool, space.foam.cell, options.slack) {
+      sweep_(tool, space.foam.cell, options.slack),
+      middle_sweep_(tool, space.foam.cell, 0, FoamCells::middles) {
     const double radius = 0.5 * tool.diameter;
     const double cell = space.foam.cell;
     outer_ = radius + (half_diagonal + 0.25) * cell + options.slack;
@@ -127,6 +128,11 @@ RunBuilder::RunBuilder(CarvingSpace& space, const CarvingTool& tool, const Opera
 
 double RunBuilder::foam_near(Vec3 at, double radius) const {
     return static_cast<double>(disc_max_at(space_->foam, at.x, at.y, radius));
+}
+
+double RunBuilder::over_flute(Vec3 at) const {
+    const double radius = std::max(0.0, 0.5 * tool_->diameter - flute_rim);
+    return static_cast<double>(disc_max_at(space_->middle_foam, at.x, at.y, radius)) - at.z - tool_->flute_length;
 }
 
 double RunBuilder::limit_at(double x, double y) const {
@@ -161,7 +167,7 @@ RunBuilder::Way RunBuilder::way_to(Vec3 to) const {
         way.over_foam = std::max(way.over_foam, foam - p.z);
         way.holder = std::max(way.holder, holder);
         way.over_holder = std::max(way.over_holder, holder - p.z);
-        way.over_flute = std::max(way.over_flute, foam_near(p, inner_) - p.z - tool_->flute_length);
+        way.over_flute = std::max(way.over_flute, over_flute(p));
     }
     return way;
 }
@@ -169,6 +175,7 @@ RunBuilder::Way RunBuilder::way_to(Vec3 to) const {
 void RunBuilder::move(Vec3 tip, MoveKind kind, bool is_rounded) {
     if (kind == MoveKind::cut || kind == MoveKind::approach) {
         sweep_.move(space_->foam, space_->removed, at_, tip);
+        middle_sweep_.move(space_->middle_foam, space_->middle_removed, at_, tip);
     }
     if (norm(tip - at_) > 1e-6) run_.moves.push_back({tip, kind, is_rounded});
     at_ = tip;

@@ -32,6 +32,8 @@ struct CarvingSpace {
     bool is_limit_between = true;          // the limit holds between middles of cells too; else each cell has its own
     HeightMap foam;                        // highest foam; runs lower it
     HeightMap removed;                     // down to where runs removed everything, infinite elsewhere; runs lower it
+    HeightMap middle_foam;                 // at the middles of cells; runs lower it
+    HeightMap middle_removed;              // likewise
     HeightMap holder_limit;                // least height of the tip over what the foam is, or was
     double retract = 0;                    // height of the retract plane
 };
@@ -40,6 +42,9 @@ struct CarvingSpace {
 double least_height(const HeightMap& map, double x, double y);
 
 double length_of(const Pass& pass);
+
+// Within so much of its rim, a tool may graze foam that is higher than its flute: no middle of a cell may lie there.
+constexpr double flute_rim = 0.25;  // mm
 
 // How near to foam holder and spindle come, and how exactly that is known.
 struct HolderGap {
@@ -83,6 +88,7 @@ class RunBuilder {
     Way way_to(Vec3 to) const;
 
     double foam_near(Vec3 at, double radius) const;
+    double over_flute(Vec3 at) const;
     double limit_at(double x, double y) const;
     double holder_at(double x, double y) const;
     bool needs_ramp(Vec3 at) const;
@@ -92,6 +98,7 @@ class RunBuilder {
     const Operation* operation_;
     LinkOptions options_;
     ToolSweep sweep_;
+    ToolSweep middle_sweep_;
     double outer_ = 0;  // radius within which a cell may hold foam that the tool touches
     double inner_ = 0;  // radius within which all of a cell lies under the tool
     Vec3 at_;

@@ -53,6 +53,7 @@ class ToolpathMaker {
           context_(context),
           tools_(choose_tools(machine_, settings)),
           stock_(setup),
+          middle_stock_(setup, FoamCells::middles),
           left_(mesh, setup.base, surface_spacing) {
         check_settings(settings, machine_, tools_);
         const double finest = 0.5 * machine_.tools[tools_.fine.value_or(tools_.finishing)].diameter;
@@ -112,12 +113,14 @@ class ToolpathMaker {
     ToolBody body_of(std::size_t tool) const { return tool_body(machine_.tools[tool], machine_.spindle); }
 
     // Fills what is the same for all kinds of operation.
-    CarvingSpace space_of(const HeightMap& coarse, const Operation& operation) const {
+    CarvingSpace space_of(const HeightMap& frame, const Operation& operation) const {
         CarvingSpace space;
-        space.foam = stock_.highest(operation.direction, coarse);
-        space.removed = coarse;
+        space.foam = stock_.highest(operation.direction, frame);
+        space.middle_foam = middle_stock_.highest(operation.direction, frame);
+        space.removed = frame;
         std::fill(space.removed.height.begin(), space.removed.height.end(), std::numeric_limits<float>::infinity());
-        space.retract = operation.retract + setup_to_map(setup_, coarse, {}).z;
+        space.middle_removed = space.removed;
+        space.retract = operation.retract + setup_to_map(setup_, frame, {}).z;
         return space;
     }
 
@@ -243,6 +246,7 @@ class ToolpathMaker {
         }
         operation.runs = std::move(runs);
         stock_.remove_above(operation.direction, space.removed);
+        middle_stock_.remove_above(operation.direction, space.middle_removed);
         toolpath_.operations.push_back(std::move(operation));
     }
 
@@ -254,6 +258,7 @@ class ToolpathMaker {
     const Context& context_;
     ToolChoice tools_;
     InProcessStock stock_;
+    InProcessStock middle_stock_;
     SurfaceLeft left_;
     std::vector<PassesLeft> blocked_;
     double foam_cell_ = 1;

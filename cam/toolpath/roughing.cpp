@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "cam/toolpath/disc_max.h"
@@ -33,19 +32,21 @@ class RoughingLevels {
         : space_(space), tool_(tool), options_(options) {
         const double radius = 0.5 * tool.diameter;
         core_radius_ = std::max(0.0, radius - options.skin_width);
-        under_radius_ = std::max(0.0, radius - std::numbers::sqrt2 * space.foam.cell);
+        flute_radius_ = std::max(0.0, radius - flute_rim);
         beside_ = radius - core_radius_ + cells_beside * space.foam.cell;
     }
 
     // From the highest foam that is to go, to the lowest tip over such foam.
     LevelSpan heights() const {
-        const HeightMap foam = disc_max(space_.foam, core_radius_);
+        const HeightMap core = disc_max(space_.foam, core_radius_);
+        const HeightMap whole = disc_max(space_.middle_foam, flute_radius_);
         const HeightMap& tip = *space_.tip_limit;
         LevelSpan found{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        for (std::size_t i = 0; i < foam.height.size(); ++i) {
-            const auto high = static_cast<double>(foam.height[i]);
+        for (std::size_t i = 0; i < core.height.size(); ++i) {
             const auto low = static_cast<double>(tip.height[i]);
-            if (!(high > low + least_above())) continue;
+            const bool is_high = static_cast<double>(whole.height[i]) > low + highest_skin();
+            const auto high = static_cast<double>(is_high ? std::max(core.height[i], whole.height[i]) : core.height[i]);
+            if (!is_high && !(high > low + least_above())) continue;
             found.top = std::max(found.top, high);
             found.bottom = std::min(found.bottom, low);
         }
@@ -54,17 +55,19 @@ class RoughingLevels {
 
     LevelRegion region(double level) const {
         LevelRegion region{space_.foam.cell, space_.foam.columns, space_.foam.rows, {}, {}};
-        const HeightMap under = disc_max(space_.foam, under_radius_);
+        const HeightMap whole = disc_max(space_.middle_foam, flute_radius_);
         HeightMap core = disc_max(space_.foam, core_radius_);
-        region.is_allowed.resize(under.height.size());
+        region.is_allowed.resize(whole.height.size());
         const auto height = static_cast<float>(level);
         const auto flute_top = static_cast<float>(level + tool_.flute_length);
+        const auto skin_top = static_cast<float>(level + highest_skin());
         const auto foam_top = static_cast<float>(level + least_above());
-        for (std::size_t i = 0; i < under.height.size(); ++i) {
+        for (std::size_t i = 0; i < whole.height.size(); ++i) {
             const bool is_allowed = space_.tip_limit->height[i] <= height && space_.holder_limit.height[i] <= height &&
-                                    under.height[i] <= flute_top;
+                                    whole.height[i] <= flute_top;
             region.is_allowed[i] = is_allowed ? 1 : 0;
-            core.height[i] = is_allowed && core.height[i] > foam_top ? 1.0F : 0.0F;
+            const bool has_work = core.height[i] > foam_top || whole.height[i] > skin_top;
+            core.height[i] = is_allowed && has_work ? 1.0F : 0.0F;
         }
         const HeightMap near = disc_max(core, beside_);
         region.is_wanted.resize(near.height.size());
@@ -73,13 +76,15 @@ class RoughingLevels {
     }
 
  private:
+    // A skin that were left to finishing would in the end be higher than the flute.
+    double highest_skin() const { return 0.5 * tool_.flute_length; }
     double least_above() const { return std::max(least_foam, options_.skin_height); }
 
     const CarvingSpace& space_;
     const CarvingTool& tool_;
     RoughingOptions options_;
     double core_radius_ = 0;   // foam within it is to go
-    double under_radius_ = 0;  // foam within it is surely under the tool
+    double flute_radius_ = 0;  // foam within it is cut by the flute
     double beside_ = 0;
 };
 

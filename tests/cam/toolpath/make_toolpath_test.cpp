@@ -151,6 +151,18 @@ TEST(MakeToolpath, CarvesTheFootOfAWallThatTheHolderJustPasses) {
     }
 }
 
+TEST(MakeToolpath, NeverCutsFoamAboveTheFlute) {
+    // The wall is nearly twice as high as the flute of the finishing tool (80 mm), and roughing leaves a skin on it.
+    const TriangleMesh mesh = shapes::box({0, 0, 0}, {24, 24, 150});
+    const auto setup = setup_of(mesh, 9);
+    const Cell cell = ready_cell();
+    ToolpathSettings settings = coarse_settings();
+    settings.has_fine_finishing = false;
+    PlainReplay replay(setup, cell, 1.7);
+    for (const Operation& operation : make_toolpath(setup, mesh, cell, settings).operations) replay.carve(operation);
+    expect_clean(replay, "tall box");
+}
+
 TEST(MakeToolpath, IsTheSameForAnyNumberOfThreads) {
     const TriangleMesh mesh = bumpy(70, 20, 40, 5);
     const auto setup = setup_of(mesh, 6, 40);

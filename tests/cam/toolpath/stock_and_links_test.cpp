@@ -250,6 +250,8 @@ struct Plate {
         std::fill(space.foam.height.begin(), space.foam.height.end(), 30.0F);
         space.removed = tip;
         std::fill(space.removed.height.begin(), space.removed.height.end(), std::numeric_limits<float>::infinity());
+        space.middle_foam = space.foam;
+        space.middle_removed = space.removed;
         space.holder_limit = tip;
         std::fill(space.holder_limit.height.begin(), space.holder_limit.height.end(), HeightMap::nothing);
         space.retract = 60;
@@ -331,7 +333,7 @@ TEST(RunBuilder, NoRunIsTooLongForAChunk) {
 TEST(Clipped, LeavesOutWhatIsDeeperThanTheFluteOrUnderTheHolder) {
     Plate plate;
     for (std::size_t r = 0; r < 200; ++r) {
-        for (std::size_t c = 90; c < 200; ++c) plate.space.foam.height[r * 200 + c] = 90;
+        for (std::size_t c = 90; c < 200; ++c) plate.space.middle_foam.height[r * 200 + c] = 90;
     }
     const CarvingTool tool = ball_tool(12);  // with a flute of 60
     const Pass across = line({20, 50, 12}, {180, 50, 12});
