@@ -17,8 +17,6 @@
 namespace qchopper {
 namespace {
 
-constexpr double cells_per_radius = 12;
-
 // Raises `limit` to the highest surface within a radius, less `drop`.
 void raise_to_disc(HeightMap& limit, const HeightMap& map, double radius, double drop) {
     const auto reach = static_cast<std::size_t>(radius / map.cell);
@@ -111,7 +109,7 @@ ToolBody tool_body(const CarvingTool& tool, const Spindle& spindle) {
     return body;
 }
 
-bool raise_to_holder_limit(HeightMap& map, const ToolBody& tool, const Pose& piece_in_setup) {
+bool raise_to_holder_limit(HeightMap& map, const ToolBody& tool, const Pose& piece_in_setup, double cells_per_radius) {
     if (tool.steps.empty()) return false;
     const double narrowest =
         std::min_element(tool.steps.begin(), tool.steps.end(), [](const HolderStep& a, const HolderStep& b) {

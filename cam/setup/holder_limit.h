@@ -28,9 +28,10 @@ const CarvingTool& longest_tool(std::span<const CarvingTool> tools);
 ToolBody tool_body(const CarvingTool& tool, const Spindle& spindle);
 
 // Raises a map to the least height at which the tip may stand, so that reached_share() finds what the tool reaches with
-// its holder; whether it had to be raised anywhere. The piece is met on cells at least twice as wide and at most a
-// twelfth of the narrowest radius, unless that is less: the radius is right to within one of them. Preconditions: the
+// its holder; whether it had to be raised anywhere. The piece is met on cells at least twice as wide and at most that
+// share of the narrowest radius, unless that is less: the radius is right to within one of them. Preconditions: the
 // direction of the map is not more than 90 degrees from the z axis of the setup. O(cells * radius / wider cell).
-bool raise_to_holder_limit(HeightMap& map, const ToolBody& tool, const Pose& piece_in_setup);
+bool raise_to_holder_limit(HeightMap& map, const ToolBody& tool, const Pose& piece_in_setup,
+                           double cells_per_radius = 12);
 
 }  // namespace qchopper

@@ -68,13 +68,15 @@ struct Raised {
 
 class Rays {
  public:
-    Rays(const Setup& setup, const HeightMap& frame, std::vector<Raised> others) : others_(std::move(others)) {
+    // The block counts as larger by `more_cells`.
+    Rays(const Setup& setup, const HeightMap& frame, std::vector<Raised> others, double more_cells)
+        : others_(std::move(others)) {
         const Pose map_in_setup = setup.piece_in_setup * inverse(frame.piece_in_map);
         setup_in_map_ = map_in_setup;
         out_ = rotate(map_in_setup, {0, 0, 1});
         const double across = std::hypot(out_.x, out_.y);
         box_ = block_of(setup);
-        const Vec3 more = frame.cell * Vec3{1, 1, across};
+        const Vec3 more = more_cells * frame.cell * Vec3{1, 1, across};
         box_.min = box_.min - more;
         box_.max = box_.max + more;
     }
@@ -111,9 +113,10 @@ class Rays {
 
 }  // namespace
 
-ToolSweep::ToolSweep(const CarvingTool& tool, double cell, double slack)
-    : cell_(cell), outer_(0.5 * tool.diameter - slack - half_diagonal * cell), above_(sweep_rings, 0) {
-    const double beside = slack + half_diagonal * cell;
+ToolSweep::ToolSweep(const CarvingTool& tool, double cell, double slack, FoamCells kind)
+    : cell_(cell), above_(sweep_rings, 0) {
+    const double beside = slack + (kind == FoamCells::whole ? half_diagonal * cell : 0);
+    outer_ = 0.5 * tool.diameter - beside;
     for (std::size_t i = 0; i < sweep_rings && outer_ > 0; ++i) {
         const double r = outer_ * std::sqrt(static_cast<double>(i + 1) / static_cast<double>(sweep_rings));
         above_[i] = static_cast<float>(tool_profile(tool, std::min(r + beside, 0.5 * tool.diameter)) + slack);
@@ -153,7 +156,7 @@ void ToolSweep::stand(HeightMap& map, HeightMap& other, Vec3 tip) const {
     }
 }
 
-InProcessStock::InProcessStock(const Setup& setup) : setup_(&setup) {}
+InProcessStock::InProcessStock(const Setup& setup, FoamCells kind) : setup_(&setup), kind_(kind) {}
 
 HeightMap InProcessStock::highest(std::size_t direction, const HeightMap& frame) const {
     std::vector<Raised> others;
@@ -164,12 +167,15 @@ HeightMap InProcessStock::highest(std::size_t direction, const HeightMap& frame)
             continue;
         }
         assert(removed.down_to.cell == frame.cell);
-        HeightMap raised = disc_max(removed.down_to, std::numbers::sqrt2 * (frame.cell + 1e-6));
-        for (float& height : raised.height) height += static_cast<float>(frame.cell);
+        HeightMap raised = removed.down_to;
+        if (kind_ == FoamCells::whole) {
+            raised = disc_max(raised, std::numbers::sqrt2 * (frame.cell + 1e-6));
+            for (float& height : raised.height) height += static_cast<float>(frame.cell);
+        }
         others.push_back({std::move(raised), removed.down_to.piece_in_map * inverse(frame.piece_in_map)});
     }
     assert(own == nullptr || own->height.size() == frame.height.size());
-    const Rays rays(*setup_, frame, std::move(others));
+    const Rays rays(*setup_, frame, std::move(others), kind_ == FoamCells::whole ? 1 : 0);
     HeightMap highest = frame;
     parallel_for(0, frame.rows, [&](std::size_t row) {
         for (std::size_t column = 0; column < frame.columns; ++column) {

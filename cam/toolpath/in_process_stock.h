@@ -3,11 +3,13 @@
 // mm. It is the block less, for each direction, all above a height of its own map: along a direction carving removes
 // only what lies open above. Conservative: a point that may still be foam counts as foam
 // (tests/cam/toolpath/stock_and_links_test.cpp), so that there is never more foam in the way than is known; it may be
-// up to three cells more than there is.
+// up to three cells more than there is. For what a flute has to cut at once that is too much beside a wall: foam can be
+// known at the middles of cells instead, where it is right to within a cell of the other directions.
 
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "base/vec3.h"
@@ -17,12 +19,14 @@
 
 namespace qchopper {
 
-// Lowers maps, whose cells tell how high foam stands, by a tool on its way. A cell is lowered only if all of it lies
-// under the tool, and to the highest point of the tool over it.
+enum class FoamCells : std::uint8_t { whole, middles };  // what a height speaks for
+
+// Lowers maps, whose cells tell how high foam stands, by a tool on its way. A whole cell is lowered only if all of it
+// lies under the tool, and to the highest point of the tool over it.
 class ToolSweep {
  public:
     // For maps of a cell size. `slack`: how far the tool may pass beside its way, because a controller rounds corners.
-    ToolSweep(const CarvingTool& tool, double cell, double slack = 0);
+    ToolSweep(const CarvingTool& tool, double cell, double slack = 0, FoamCells kind = FoamCells::whole);
 
     // Along a straight line of the tip, in map coordinates, in two maps with the same cells. O(length / cell * (radius
     // / cell)^2).
@@ -39,11 +43,11 @@ class ToolSweep {
 class InProcessStock {
  public:
     // The whole block. The setup must outlive it.
-    explicit InProcessStock(const Setup& setup);
+    explicit InProcessStock(const Setup& setup, FoamCells kind = FoamCells::whole);
 
-    // The highest foam along a direction over each whole cell of `frame`, whose heights are not looked at; `nothing`
-    // where there is none. The frame is a map of that direction (target_map()); all frames have cells of one size.
-    // O(cells * depth / cell * directions) at most; a ray ends at the first foam.
+    // The highest foam along a direction over each whole cell, or over its middle, of `frame`, whose heights are not
+    // looked at; `nothing` where there is none. The frame is a map of that direction (target_map()); all frames have
+    // cells of one size. O(cells * depth / cell * directions) at most; a ray ends at the first foam.
     HeightMap highest(std::size_t direction, const HeightMap& frame) const;
 
     // All above the heights of a map of a direction is gone: infinite where nothing was removed. The maps of one
@@ -59,6 +63,7 @@ class InProcessStock {
         HeightMap down_to;
     };
     const Setup* setup_;
+    FoamCells kind_;
     std::vector<Removed> removed_;
 };
 

@@ -20,18 +20,8 @@ constexpr std::size_t many_moves = 250;                      // a run ends at th
 constexpr std::size_t most_moves = 900;                      // a run ends in the middle of a pass
 constexpr double ramp_slope = 0.364;                         // tangent of 20 degrees
 constexpr double highest_lift = 5;                           // over a ridge between two passes, at the feed of cuts
-constexpr double holder_clearance = 1;                       // mm
 constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
 constexpr double ramp_penalty = 60;                          // mm of way that an entry beside the foam is worth
-
-double least_height(const HeightMap& map, double x, double y) {
-    const double column = std::floor(x / map.cell);
-    const double row = std::floor(y / map.cell);
-    if (column < 0 || row < 0 || column >= static_cast<double>(map.columns) || row >= static_cast<double>(map.rows)) {
-        return -std::numeric_limits<double>::infinity();
-    }
-    return static_cast<double>(map.at(static_cast<std::size_t>(column), static_cast<std::size_t>(row)));
-}
 
 // Linear between the middles of four cells.
 double height_between(const HeightMap& map, double x, double y) {
@@ -55,12 +45,6 @@ Vec3 raised(Vec3 point, double z) {
     return {point.x, point.y, z};
 }
 
-double length_of(const Pass& pass) {
-    double length = 0;
-    for (std::size_t i = 1; i < pass.points.size(); ++i) length += norm(pass.points[i].tip - pass.points[i - 1].tip);
-    return length;
-}
-
 // The first part of a pass, of a length.
 std::vector<Vec3> beginning_of(const Pass& pass, double length) {
     std::vector<Vec3> part{pass.points[0].tip};
@@ -76,17 +60,32 @@ std::vector<Vec3> beginning_of(const Pass& pass, double length) {
 
 }  // namespace
 
-HeightMap holder_limit_over(const HeightMap& foam, const ToolBody& body) {
+double least_height(const HeightMap& map, double x, double y) {
+    const double column = std::floor(x / map.cell);
+    const double row = std::floor(y / map.cell);
+    if (column < 0 || row < 0 || column >= static_cast<double>(map.columns) || row >= static_cast<double>(map.rows)) {
+        return -std::numeric_limits<double>::infinity();
+    }
+    return static_cast<double>(map.at(static_cast<std::size_t>(column), static_cast<std::size_t>(row)));
+}
+
+double length_of(const Pass& pass) {
+    double length = 0;
+    for (std::size_t i = 1; i < pass.points.size(); ++i) length += norm(pass.points[i].tip - pass.points[i - 1].tip);
+    return length;
+}
+
+HeightMap holder_limit_over(const HeightMap& foam, const ToolBody& body, const HolderGap& gap) {
     HeightMap limit = foam;
     std::fill(limit.height.begin(), limit.height.end(), HeightMap::nothing);
     double above = body.stick_out;
     for (const HolderStep& step : body.steps) {
-        // Wide steps on cells four times as wide: foam may lie anywhere in its cell, and the tip in its own.
-        const double factor = step.diameter > 80 * foam.cell ? 4 : 1;
+        // Foam may lie anywhere in its cell, and the tip in its own.
+        const double factor = step.diameter > 80 * foam.cell ? gap.wide_cells : 1;
         const HeightMap wide = factor > 1 ? coarser(foam, factor) : foam;
-        const double radius = 0.5 * step.diameter + holder_clearance + 2 * half_diagonal * wide.cell;
+        const double radius = 0.5 * step.diameter + gap.clearance + 2 * half_diagonal * wide.cell;
         const HeightMap top = disc_max(wide, radius);
-        const auto drop = static_cast<float>(above - holder_clearance);
+        const auto drop = static_cast<float>(above - gap.clearance);
         for (std::size_t row = 0; row < limit.rows; ++row) {
             const std::size_t under =
                 std::min(static_cast<std::size_t>((static_cast<double>(row) + 0.5) / factor), top.rows - 1);
@@ -119,7 +118,8 @@ RunBuilder::RunBuilder(CarvingSpace& space, const CarvingTool& tool, const Opera
       tool_(&tool),
       operation_(&operation),
       options_(options),
-      sweep_(tool, space.foam.cell, options.slack) {
+      sweep_(tool, space.foam.cell, options.slack),
+      middle_sweep_(tool, space.foam.cell, 0, FoamCells::middles) {
     const double radius = 0.5 * tool.diameter;
     const double cell = space.foam.cell;
     outer_ = radius + (half_diagonal + 0.25) * cell + options.slack;
@@ -128,6 +128,11 @@ RunBuilder::RunBuilder(CarvingSpace& space, const CarvingTool& tool, const Opera
 
 double RunBuilder::foam_near(Vec3 at, double radius) const {
     return static_cast<double>(disc_max_at(space_->foam, at.x, at.y, radius));
+}
+
+double RunBuilder::over_flute(Vec3 at) const {
+    const double radius = std::max(0.0, 0.5 * tool_->diameter - flute_rim);
+    return static_cast<double>(disc_max_at(space_->middle_foam, at.x, at.y, radius)) - at.z - tool_->flute_length;
 }
 
 double RunBuilder::limit_at(double x, double y) const {
@@ -162,7 +167,7 @@ RunBuilder::Way RunBuilder::way_to(Vec3 to) const {
         way.over_foam = std::max(way.over_foam, foam - p.z);
         way.holder = std::max(way.holder, holder);
         way.over_holder = std::max(way.over_holder, holder - p.z);
-        way.over_flute = std::max(way.over_flute, foam_near(p, inner_) - p.z - tool_->flute_length);
+        way.over_flute = std::max(way.over_flute, over_flute(p));
     }
     return way;
 }
@@ -170,6 +175,7 @@ RunBuilder::Way RunBuilder::way_to(Vec3 to) const {
 void RunBuilder::move(Vec3 tip, MoveKind kind, bool is_rounded) {
     if (kind == MoveKind::cut || kind == MoveKind::approach) {
         sweep_.move(space_->foam, space_->removed, at_, tip);
+        middle_sweep_.move(space_->middle_foam, space_->middle_removed, at_, tip);
     }
     if (norm(tip - at_) > 1e-6) run_.moves.push_back({tip, kind, is_rounded});
     at_ = tip;
@@ -301,53 +307,6 @@ void RunBuilder::add(const std::vector<Pass>& passes) {
 std::vector<PathRun> RunBuilder::finish() {
     end_run();
     return std::move(runs_);
-}
-
-std::vector<Pass> clipped(const std::vector<Pass>& passes, const CarvingSpace& space, const CarvingTool& tool) {
-    const double inner = std::max(0.0, 0.5 * tool.diameter - 2 * half_diagonal * space.foam.cell);
-    const auto is_allowed = [&](Vec3 p) {
-        return least_height(space.holder_limit, p.x, p.y) <= p.z &&
-               static_cast<double>(disc_max_at(space.foam, p.x, p.y, inner)) <= p.z + tool.flute_length;
-    };
-    std::vector<Pass> parts;
-    for (const Pass& pass : passes) {
-        Pass part;
-        bool is_whole = true;
-        const auto end_part = [&] {
-            is_whole = false;
-            if (part.points.size() >= 2) parts.push_back(part);
-            part = {};
-        };
-        for (std::size_t i = 0; i < pass.points.size(); ++i) {
-            const PassPoint& point = pass.points[i];
-            if (i > 0) {
-                const Vec3 from = pass.points[i - 1].tip;
-                const auto samples = static_cast<std::size_t>(norm(point.tip - from) / (0.5 * space.foam.cell)) + 1;
-                Vec3 before = from;
-                for (std::size_t k = 1; k < samples; ++k) {
-                    const Vec3 p = from + (static_cast<double>(k) / static_cast<double>(samples)) * (point.tip - from);
-                    const bool is_in = is_allowed(p);
-                    if (is_in && part.points.empty()) part.points.push_back({p, false});
-                    if (!is_in && !part.points.empty()) {
-                        if (norm(before - part.points.back().tip) > 0) part.points.push_back({before, false});
-                        end_part();
-                    }
-                    before = p;
-                }
-                if (!is_allowed(point.tip) && !part.points.empty()) {
-                    if (norm(before - part.points.back().tip) > 0) part.points.push_back({before, false});
-                    end_part();
-                }
-            }
-            if (is_allowed(point.tip))
-                part.points.push_back(point);
-            else
-                is_whole = false;
-        }
-        part.is_closed = is_whole && pass.is_closed;
-        if (part.points.size() >= 2) parts.push_back(part);
-    }
-    return parts;
 }
 
 }  // namespace qchopper

@@ -32,13 +32,29 @@ struct CarvingSpace {
     bool is_limit_between = true;          // the limit holds between middles of cells too; else each cell has its own
     HeightMap foam;                        // highest foam; runs lower it
     HeightMap removed;                     // down to where runs removed everything, infinite elsewhere; runs lower it
+    HeightMap middle_foam;                 // at the middles of cells; runs lower it
+    HeightMap middle_removed;              // likewise
     HeightMap holder_limit;                // least height of the tip over what the foam is, or was
     double retract = 0;                    // height of the retract plane
 };
 
+// The height of the cell of a map under a point; -infinity beside the map.
+double least_height(const HeightMap& map, double x, double y);
+
+double length_of(const Pass& pass);
+
+// Within so much of its rim, a tool may graze foam that is higher than its flute: no middle of a cell may lie there.
+constexpr double flute_rim = 0.25;  // mm
+
+// How near to foam holder and spindle come, and how exactly that is known.
+struct HolderGap {
+    double clearance = 0.3;  // mm
+    double wide_cells = 1;   // cells of the foam, each way, that are taken as one for wide steps of the holder
+};
+
 // The least height of the tip at which holder and spindle stay clear of foam, for each cell of its map.
 // O(cells * widest radius / cell).
-HeightMap holder_limit_over(const HeightMap& foam, const ToolBody& body);
+HeightMap holder_limit_over(const HeightMap& foam, const ToolBody& body, const HolderGap& gap = {});
 
 struct LinkOptions {
     bool has_ramps = false;  // of roughing
@@ -72,6 +88,7 @@ class RunBuilder {
     Way way_to(Vec3 to) const;
 
     double foam_near(Vec3 at, double radius) const;
+    double over_flute(Vec3 at) const;
     double limit_at(double x, double y) const;
     double holder_at(double x, double y) const;
     bool needs_ramp(Vec3 at) const;
@@ -81,15 +98,12 @@ class RunBuilder {
     const Operation* operation_;
     LinkOptions options_;
     ToolSweep sweep_;
+    ToolSweep middle_sweep_;
     double outer_ = 0;  // radius within which a cell may hold foam that the tool touches
     double inner_ = 0;  // radius within which all of a cell lies under the tool
     Vec3 at_;
     PathRun run_;
     std::vector<PathRun> runs_;
 };
-
-// The parts of passes along which the tip stays above the holder's limit and removes nothing above its flute.
-// O(length / cell * (radius / cell)^2).
-std::vector<Pass> clipped(const std::vector<Pass>& passes, const CarvingSpace& space, const CarvingTool& tool);
 
 }  // namespace qchopper

@@ -1,5 +1,5 @@
-// One operation at a time: maps of its direction, passes, runs; then the stock learns what the runs removed. The maps
-// of finishing are let go before the next operation.
+// One operation at a time: maps of its direction, passes, runs; then the stock learns what the runs removed. Of
+// finishing only the tip surface is kept, where foam blocks passes that may become free.
 
 #include "cam/toolpath/make_toolpath.h"
 
@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "cam/setup/holder_limit.h"
+#include "cam/toolpath/clipped_passes.h"
 #include "cam/toolpath/finishing.h"
 #include "cam/toolpath/finishing_region.h"
 #include "cam/toolpath/in_process_stock.h"
@@ -22,7 +23,9 @@
 namespace qchopper {
 namespace {
 
-constexpr double cells_per_radius = 6;  // of the tool of the roughing, in the maps of foam
+constexpr double cells_per_radius = 6;  // of the finest tool, in the maps of foam
+constexpr double least_foam_cell = 0.5;
+constexpr double worth_a_round = 50;  // mm of passes that were blocked and are free now
 constexpr double border_cells = 6;
 constexpr double surface_spacing = 1;       // mm, between points that are asked what is left over them
 constexpr double clear_of_table = 2;        // mm, of all points of a tool
@@ -43,22 +46,28 @@ class ToolpathMaker {
           context_(context),
           tools_(choose_tools(machine_, settings)),
           stock_(setup),
+          middle_stock_(setup, FoamCells::middles),
           left_(mesh, setup.base, surface_spacing) {
         check_settings(settings, machine_, tools_);
-        coarse_cell_ = 0.5 * machine_.tools[tools_.roughing].diameter / cells_per_radius;
+        const double finest = 0.5 * machine_.tools[tools_.fine.value_or(tools_.finishing)].diameter;
+        foam_cell_ = std::max(least_foam_cell, finest / cells_per_radius);
         double widest = 0;
         for (const CarvingTool& tool : machine_.tools) widest = std::max(widest, 0.5 * tool.diameter);
-        border_ = widest + border_cells * coarse_cell_;
+        border_ = widest + border_cells * foam_cell_;
     }
 
     Toolpath make() {
         const std::size_t directions = setup_.reach.directions.size();
-        total_ = (tools_.fine ? 4 : 3) * directions;
+        total_ = (tools_.fine ? 5 : 3) * directions;
         for (std::size_t d = 0; d < directions; ++d) rough_along(d, tools_.roughing);
         for (std::size_t d = 0; d < directions; ++d) rough_along(d, tools_.finishing);
         for (std::size_t d = 0; d < directions; ++d) finish_along(d, tools_.finishing, OperationKind::finishing);
-        for (std::size_t d = 0; d < directions && tools_.fine; ++d) {
-            finish_along(d, *tools_.fine, OperationKind::fine_finishing);
+        retry(tools_.finishing);
+        if (tools_.fine) {
+            for (std::size_t d = 0; d < directions; ++d) rough_along(d, *tools_.fine);
+            for (std::size_t d = 0; d < directions; ++d) finish_along(d, *tools_.fine, OperationKind::fine_finishing);
+            while (retry(*tools_.fine) && retry(tools_.finishing)) {
+            }
         }
         report();
         if (toolpath_.operations.empty()) {
@@ -98,12 +107,14 @@ class ToolpathMaker {
     ToolBody body_of(std::size_t tool) const { return tool_body(machine_.tools[tool], machine_.spindle); }
 
     // Fills what is the same for all kinds of operation.
-    CarvingSpace space_of(const HeightMap& coarse, const Operation& operation) const {
+    CarvingSpace space_of(const HeightMap& frame, const Operation& operation) const {
         CarvingSpace space;
-        space.foam = stock_.highest(operation.direction, coarse);
-        space.removed = coarse;
+        space.foam = stock_.highest(operation.direction, frame);
+        space.middle_foam = middle_stock_.highest(operation.direction, frame);
+        space.removed = frame;
         std::fill(space.removed.height.begin(), space.removed.height.end(), std::numeric_limits<float>::infinity());
-        space.retract = operation.retract + setup_to_map(setup_, coarse, {}).z;
+        space.middle_removed = space.removed;
+        space.retract = operation.retract + setup_to_map(setup_, frame, {}).z;
         return space;
     }
 
@@ -117,7 +128,7 @@ class ToolpathMaker {
         operation.step_down = step_down_of(tool, settings_);
         operation.allowance = is_large ? settings_.allowance : settings_.fine_allowance;
         operation.rounding = std::min(settings_.roughing_rounding, operation.allowance / 1.5);
-        const HeightMap piece = target(direction, coarse_cell_, 0);
+        const HeightMap piece = target(direction, foam_cell_, 0);
         HeightMap tip = tip_surface(piece, tool, {operation.allowance});
         raise_to_holder(tip, piece, body_of(tool_index), setup_.piece_in_setup);
         CarvingSpace space = space_of(piece, operation);
@@ -125,7 +136,7 @@ class ToolpathMaker {
         space.is_limit_between = false;
         RoughingOptions options;
         if (!is_first) {
-            options = {operation.step_down, settings_.allowance + skin_cells * coarse_cell_};
+            options = {operation.step_down, settings_.allowance + skin_cells * foam_cell_};
         }
         std::vector<PathRun> runs = rough(space, tool, body_of(tool_index), operation, options, context_);
         add(std::move(operation), space, std::move(runs));
@@ -147,17 +158,57 @@ class ToolpathMaker {
         const FinishingRegion region = finishing_region(operation, floor_z, tip);
         const bool is_empty = std::all_of(region.begin(), region.end(), [](float low) { return low == not_finished; });
         if (is_empty) return;
-        const HeightMap coarse = target(direction, coarse_cell_, 0);
-        CarvingSpace space = space_of(coarse, operation);
-        space.tip_limit = &tip;
-        space.holder_limit = holder_limit_over(space.foam, body_of(tool_index));
         std::vector<Pass> passes = finishing_passes(tip, tool, region, options, context_);
+        PassesLeft left{std::move(operation), std::move(tip), std::move(passes)};
+        carve(left);
+        if (!left.passes.empty()) blocked_.push_back(std::move(left));
+    }
+
+    // Passes of an operation that are not carved yet, over its tip surface.
+    struct PassesLeft {
+        Operation operation;  // without runs
+        HeightMap tip;
+        std::vector<Pass> passes;
+    };
+
+    // Carves what foam does not block, again and again, because passes free others; the rest is left. The length in mm
+    // of what was carved.
+    double carve(PassesLeft& left) {
+        const CarvingTool& tool = machine_.tools[left.operation.tool];
+        const ToolBody body = body_of(left.operation.tool);
+        CarvingSpace space = space_of(target(left.operation.direction, foam_cell_, 0), left.operation);
+        space.tip_limit = &left.tip;
         LinkOptions links;
         links.slack = settings_.path_tolerance;
-        RunBuilder runs(space, tool, operation, links);
-        runs.add(clipped(passes, space, tool));
-        std::vector<PathRun> joined = runs.finish();
-        add(std::move(operation), space, std::move(joined));
+        RunBuilder runs(space, tool, left.operation, links);
+        double carved = 0;
+        while (!left.passes.empty()) {
+            context_.check_cancelled();
+            space.holder_limit = holder_limit_over(space.foam, body);
+            ClippedPasses parts = clipped(left.passes, space, tool);
+            left.passes = std::move(parts.blocked);
+            const double length = length_of(parts.free);
+            carved += length;
+            runs.add(parts.free);
+            if (length < worth_a_round) break;
+        }
+        add(left.operation, space, runs.finish());
+        return carved;
+    }
+
+    // Takes up the passes of a tool that foam has blocked, until a round over the directions carves nothing. Whether
+    // any did.
+    bool retry(std::size_t tool) {
+        bool has_carved = false;
+        for (bool goes_on = true; goes_on;) {
+            goes_on = false;
+            for (PassesLeft& left : blocked_) {
+                if (left.operation.tool == tool && carve(left) >= worth_a_round) goes_on = true;
+            }
+            std::erase_if(blocked_, [](const PassesLeft& left) { return left.passes.empty(); });
+            has_carved = has_carved || goes_on;
+        }
+        return has_carved;
     }
 
     // What the operation finishes; leaves the tip surface in `tip`.
@@ -189,6 +240,7 @@ class ToolpathMaker {
         }
         operation.runs = std::move(runs);
         stock_.remove_above(operation.direction, space.removed);
+        middle_stock_.remove_above(operation.direction, space.middle_removed);
         toolpath_.operations.push_back(std::move(operation));
     }
 
@@ -200,8 +252,10 @@ class ToolpathMaker {
     const Context& context_;
     ToolChoice tools_;
     InProcessStock stock_;
+    InProcessStock middle_stock_;
     SurfaceLeft left_;
-    double coarse_cell_ = 1;
+    std::vector<PassesLeft> blocked_;
+    double foam_cell_ = 1;
     double border_ = 0;
     std::size_t done_ = 0;
     std::size_t total_ = 0;

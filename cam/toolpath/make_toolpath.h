@@ -2,8 +2,10 @@
 //
 // mm. Roughing of all directions comes first, then finishing of all, then fine finishing, so that each tool is taken
 // once; within a tool directions come in the order of the setup. Before finishing, its tool clears where the tool of
-// the roughing was too thick. All is judged against the foam that stands at that time (in_process_stock.h). The result
-// does not depend on the number of threads (tests/cam/toolpath/make_toolpath_test.cpp).
+// the roughing was too thick, and so does that of the fine finishing. All is judged against the foam that stands at
+// that time (in_process_stock.h): passes of finishing that foam blocks are taken up again in rounds over the
+// directions, until a round carves nothing. The result does not depend on the number of threads
+// (tests/cam/toolpath/make_toolpath_test.cpp).
 
 #pragma once
 

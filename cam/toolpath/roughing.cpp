@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "cam/toolpath/disc_max.h"
@@ -18,6 +17,8 @@ namespace {
 
 constexpr double least_foam = 0.2;    // mm above a level that is worth a cut
 constexpr double cells_beside = 2.5;  // by which a pass goes on beyond the foam, so that it begins beside it
+
+constexpr HolderGap holder_gap{1, 4};  // roughing passes farther beside its way than finishing, and asks at each level
 
 struct LevelSpan {
     double top = 0;
@@ -31,19 +32,21 @@ class RoughingLevels {
         : space_(space), tool_(tool), options_(options) {
         const double radius = 0.5 * tool.diameter;
         core_radius_ = std::max(0.0, radius - options.skin_width);
-        under_radius_ = std::max(0.0, radius - std::numbers::sqrt2 * space.foam.cell);
+        flute_radius_ = std::max(0.0, radius - flute_rim);
         beside_ = radius - core_radius_ + cells_beside * space.foam.cell;
     }
 
     // From the highest foam that is to go, to the lowest tip over such foam.
     LevelSpan heights() const {
-        const HeightMap foam = disc_max(space_.foam, core_radius_);
+        const HeightMap core = disc_max(space_.foam, core_radius_);
+        const HeightMap whole = disc_max(space_.middle_foam, flute_radius_);
         const HeightMap& tip = *space_.tip_limit;
         LevelSpan found{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-        for (std::size_t i = 0; i < foam.height.size(); ++i) {
-            const auto high = static_cast<double>(foam.height[i]);
+        for (std::size_t i = 0; i < core.height.size(); ++i) {
             const auto low = static_cast<double>(tip.height[i]);
-            if (!(high > low + least_above())) continue;
+            const bool is_high = static_cast<double>(whole.height[i]) > low + highest_skin();
+            const auto high = static_cast<double>(is_high ? std::max(core.height[i], whole.height[i]) : core.height[i]);
+            if (!is_high && !(high > low + least_above())) continue;
             found.top = std::max(found.top, high);
             found.bottom = std::min(found.bottom, low);
         }
@@ -52,17 +55,19 @@ class RoughingLevels {
 
     LevelRegion region(double level) const {
         LevelRegion region{space_.foam.cell, space_.foam.columns, space_.foam.rows, {}, {}};
-        const HeightMap under = disc_max(space_.foam, under_radius_);
+        const HeightMap whole = disc_max(space_.middle_foam, flute_radius_);
         HeightMap core = disc_max(space_.foam, core_radius_);
-        region.is_allowed.resize(under.height.size());
+        region.is_allowed.resize(whole.height.size());
         const auto height = static_cast<float>(level);
         const auto flute_top = static_cast<float>(level + tool_.flute_length);
+        const auto skin_top = static_cast<float>(level + highest_skin());
         const auto foam_top = static_cast<float>(level + least_above());
-        for (std::size_t i = 0; i < under.height.size(); ++i) {
+        for (std::size_t i = 0; i < whole.height.size(); ++i) {
             const bool is_allowed = space_.tip_limit->height[i] <= height && space_.holder_limit.height[i] <= height &&
-                                    under.height[i] <= flute_top;
+                                    whole.height[i] <= flute_top;
             region.is_allowed[i] = is_allowed ? 1 : 0;
-            core.height[i] = is_allowed && core.height[i] > foam_top ? 1.0F : 0.0F;
+            const bool has_work = core.height[i] > foam_top || whole.height[i] > skin_top;
+            core.height[i] = is_allowed && has_work ? 1.0F : 0.0F;
         }
         const HeightMap near = disc_max(core, beside_);
         region.is_wanted.resize(near.height.size());
@@ -71,13 +76,15 @@ class RoughingLevels {
     }
 
  private:
+    // A skin that were left to finishing would in the end be higher than the flute.
+    double highest_skin() const { return 0.5 * tool_.flute_length; }
     double least_above() const { return std::max(least_foam, options_.skin_height); }
 
     const CarvingSpace& space_;
     const CarvingTool& tool_;
     RoughingOptions options_;
     double core_radius_ = 0;   // foam within it is to go
-    double under_radius_ = 0;  // foam within it is surely under the tool
+    double flute_radius_ = 0;  // foam within it is cut by the flute
     double beside_ = 0;
 };
 
@@ -98,7 +105,7 @@ std::vector<PathRun> rough(CarvingSpace& space, const CarvingTool& tool, const T
         context.check_cancelled();
         const double level = k == count ? heights.bottom : heights.top - static_cast<double>(k) * down;
         // The float of the lowest tip is not above the level.
-        space.holder_limit = holder_limit_over(space.foam, body);
+        space.holder_limit = holder_limit_over(space.foam, body, holder_gap);
         runs.add(roughing_passes(levels.region(level), level, operation.step));
     }
     return runs.finish();

@@ -197,12 +197,13 @@ bool raise_to_holder(HeightMap& tip, const HeightMap& target, const ToolBody& bo
     double narrowest = body.steps.front().diameter;
     for (const HolderStep& step : body.steps) narrowest = std::min(narrowest, step.diameter);
     // Both the tip and the obstacle may lie anywhere in their cells, sqrt(2) of them farther apart or nearer. The cells
-    // are wider for the wider steps: (12 + 1.725) / 12 = 1.144, and 1.144 * sqrt(2) < 1.725.
-    const double wide = std::max(2 * target.cell, 0.5 * narrowest / 12);
+    // are wider for the wider steps: (48 + 1.725) / 48 = 1.036, and 1.036 * sqrt(2) < 1.725.
+    constexpr double cells_per_radius = 48;
+    const double wide = std::max(2 * target.cell, 0.5 * narrowest / cells_per_radius);
     ToolBody grown = body;
     for (HolderStep& step : grown.steps) step.diameter += 2 * 1.725 * wide;
     HeightMap limit = target;
-    raise_to_holder_limit(limit, grown, piece_in_setup);
+    raise_to_holder_limit(limit, grown, piece_in_setup, cells_per_radius);
     bool is_raised = false;
     for (std::size_t i = 0; i < tip.height.size(); ++i) {
         if (!(limit.height[i] > tip.height[i])) continue;

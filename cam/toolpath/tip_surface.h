@@ -84,7 +84,7 @@ HeightMap tip_surface(const HeightMap& target, const CarvingTool& tool, const Ti
 HeightMap remaining_surface(const HeightMap& tip, const CarvingTool& tool);
 
 // Raises a tip surface to where holder and spindle stay clear of the target and above z = 0 of the setup as well; on
-// the safe side by at most three cells of raise_to_holder_limit(), which are at most a twelfth of the holder's least
+// the safe side by at most three cells of raise_to_holder_limit(), which are at most a 48th of the holder's least
 // radius wide, or two cells of the map. Whether it was raised anywhere. Precondition: both maps have the same cells.
 bool raise_to_holder(HeightMap& tip, const HeightMap& target, const ToolBody& body, const Pose& piece_in_setup);
 

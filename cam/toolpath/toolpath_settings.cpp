@@ -81,6 +81,12 @@ void check_scallop(double scallop, const CarvingTool& tool, const std::string& n
         refuse(name + " is not less than the radius of tool " + std::to_string(tool.number));
 }
 
+void check_step_down(const CarvingTool& tool, const ToolpathSettings& settings) {
+    if (settings.step_down <= tool.flute_length) return;
+    refuse("step_down is deeper than the flute of tool " + std::to_string(tool.number) + " is long",
+           "give at most " + std::to_string(std::lround(std::floor(tool.flute_length))) + " mm");
+}
+
 }  // namespace
 
 ToolChoice choose_tools(const CellMachine& machine, const ToolpathSettings& settings) {
@@ -100,11 +106,7 @@ ToolChoice choose_tools(const CellMachine& machine, const ToolpathSettings& sett
 }
 
 double step_down_of(const CarvingTool& tool, const ToolpathSettings& settings) {
-    if (settings.step_down > tool.flute_length) {
-        refuse("step_down is deeper than the flute of tool " + std::to_string(tool.number) + " is long",
-               "give at most " + std::to_string(std::lround(std::floor(tool.flute_length))) + " mm");
-    }
-    return std::min(settings.step_down, 0.75 * tool.diameter);
+    return std::min({settings.step_down, 0.75 * tool.diameter, tool.flute_length});
 }
 
 void check_settings(const ToolpathSettings& settings, const CellMachine& machine, const ToolChoice& tools) {
@@ -124,8 +126,8 @@ void check_settings(const ToolpathSettings& settings, const CellMachine& machine
     }
     if (settings.step_share >= 1) refuse("step_share of the toolpath is not less than 1");
     if (settings.fine_allowance > settings.allowance) refuse("fine_allowance is more than allowance");
-    step_down_of(machine.tools[tools.roughing], settings);
-    step_down_of(machine.tools[tools.finishing], settings);
+    check_step_down(machine.tools[tools.roughing], settings);
+    check_step_down(machine.tools[tools.finishing], settings);
     check_scallop(settings.scallop, machine.tools[tools.finishing], "scallop");
     if (tools.fine) check_scallop(settings.fine_scallop, machine.tools[*tools.fine], "fine_scallop");
 }

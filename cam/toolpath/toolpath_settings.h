@@ -40,12 +40,13 @@ struct ToolChoice {
 // cell or finishing is asked of one that is not ball-ended.
 ToolChoice choose_tools(const CellMachine& machine, const ToolpathSettings& settings);
 
-// Height of the levels of roughing with a tool: at most that of the settings and three quarters of its diameter. Throws
-// InputError (use) if that of the settings is more than the length of the tool's flute.
+// Height of the levels of roughing with a tool: at most that of the settings, three quarters of its diameter, and its
+// flute.
 double step_down_of(const CarvingTool& tool, const ToolpathSettings& settings);
 
 // Throws InputError (use), which names the setting, if one is not finite or not above zero (allowances may be zero),
-// if the distance between passes is not less than the diameter, or the scallop height not less than the radius of the
+// if the height of levels is more than the flute of a tool that roughs, but for the fine one, if the distance between
+// passes is not less than the diameter, or the scallop height not less than the radius of the
 // tool of the finishing.
 void check_settings(const ToolpathSettings& settings, const CellMachine& machine, const ToolChoice& tools);
 

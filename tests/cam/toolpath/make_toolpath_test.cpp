@@ -131,6 +131,38 @@ TEST(MakeToolpath, HolderAndSpindleStayClearBesideATallPiece) {
     expect_clean(replay, "tower");
 }
 
+TEST(MakeToolpath, CarvesTheFootOfAWallThatTheHolderJustPasses) {
+    // Above 160 mm the tower stands 13 mm farther in: the holder of the finishing tool (radius 16, 150 mm above the
+    // tip) passes it while the tool (radius 6) carves the foot, but not before the allowance on the tower is gone.
+    const TriangleMesh mesh =
+        shapes::joined({shapes::box({-20, -20, 0}, {20, 20, 160}), shapes::box({-7, -7, 160}, {7, 7, 190})});
+    const auto setup = setup_of(mesh, 5);
+    const Cell cell = ready_cell();
+    PlainReplay replay(setup, cell, 3.1);
+    for (const Operation& operation : make_toolpath(setup, mesh, cell, coarse_settings()).operations) {
+        if (operation.kind != OperationKind::fine_finishing) replay.carve(operation);
+    }
+    expect_clean(replay, "tower");
+    for (std::size_t i = 0; i < replay.points().size(); ++i) {
+        const Vec3 p = replay.points()[i];
+        const double beside = std::max(std::abs(p.x), std::abs(p.y)) - 20;
+        const bool is_at_foot = beside > 0.8 && p.z > 18 && p.z < 150;
+        ASSERT_FALSE(is_at_foot && replay.is_foam(i)) << p.x << " " << p.y << " " << p.z;
+    }
+}
+
+TEST(MakeToolpath, NeverCutsFoamAboveTheFlute) {
+    // The wall is nearly twice as high as the flute of the finishing tool (80 mm), and roughing leaves a skin on it.
+    const TriangleMesh mesh = shapes::box({0, 0, 0}, {24, 24, 150});
+    const auto setup = setup_of(mesh, 9);
+    const Cell cell = ready_cell();
+    ToolpathSettings settings = coarse_settings();
+    settings.has_fine_finishing = false;
+    PlainReplay replay(setup, cell, 1.7);
+    for (const Operation& operation : make_toolpath(setup, mesh, cell, settings).operations) replay.carve(operation);
+    expect_clean(replay, "tall box");
+}
+
 TEST(MakeToolpath, IsTheSameForAnyNumberOfThreads) {
     const TriangleMesh mesh = bumpy(70, 20, 40, 5);
     const auto setup = setup_of(mesh, 6, 40);

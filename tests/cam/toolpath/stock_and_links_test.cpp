@@ -8,6 +8,7 @@
 #include <random>
 #include <set>
 
+#include "cam/toolpath/clipped_passes.h"
 #include "cam/toolpath/disc_max.h"
 #include "cam/toolpath/in_process_stock.h"
 #include "cam/toolpath/links.h"
@@ -249,6 +250,8 @@ struct Plate {
         std::fill(space.foam.height.begin(), space.foam.height.end(), 30.0F);
         space.removed = tip;
         std::fill(space.removed.height.begin(), space.removed.height.end(), std::numeric_limits<float>::infinity());
+        space.middle_foam = space.foam;
+        space.middle_removed = space.removed;
         space.holder_limit = tip;
         std::fill(space.holder_limit.height.begin(), space.holder_limit.height.end(), HeightMap::nothing);
         space.retract = 60;
@@ -330,16 +333,45 @@ TEST(RunBuilder, NoRunIsTooLongForAChunk) {
 TEST(Clipped, LeavesOutWhatIsDeeperThanTheFluteOrUnderTheHolder) {
     Plate plate;
     for (std::size_t r = 0; r < 200; ++r) {
-        for (std::size_t c = 90; c < 200; ++c) plate.space.foam.height[r * 200 + c] = 90;
+        for (std::size_t c = 90; c < 200; ++c) plate.space.middle_foam.height[r * 200 + c] = 90;
     }
     const CarvingTool tool = ball_tool(12);  // with a flute of 60
-    const std::vector<Pass> parts = clipped({line({20, 50, 12}, {180, 50, 12})}, plate.space, tool);
-    ASSERT_EQ(parts.size(), 1U);
-    EXPECT_EQ(parts[0].points.front().tip.x, 20);
-    EXPECT_NEAR(parts[0].points.back().tip.x, 85, 3);
+    const Pass across = line({20, 50, 12}, {180, 50, 12});
+    const ClippedPasses parts = clipped({across}, plate.space, tool);
+    ASSERT_EQ(parts.free.size(), 1U);
+    EXPECT_EQ(parts.free[0].points.front().tip.x, 20);
+    EXPECT_NEAR(parts.free[0].points.back().tip.x, 85, 3);
+    ASSERT_EQ(parts.blocked.size(), 1U);
+    EXPECT_EQ(parts.blocked[0].points.front().tip, parts.free[0].points.back().tip);
+    EXPECT_EQ(parts.blocked[0].points.back().tip.x, 180);
     for (float& height : plate.space.holder_limit.height) height = 13;
-    EXPECT_TRUE(clipped({line({20, 50, 12}, {180, 50, 12})}, plate.space, tool).empty());
-    EXPECT_EQ(clipped({line({20, 50, 40}, {180, 50, 40})}, plate.space, tool).size(), 1U);
+    EXPECT_TRUE(clipped({across}, plate.space, tool).free.empty());
+    EXPECT_EQ(clipped({line({20, 50, 40}, {180, 50, 40})}, plate.space, tool).free.size(), 1U);
+}
+
+TEST(Clipped, FreeAndBlockedPartsAddUpToThePasses) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> at(10, 190);
+    const CarvingTool tool = ball_tool(12);
+    Plate plate;
+    for (float& height : plate.space.holder_limit.height) height = random() % 9 == 0 ? 20.0F : 0.0F;
+    std::vector<Pass> passes;
+    for (int i = 0; i < 40; ++i) {
+        Pass pass;
+        for (int k = 0; k < 6; ++k) pass.points.push_back({{at(random), at(random), 12}, true});
+        pass.is_closed = i % 2 == 0;
+        if (pass.is_closed) pass.points.push_back(pass.points.front());
+        passes.push_back(pass);
+    }
+    const ClippedPasses parts = clipped(passes, plate.space, tool);
+    EXPECT_FALSE(parts.free.empty());
+    EXPECT_FALSE(parts.blocked.empty());
+    EXPECT_NEAR(length_of(parts.free) + length_of(parts.blocked), length_of(passes), 1e-6 * length_of(passes));
+    for (const Pass& part : parts.free) {
+        for (const PassPoint& point : part.points) {
+            EXPECT_LE(least_height(plate.space.holder_limit, point.tip.x, point.tip.y), point.tip.z);
+        }
+    }
 }
 
 TEST(HolderLimit, KeepsEveryStepAboveTheFoam) {

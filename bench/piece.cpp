@@ -1,0 +1,232 @@
+// Makes the toolpath of one piece and replays it without the arm: figures of the proof, CPU time of the stages, and the
+// places where most foam is left.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "app/project/job_proof.h"
+#include "base/error.h"
+#include "base/timings.h"
+#include "bench/clock.h"
+#include "cam/job/read_job.h"
+#include "cam/toolpath/make_toolpath.h"
+#include "cam/toolpath/time_estimate.h"
+#include "segment/mesh/measure.h"
+#include "sim/replay/carve_foam.h"
+#include "sim/replay/finding.h"
+#include "sim/replay/gouge.h"
+#include "sim/replay/leftover.h"
+
+namespace {
+
+using namespace qchopper;
+using namespace qchopper::bench;
+
+constexpr const char* usage =
+    "bench_piece JOB CELL [REPLAY_CELL_MM]\n  JOB   of a piece, with a program or without; its program is not used\n";
+constexpr double bytes_per_point = 46;  // of a line of a KRL program that states the position alone
+constexpr double region_mm = 30;        // of the places that are listed
+constexpr std::size_t listed = 12;
+
+// The setup of a job for its mesh, which is in setup coordinates.
+Setup setup_of_mesh(const ReadJob& job) {
+    Setup setup = job.setup;
+    for (SetupDirection& direction : setup.reach.directions) {
+        direction.out = normalized(rotate(job.setup.piece_in_setup, direction.out));
+    }
+    setup.up = {0, 0, 1};
+    setup.base.reset();
+    setup.piece_in_setup = {};
+    return setup;
+}
+
+ReplayScene scene_of(const Setup& setup, const Toolpath& path, const TriangleMesh& mesh, const Cell& cell) {
+    ReplayScene scene;
+    scene.cell = &cell;
+    for (const SetupDirection& direction : setup.reach.directions) scene.directions.push_back({direction.out, 0, {}});
+    for (const Operation& operation : path.operations) {
+        scene.chunks.push_back({"", cell.machine->tools[operation.tool].number, operation.direction});
+        scene.scallop = std::max(operation.scallop, 0.25);
+    }
+    const Vec3 size = setup.block.size;
+    scene.block = {{-size.x / 2, -size.y / 2, -setup.spoil}, {size.x / 2, size.y / 2, size.z - setup.spoil}};
+    scene.spoil = setup.spoil;
+    scene.target = &mesh;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto corners = corners_of(mesh, t);
+        const bool is_low = std::all_of(corners.begin(), corners.end(), [](Vec3 p) { return std::abs(p.z) <= 1e-3; });
+        scene.is_base.push_back(is_low && area_vector(mesh, t).z < 0);
+    }
+    return scene;
+}
+
+double feed_of(const Operation& operation, MoveKind kind) {
+    if (kind == MoveKind::approach) return operation.approach_feed;
+    return kind == MoveKind::cut ? operation.feed : operation.link_feed;
+}
+
+// A file of the program stands for an operation, a line for a move.
+ToolPath lines_of(const Toolpath& path) {
+    ToolPath lines;
+    for (std::uint32_t k = 0; k < path.operations.size(); ++k) {
+        const Operation& operation = path.operations[k];
+        std::uint32_t number = 0;
+        for (const PathRun& run : operation.runs) {
+            Vec3 at = run.start;
+            for (std::size_t i = 0; i < run.moves.size(); ++i) {
+                const PathMove& move = run.moves[i];
+                TipLine line;
+                line.from = at;
+                line.to = at = move.tip;
+                line.place = {k, ++number};
+                line.chunk = k;
+                line.tool = static_cast<std::uint32_t>(operation.tool);
+                line.direction = static_cast<std::uint32_t>(operation.direction);
+                line.feed = feed_of(operation, move.kind);
+                line.rounding = move.is_rounded ? operation.rounding : 0;
+                line.follows_line = i > 0;
+                line.spindle = {true, true, operation.rpm};
+                lines.order.push_back({true, lines.lines.size()});
+                lines.lines.push_back(line);
+            }
+        }
+    }
+    return lines;
+}
+
+const char* word_of(OperationKind kind) {
+    if (kind == OperationKind::roughing) return "roughing";
+    return kind == OperationKind::finishing ? "finishing" : "fine finishing";
+}
+
+void print_operations(const Toolpath& path, const Cell& cell) {
+    for (std::size_t k = 0; k < path.operations.size(); ++k) {
+        const Operation& operation = path.operations[k];
+        std::size_t points = 0;
+        double cut = 0;
+        for (const PathRun& run : operation.runs) {
+            points += run.moves.size() + 1;
+            Vec3 at = run.start;
+            for (const PathMove& move : run.moves) {
+                if (move.kind == MoveKind::cut) cut += norm(move.tip - at);
+                at = move.tip;
+            }
+        }
+        std::printf("  %2zu %-14s tool %u, direction %zu: %zu runs, %.0f m of cuts, %.2f MB\n", k + 1,
+                    word_of(operation.kind), cell.machine->tools[operation.tool].number, operation.direction,
+                    operation.runs.size(), 1e-3 * cut, 1e-6 * bytes_per_point * static_cast<double>(points));
+    }
+}
+
+// Surface out of tolerance by cubes of a grid, the largest first.
+void print_places(const TriangleMesh& mesh, const LeftoverFigures& left, double tolerance) {
+    struct Place {
+        double area = 0;
+        double most = 0;
+        Vec3 at;
+        Vec3 normal;
+    };
+    std::map<std::tuple<int, int, int>, Place> places;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto distance = static_cast<double>(left.distance[t]);
+        if (!left.is_reachable[t] || distance <= tolerance) continue;
+        const auto corners = corners_of(mesh, t);
+        const Vec3 at = (1.0 / 3) * (corners[0] + corners[1] + corners[2]);
+        const auto square = [](double x) { return static_cast<int>(std::floor(x / region_mm)); };
+        Place& place = places[{square(at.x), square(at.y), square(at.z)}];
+        const Vec3 normal = area_vector(mesh, t);
+        place.area += norm(normal);
+        place.normal = place.normal + normal;
+        if (distance > place.most) place.most = distance, place.at = at;
+    }
+    std::vector<Place> sorted;
+    for (const auto& [key, place] : places) sorted.push_back(place);
+    std::sort(sorted.begin(), sorted.end(), [](const Place& a, const Place& b) { return a.area > b.area; });
+    for (std::size_t i = 0; i < std::min(listed, sorted.size()); ++i) {
+        const Place& p = sorted[i];
+        const Vec3 n = normalized(p.normal);
+        std::printf("  triangles of %.0f mm2, up to %.2f mm of foam at %.0f %.0f %.0f, facing %.2f %.2f %.2f\n", p.area,
+                    p.most, p.at.x, p.at.y, p.at.z, n.x, n.y, n.z);
+    }
+}
+
+Toolpath timed_toolpath(const Setup& setup, const TriangleMesh& mesh, const Cell& cell) {
+    Context context;
+    double before = process_cpu_s();
+    context.on_progress = [&](const Progress& step) {
+        if (step.what != "operations of the toolpath") return;
+        const double now = process_cpu_s();
+        std::fprintf(stderr, "  operation %zu of %zu, the one before took %.1f s\n", step.done, step.total,
+                     now - before);
+        before = now;
+    };
+    return make_toolpath(setup, mesh, cell, {}, context);
+}
+
+int measure(const std::string& job_file, const std::string& cell_file, double replay_cell) {
+    const ReadJob job = parse_job(read_job(job_file), job_file);
+    const Cell cell = read_cell(cell_file);
+    const TriangleMesh mesh = job_mesh(job.files.at("piece.stl"), job.piece);
+    const Setup setup = setup_of_mesh(job);
+    const Vec3 size = setup.block.size;
+    std::printf("piece %s: %zu faces, block %.0f x %.0f x %.0f\n", job.piece.c_str(), mesh.triangles.size(), size.x,
+                size.y, size.z);
+    for (const SetupDirection& d : setup.reach.directions) {
+        std::printf("  direction %.3f %.3f %.3f\n", d.out.x, d.out.y, d.out.z);
+    }
+    double before = process_cpu_s();
+    const auto lap = [&](const char* what) {
+        const double now = process_cpu_s();
+        std::printf("%s: %.1f s CPU\n", what, now - before);
+        std::fflush(stdout);
+        before = now;
+    };
+    const Toolpath path = timed_toolpath(setup, mesh, cell);
+    lap("toolpath");
+    print_operations(path, cell);
+    std::printf("time estimated: %.2f h\n", time_estimate(path).total_s() / 3600);
+    const ReplayScene scene = scene_of(setup, path, mesh, cell);
+    const ToolPath lines = lines_of(path);
+    ParsedProgram names;
+    for (std::size_t k = 1; k <= path.operations.size(); ++k) names.files.push_back("operation " + std::to_string(k));
+    FindingLog log(names);
+    std::vector<Vec3> outs;
+    for (const SceneDirection& direction : scene.directions) outs.push_back(direction.out);
+    Foam foam(scene.block, outs, replay_cell);
+    const CarveFigures carving = carve_foam(foam, lines, scene, true, log, {});
+    lap("foam");
+    const GougeFigures gouges = find_gouges(lines, scene, 0.01, {});
+    lap("gouges");
+    const LeftoverFigures left = measure_leftover(foam, scene, gouges.depth, {}, {});
+    lap("leftover");
+    std::printf(
+        "within tolerance %.2f %% of the reachable surface, which is %.1f %%; most foam %.2f mm, gouge %.3f mm, "
+        "air %.0f %%\n",
+        100 * left.within_mm2 / left.reachable_mm2, 100 * left.reachable_mm2 / left.area_mm2, left.largest,
+        gouges.largest, 100 * carving.air_mm / carving.feed_mm);
+    print_places(mesh, left, scene.scallop + LeftoverOptions{}.too_much);
+    for (const Finding& finding : log.findings()) std::printf("  %s\n", finding.text.c_str());
+    std::printf("peak memory %.0f MB\n", 1e-6 * static_cast<double>(Timings().so_far().peak_memory_bytes));
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 3 && argc != 4) {
+        std::cerr << usage;
+        return 64;
+    }
+    try {
+        return measure(argv[1], argv[2], argc == 4 ? std::stod(argv[3]) : 0.5);
+    } catch (const InputError& error) {
+        std::cerr << error.what() << "\n";
+        return 66;
+    }
+}

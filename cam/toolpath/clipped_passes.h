@@ -1,0 +1,27 @@
+// Passes divided where holder, spindle or shank would meet foam.
+//
+// mm, in the frame of the maps of the space. What is blocked is taken up again when other passes have removed the foam
+// (make_toolpath.h).
+
+#pragma once
+
+#include <vector>
+
+#include "cam/cell/carving_tool.h"
+#include "cam/toolpath/links.h"
+#include "cam/toolpath/pass.h"
+
+namespace qchopper {
+
+// Together all that the passes carve: a blocked part begins and ends where a free one does
+// (tests/cam/toolpath/stock_and_links_test.cpp).
+struct ClippedPasses {
+    std::vector<Pass> free;     // the tip stays above the holder's limit and removes nothing above its flute
+    std::vector<Pass> blocked;  // the rest, and parts that are too short to be worth a way there
+};
+
+ClippedPasses clipped(const std::vector<Pass>& passes, const CarvingSpace& space, const CarvingTool& tool);
+
+double length_of(const std::vector<Pass>& passes);
+
+}  // namespace qchopper
