@@ -71,11 +71,21 @@ Json program_json(const PieceReport& piece) {
             {"verdicts", verdicts}};
 }
 
-// "3 h 20 min, verified", "-" without a program.
+// Of all parts of a program.
+std::size_t drilled_holes(const PieceReport& piece) {
+    double holes = 0;
+    for (const JobVerdict& verdict : piece.verdicts) {
+        for (const ProofFigure& figure : verdict.figures) holes += figure.key == "holes_drilled" ? figure.value : 0;
+    }
+    return static_cast<std::size_t>(holes);
+}
+
+// "3 h 20 min, 4 holes, verified", "-" without a program.
 std::string program_word(const PieceReport& piece) {
     if (piece.verdicts.empty()) return "-";
     std::string word = duration(static_cast<std::uint32_t>(piece.time_s));
     if (piece.verdicts.size() > 1) word += " in " + std::to_string(piece.verdicts.size()) + " parts";
+    if (const std::size_t holes = drilled_holes(piece); holes > 0) word += ", " + counted(holes, "hole");
     return word + (piece.is_proven() ? ", verified" : ", REFUSED");
 }
 

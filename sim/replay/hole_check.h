@@ -3,7 +3,7 @@
 // mm, setup coordinates. A hole is judged by the lines of the tip along which a drill removes foam: both ends of a line
 // lie on the axis of the hole that it drills, and the deepest end is as deep as the hole and the point of the drill. A
 // line belongs to the hole that its program names in a comment, else to the nearest one. Foam inside a hole of the
-// robot is neither gouge nor leftover (gouge.h, volumes.h). tests/app/project/drilled_job_test.cpp.
+// robot is neither gouge nor leftover (gouge.h, volumes.h). tests/sim/replay/hole_check_test.cpp.
 
 #pragma once
 

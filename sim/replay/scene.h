@@ -49,13 +49,13 @@ struct ReplayScene {
     double spoil = 10;
     const TriangleMesh* target = nullptr;  // closed
     std::vector<bool> is_base;             // per triangle of the target; empty: none
-    std::vector<SceneHole> holes;          // all of the piece
     double scallop = 0.25;                 // the scallop height that was set
     double start_table_angle = 0;          // the joints at the start are CellMachine::start
     // Of a program in parts, each replayed for itself: what the part before left, nullptr for the first; and whether
     // the piece must be there after this one.
     const CarvedStock* before = nullptr;
     bool is_last = true;
+    std::vector<SceneHole> holes = {};  // all of the piece
 };
 
 }  // namespace qchopper

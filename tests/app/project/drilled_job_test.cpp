@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "app/project/piece_program.h"
 #include "base/text.h"
 #include "segment/cut/cut_piece.h"
 #include "segment/mesh/plane_frame.h"
@@ -244,9 +247,9 @@ void fill_in(ReadJob& job, const Cell& cell) {
     }
 }
 
-struct DrilledJobs : ::testing::TestWithParam<std::string> {};
+struct DrilledJobsOf : ::testing::TestWithParam<std::string> {};
 
-TEST_P(DrilledJobs, AreProvenAsTheyWereMade) {
+TEST_P(DrilledJobsOf, AreProvenAsTheyWereMade) {
     const ProvenJob& proven = drilled_job(GetParam());
     for (const VerdictFinding& finding : proven.verdict.findings) ADD_FAILURE() << describe(finding);
     EXPECT_TRUE(proven.verdict.is_positive);
@@ -261,7 +264,7 @@ TEST_P(DrilledJobs, AreProvenAsTheyWereMade) {
     EXPECT_LE(figures["max_hole_offset_mm"], 0.02);
 }
 
-TEST_P(DrilledJobs, EveryFaultOfAHoleIsFound) {
+TEST_P(DrilledJobsOf, EveryFaultOfAHoleIsFound) {
     const ProvenJob& proven = drilled_job(GetParam());
     ASSERT_EQ(proven.job.program->holes, (std::vector<std::size_t>{1, 2, 3}));
     for (const Fault& fault : faults()) {
@@ -281,7 +284,74 @@ TEST_P(DrilledJobs, EveryFaultOfAHoleIsFound) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kuka, DrilledJobs, ::testing::Values("kr60-ha", "kr120-r2500-pro-rotary"));
+struct Slab {
+    Cell cell = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
+    Piece piece = rounded_slab();
+    std::unique_ptr<Setups> setups;
+
+    PiecePrograms programs() {
+        setups = std::make_unique<Setups>(cell);
+        setups->compute_held({&piece, 1}, {});
+        const Carving& carving = setups->held(piece);
+        return make_programs(piece, carving, 1, cell, caps_of_slab(carving.setup()), {});
+    }
+};
+
+std::vector<JobHole> holes_in(const PiecePrograms& programs) {
+    std::vector<JobHole> holes;
+    for (const DrawnCap& drawn : programs.caps) {
+        for (const JobHole& hole : drawn.cap.joints[0].holes) holes.push_back(hole);
+    }
+    return holes;
+}
+
+TEST(DrilledJobs, AProgramThatCannotBeMadeWithTheHolesIsMadeWithoutThem) {
+    Slab slab;
+    for (CarvingTool& tool : slab.cell.machine->tools) {
+        if (is_drill(tool)) tool.mass_kg = 20'000;  // more than a program can say
+    }
+    const PiecePrograms programs = slab.programs();
+    ASSERT_EQ(programs.parts.size(), 1U) << programs.none_because;
+    EXPECT_TRUE(programs.parts[0].proof.is_proven());
+    EXPECT_TRUE(programs.parts[0].input.program.holes.empty());
+    EXPECT_TRUE(programs.parts[0].input.program.drilling.empty());
+    for (const JobHole& hole : holes_in(programs)) {
+        EXPECT_FALSE(hole.by_robot);
+        EXPECT_EQ(hole.by_hand.find("the program cannot drill: "), 0U) << hole.by_hand;
+    }
+}
+
+TEST(DrilledJobs, WithoutDrillsAllHolesAreForTheHand) {
+    Slab slab;
+    std::erase_if(slab.cell.machine->tools, [](const CarvingTool& tool) { return is_drill(tool); });
+    const PiecePrograms programs = slab.programs();
+    ASSERT_EQ(programs.parts.size(), 1U) << programs.none_because;
+    EXPECT_TRUE(programs.parts[0].proof.is_proven());
+    std::vector<std::string> why;
+    for (const JobHole& hole : holes_in(programs)) why.push_back(hole.by_hand);
+    EXPECT_EQ(why, (std::vector<std::string>{"the cell has no drill of 6.0 mm", "the cell has no drill of 4.0 mm",
+                                             "the cell has no drill of 4.0 mm"}));
+}
+
+TEST(DrilledJobs, EveryPartDrillsItsHolesAndAllOfThemAll) {
+    Slab slab;
+    slab.cell.machine->program.memory_bytes = 30'000;
+    const PiecePrograms programs = slab.programs();
+    ASSERT_GE(programs.parts.size(), 2U) << programs.none_because;
+    std::vector<std::size_t> all;
+    std::size_t with_holes = 0;
+    for (const ProvenProgram& part : programs.parts) {
+        const std::vector<std::size_t>& own = part.input.program.holes;
+        all.insert(all.end(), own.begin(), own.end());
+        with_holes += own.empty() ? 0 : 1;
+        for (const VerdictFinding& finding : part.proof.findings) ADD_FAILURE() << describe(finding);
+    }
+    std::sort(all.begin(), all.end());
+    EXPECT_EQ(all, (std::vector<std::size_t>{1, 2, 3}));
+    std::printf("%zu parts, %zu of them drill\n", programs.parts.size(), with_holes);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kuka, DrilledJobsOf, ::testing::Values("kr60-ha", "kr120-r2500-pro-rotary"));
 
 }  // namespace
 }  // namespace qchopper

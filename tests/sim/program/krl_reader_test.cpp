@@ -77,6 +77,17 @@ TEST(KrlReader, ReadsMovesWithTheirModalValues) {
     EXPECT_EQ(program.states[last.state].base->shift.x, 1200);
 }
 
+TEST(KrlReader, KnowsTheHoleThatACommentNames) {
+    std::string body = chunk;
+    body.insert(body.find("lin {x 4"), ";HOLE 12\n;hole -3\n;hole 4 mm\n;hole 99999\n;another word\n");
+    body += ";hole 2\nLIN {X 4.00,Y 6.00,Z 12.00}\n";
+    const ParsedProgram program = read(body);
+    ASSERT_EQ(program.steps.size(), 5U);
+    std::vector<std::uint32_t> holes;
+    for (const ProgramStep& step : program.steps) holes.push_back(step.hole);
+    EXPECT_EQ(holes, (std::vector<std::uint32_t>{0, 0, 12, 12, 2}));
+}
+
 TEST(KrlReader, SummarisesChunks) {
     const std::vector<ChunkSummary> summaries = summarise_chunks(read(chunk));
     ASSERT_EQ(summaries.size(), 1U);
