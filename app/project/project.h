@@ -44,6 +44,14 @@ struct IgnoredSurface {
     bool operator==(const IgnoredSurface&) const = default;
 };
 
+// Surface through which no candidate goes (no_cut_surface.h).
+struct NoCutSurface {
+    std::filesystem::path painted;  // absolute: the file that marks it
+    std::size_t points = 0;         // of the imported scan
+    Sha256 sha256;                  // of the points in the folder
+    bool operator==(const NoCutSurface&) const = default;
+};
+
 // What the project records of a piece or a fragment. Derived from scan and cuts; kept for readers of the file.
 struct SolidRecord {
     std::string name;      // empty for a fragment
@@ -72,6 +80,7 @@ enum class Stage {
 struct Project {
     ScanSource scan;
     std::optional<IgnoredSurface> ignored;
+    std::optional<NoCutSurface> no_cut;
     std::string preset;       // empty: none
     SearchSettings settings;  // with the weights in force
     FragmentChoice fragments = FragmentChoice::keep;

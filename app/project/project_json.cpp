@@ -81,6 +81,11 @@ IgnoredSurface ignored_from(const Json& json) {
     return ignored;
 }
 
+NoCutSurface no_cut_from(const Json& json) {
+    return {json.at("painted").get<std::string>(), json.at("points").get<std::size_t>(),
+            sha256_from(json.at("sha256"))};
+}
+
 Json json_of(const WrittenJob& job) {
     return {{"piece", job.piece}, {"sha256", to_hex(job.sha256)}, {"project_id", job.project_id}, {"part", job.part}};
 }
@@ -248,6 +253,7 @@ Project from_json(const Json& json) {
     Project project;
     project.scan = scan_from(json.at("scan"));
     if (json.contains("ignored")) project.ignored = ignored_from(json.at("ignored"));
+    if (json.contains("no_cut")) project.no_cut = no_cut_from(json.at("no_cut"));
     project.preset = json.at("preset").get<std::string>();
     project.settings = settings_from(json.at("settings"));
     project.fragments = value_of_name(fragment_names, json.at("fragment_choice"));
@@ -289,6 +295,7 @@ std::string to_json(const Project& project) {
               {"programs", project.has_programs},
               {"jobs", list_of(project.jobs)}};
     if (project.ignored) json["ignored"] = json_of(*project.ignored);
+    if (project.no_cut) json["no_cut"] = json_of(*project.no_cut);
     if (project.beam) json["beam"] = json_of(*project.beam);
     if (project.verdict) json["verdict"] = json_of(*project.verdict);
     return text_of(json) + "\n";
