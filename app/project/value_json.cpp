@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/project/enum_names.h"
+#include "base/error.h"
 #include "segment/score/tool_directions.h"
 
 namespace qchopper {
@@ -26,6 +27,14 @@ constexpr EnumName<VerdictOutcome> outcome_names[] = {{VerdictOutcome::replaced,
                                                       {VerdictOutcome::kept, "kept"},
                                                       {VerdictOutcome::carries_cut, "carries_cut"},
                                                       {VerdictOutcome::decided, "decided"}};
+
+double length_from(double length, double least) {
+    constexpr double most = 1e15;
+    if (length >= least && length <= most) return length;
+    throw InputError(InputFault::config, "a length of its print volume or of connectors is impossible");
+}
+constexpr double least_length = 1e-9;
+constexpr double least_spacing = 0.1;  // a finer grid would exceed any memory
 
 Json json_of(const CarvedSurface& s) {
     return {{"unreachable_mm2", s.unreachable_mm2}, {"area_mm2", s.area_mm2}};
@@ -205,12 +214,17 @@ SearchSettings settings_from(const Json& json) {
     s.objectives.fragment_volume_mm3 = json.at("fragment_volume_mm3").get<double>();
     if (json.value("terms_over", "whole") == "cut") s.objectives.scope = TermScope::cut;
     if (json.value("utilization_over", "cut") == "whole") s.objectives.utilization_scope = TermScope::whole;
-    if (json.contains("print_volume_mm")) s.objectives.print_volume = vec3_from(json.at("print_volume_mm"));
+    if (json.contains("print_volume_mm")) {
+        const Vec3 box = vec3_from(json.at("print_volume_mm"));
+        s.objectives.print_volume =
+            Vec3{length_from(box.x, least_length), length_from(box.y, least_length), length_from(box.z, least_length)};
+    }
     if (json.contains("connector")) {
         const Json& c = json.at("connector");
-        s.objectives.connector = {value_of_name(connector_names, c.at("form")), c.at("diameter_mm").get<double>(),
-                                  c.at("depth_mm").get<double>(), c.at("wall_mm").get<double>(),
-                                  c.at("spacing_mm").get<double>()};
+        s.objectives.connector = {
+            value_of_name(connector_names, c.at("form")), length_from(c.at("diameter_mm").get<double>(), least_length),
+            length_from(c.at("depth_mm").get<double>(), least_length), length_from(c.at("wall_mm").get<double>(), 0),
+            length_from(c.at("spacing_mm").get<double>(), least_spacing)};
     }
     if (json.contains("forbidden")) s.objectives.forbidden = json.at("forbidden").get<std::vector<std::string>>();
     s.objectives.tilt_deg = json.value("tilt_deg", default_tilt_deg);

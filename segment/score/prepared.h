@@ -14,6 +14,7 @@
 #include "segment/mesh/shells.h"
 #include "segment/score/clusters.h"
 #include "segment/score/objectives.h"
+#include "segment/score/old_joints.h"
 
 namespace qchopper {
 
@@ -60,6 +61,7 @@ struct PreparedPiece {
     std::vector<Vec3> vertex_normals;  // only for the thesis' fragility and the binary one
     std::vector<CapPoint> cap_points;  // only for the binary one
     PreparedSizes sizes;               // only if sizes are needed
+    std::vector<OldJoint> old_joints;  // only for connector in the form `spread`
     bool has_seam = false;             // whether lengths of outlines are
     // The vector that undercut projects on a direction: the area vector, or the unit normal if triangles are counted.
     Vec3 weighted_normal(std::size_t triangle) const { return unit.empty() ? sums[triangle].area : unit[triangle]; }

@@ -55,7 +55,9 @@ std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, co
     ranked = with_boxes(std::move(ranked));
     if (options.normals != CandidateNormals::sphere || ranked.empty() || ranked.front().normal_index < 0) return ranked;
     const std::vector<Ranked> finer = with_boxes(ranked_further(offsets_around(target, ranked.front(), options)));
-    if (!finer.empty() && finer.front().terms.total + tie < ranked.front().terms.total) {
+    const auto is_out = [&](const Ranked& r) { return is_forbidden(r.terms, objectives); };
+    if (!finer.empty() && is_out(finer.front()) <= is_out(ranked.front()) &&
+        finer.front().terms.total + tie < ranked.front().terms.total) {
         ranked.insert(ranked.begin(), finer.front());
     }
     return ranked;
