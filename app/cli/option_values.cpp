@@ -92,6 +92,11 @@ std::optional<Vec3> lengths_from(const std::string& text) {
     return v;
 }
 
+std::optional<Vec3> print_volume_from(const std::string& text) {
+    const std::optional<Vec3> v = lengths_from(text);
+    return v && std::min({v->x, v->y, v->z}) >= 1 ? v : std::nullopt;
+}
+
 std::optional<std::size_t> place_from(const std::string& text) {
     const std::optional<double> value = number_from(text);
     if (!value || *value < 1 || *value > 1e6 || *value != std::floor(*value)) return std::nullopt;

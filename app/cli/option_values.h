@@ -28,6 +28,9 @@ std::optional<Plane> plane_from(const std::string& text);
 // "X,Y,Z": three lengths in mm, greater than zero.
 std::optional<Vec3> lengths_from(const std::string& text);
 
+// The same, each at least 1.
+std::optional<Vec3> print_volume_from(const std::string& text);
+
 // A whole number from 1 to 1e6, the place in a ranking.
 std::optional<std::size_t> place_from(const std::string& text);
 

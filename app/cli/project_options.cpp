@@ -105,7 +105,7 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
          "--print-volume", a.print_volume,
          "box of X,Y,Z mm that parts, utilization and seam count by, in the best order of the axes (the largest "
          "block of the cell, else none)")
-        ->check(read_by(lengths_from, "not X,Y,Z in mm"));
+        ->check(read_by(print_volume_from, "not X,Y,Z in mm, each at least 1"));
     c->add_option("--utilization", a.utilization, "over which pieces: those of the newest cut, or the whole (cut)")
         ->check(one_of({"cut", "whole"}));
     c->add_option("--connector", a.connector, "form of that objective: spread or ratio (spread)")

@@ -46,9 +46,6 @@ SearchSettings chopper() {
     settings.candidates.offset_step_mm = 5;
     settings.candidates.takes_symmetry = true;
     settings.objectives.scope = TermScope::cut;
-    settings.candidates.normals = CandidateNormals::sphere;
-    settings.candidates.offset_step_mm = 5;
-    settings.candidates.takes_symmetry = true;
     return settings;
 }
 

@@ -26,7 +26,7 @@ std::vector<OldJoint::Place> places_on(const SolidColumns& columns, const PlaneF
     std::vector<std::uint8_t> is_deep(columns.first.size(), 0);
     for (std::size_t c = 0; c + 1 < columns.first.size(); ++c) {
         for (std::uint32_t k = columns.first[c]; k < columns.first[c + 1]; ++k) {
-            const Range r = columns.solid[k];
+            const HeightRange r = columns.solid[k];
             if (std::abs(r.low - cap_height) <= flush * depth && r.high - r.low >= depth) is_deep[c] = 1;
         }
     }
@@ -118,7 +118,7 @@ void part_cap(const OldJoint& joint, Vec3 normal, std::span<const double> offset
 }
 
 // Of each row the first and the last place that are left.
-class Rows {
+class RowEnds {
  public:
     void add(Point2 p) {
         const auto [row, is_new] = ends_.try_emplace(p.y, p.x, p.x);
@@ -181,13 +181,13 @@ std::vector<std::array<JointMeasure, 2>> parted(const OldJoint& joint, Vec3 norm
     std::stable_sort(by_height.begin(), by_height.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     const double clearance = options.clearance();
-    Rows below;
+    RowEnds below;
     auto next = by_height.begin();
     for (std::size_t plane = 0; plane < offsets.size(); ++plane) {
         for (; next != by_height.end() && next->first <= offsets[plane] - clearance; ++next) below.add(next->second);
         result[plane][1].places = below.places();
     }
-    Rows above;
+    RowEnds above;
     auto last = by_height.rbegin();
     for (std::size_t plane = offsets.size(); plane-- > 0;) {
         for (; last != by_height.rend() && last->first >= offsets[plane] + clearance; ++last) above.add(last->second);

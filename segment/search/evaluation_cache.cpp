@@ -150,7 +150,7 @@ std::vector<std::optional<CutEvaluation>> EvaluationCache::further_evaluations(c
     if (!fresh.empty()) {
         const StageTimer stage(context, "planes evaluated");
         std::vector<std::optional<CutEvaluation>> evaluated =
-            evaluate_all(piece, fresh, objectives_, context, objectives_.needs_sizes() ? &box(piece).axis : nullptr);
+            evaluate_all(piece, fresh, objectives_, context, &box(piece).axis);
         known.candidates.insert(known.candidates.end(), fresh.begin(), fresh.end());
         known.evaluations.insert(known.evaluations.end(), evaluated.begin(), evaluated.end());
     }

@@ -38,7 +38,7 @@ class LateRanking {
         find_groups();
     }
 
-    std::vector<Ranked> run(const PieceEvaluations& further) {
+    std::vector<Ranked> run() {
         const StageTimer stage(context_, "planes evaluated");
         sweep_all();
         double most = limit();
@@ -49,7 +49,7 @@ class LateRanking {
             most = limit();
             context_.progress("planes evaluated", done(), late_.planes.candidates.size());
         }
-        PieceEvaluations known = further;
+        PieceEvaluations known;
         for (std::size_t g = 0; g < groups_.size(); ++g) {
             if (late_.is_whole[g] == 0) continue;
             for (std::size_t i = groups_[g].first; i < groups_[g].last; ++i) {
@@ -194,9 +194,8 @@ bool is_ranked_late(const SearchSettings& settings) {
 }
 
 std::vector<Ranked> rank_late(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
-                              EvaluationCache& cache, const Context& context, std::size_t best,
-                              const PieceEvaluations& further) {
-    return LateRanking(segmentation, piece, settings, cache, context, best).run(further);
+                              EvaluationCache& cache, const Context& context, std::size_t best) {
+    return LateRanking(segmentation, piece, settings, cache, context, best).run();
 }
 
 std::vector<Ranked> with_own_boxes(std::vector<Ranked> ranked, const Segmentation& segmentation, std::size_t piece,

@@ -18,11 +18,9 @@ namespace qchopper {
 bool is_ranked_late(const SearchSettings& settings);
 
 // The first `best` of all candidates, and others of the same cost as the last of them; fewer if there are fewer. Which
-// these are does not depend on what was evaluated before. `further`: planes that are evaluated whole already. Throws
-// Cancelled.
+// these are does not depend on what was evaluated before. Throws Cancelled.
 std::vector<Ranked> rank_late(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
-                              EvaluationCache& cache, const Context& context, std::size_t best,
-                              const PieceEvaluations& further = {});
+                              EvaluationCache& cache, const Context& context, std::size_t best);
 
 // So many of the best candidates are ranked again with the oriented box of each part that they would make.
 constexpr std::size_t most_own_boxes = 16;

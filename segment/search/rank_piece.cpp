@@ -17,11 +17,6 @@ namespace {
 // So many of the best planes per place in the beam, because near duplicates among them are culled.
 constexpr std::size_t children_per_place = 8;
 
-void add(PieceEvaluations& all, const PieceEvaluations& more) {
-    all.candidates.insert(all.candidates.end(), more.candidates.begin(), more.candidates.end());
-    all.evaluations.insert(all.evaluations.end(), more.evaluations.begin(), more.evaluations.end());
-}
-
 }  // namespace
 
 std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
@@ -32,42 +27,40 @@ std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, co
         return rank_by_reach(segmentation, piece, settings, cache, context, std::max(best, least_best_planes),
                              too_large_for);
     }
-    const Piece* target = &segmentation.pieces[piece];
     const Objectives& objectives = settings.objectives;
+    const CandidateOptions& options = settings.candidates;
+    const Piece& target = segmentation.pieces[piece];
     const std::vector<PieceShare> others = shares_of_others(segmentation, piece, objectives, cache);
     const ScanShare scan = scan_share(segmentation, piece, objectives, cache);
-    const auto ranking = [&](const PieceEvaluations& planes) { return rank(planes, others, objectives, scan); };
-    PieceEvaluations further{further_candidates(segmentation, piece, settings.candidates), {}};
-    if (!further.candidates.empty())
-        further.evaluations = cache.further_evaluations(*target, further.candidates, context);
+    const auto ranked_further = [&](std::vector<Candidate> planes) {
+        auto evaluations = cache.further_evaluations(target, planes, context);
+        return rank({std::move(planes), std::move(evaluations)}, others, objectives, scan);
+    };
+    const auto with_boxes = [&](std::vector<Ranked> ranked) {
+        return with_own_boxes(std::move(ranked), segmentation, piece, objectives, cache, context);
+    };
     std::vector<Ranked> ranked;
     if (is_ranked_late(settings)) {
         const std::size_t wanted =
             std::max({best, settings.runners_up + 1, most_own_boxes, children_per_place * settings.beam});
-        ranked = rank_late(segmentation, piece, settings, cache, context, wanted, further);
+        ranked = rank_late(segmentation, piece, settings, cache, context, wanted);
     } else {
-        cache.evaluate(std::span(&target, 1), context);
-        if (further.candidates.empty()) {
-            ranked = ranking(cache.evaluations(*target));
-        } else {
-            PieceEvaluations all = cache.evaluations(*target);
-            add(all, further);
-            ranked = ranking(all);
-        }
+        const Piece* one = &target;
+        cache.evaluate(std::span(&one, 1), context);
+        ranked = rank(cache.evaluations(target), others, objectives, scan);
     }
-    const auto finish = [&] {
-        return with_own_boxes(std::move(ranked), segmentation, piece, objectives, cache, context);
-    };
-    if (settings.candidates.normals != CandidateNormals::sphere || ranked.empty()) return finish();
-    if (ranked.front().normal_index < 0) return finish();
-    const std::vector<Candidate> around = offsets_around(*target, ranked.front(), settings.candidates);
-    const std::vector<Ranked> finer = ranking({around, cache.further_evaluations(*target, around, context)});
-    const auto key = [&](const Ranked& r) { return std::pair(is_forbidden(r.terms, objectives), r.terms.total + tie); };
-    if (!finer.empty() &&
-        key(finer.front()) < std::pair(is_forbidden(ranked.front().terms, objectives), ranked.front().terms.total)) {
+    const std::vector<Ranked> further = ranked_further(further_candidates(segmentation, piece, options));
+    ranked.insert(ranked.end(), further.begin(), further.end());
+    if (!further.empty()) sort_ranking(ranked, objectives);
+    ranked = with_boxes(std::move(ranked));
+    if (options.normals != CandidateNormals::sphere || ranked.empty() || ranked.front().normal_index < 0) return ranked;
+    const std::vector<Ranked> finer = with_boxes(ranked_further(offsets_around(target, ranked.front(), options)));
+    const auto is_out = [&](const Ranked& r) { return is_forbidden(r.terms, objectives); };
+    if (!finer.empty() && is_out(finer.front()) <= is_out(ranked.front()) &&
+        finer.front().terms.total + tie < ranked.front().terms.total) {
         ranked.insert(ranked.begin(), finer.front());
     }
-    return finish();
+    return ranked;
 }
 
 std::vector<Ranked> rank_whole_normals(const Segmentation& segmentation, std::size_t piece,

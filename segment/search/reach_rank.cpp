@@ -68,7 +68,8 @@ class ReachRanking {
           context_(context),
           reach_(cache.reach(piece_)),
           is_of_cut_(settings.objectives.scope == TermScope::cut && settings.objectives.weights.undercut == 0 &&
-                     !settings.objectives.needs_sizes() && !settings.objectives.needs_seam()) {
+                     (settings.objectives.weights.utilization == 0 ||
+                      settings.objectives.utilization_scope == TermScope::cut)) {
         if (reach_.normals.empty()) {
             const StageTimer stage(context, "reach swept");
             reach_ = swept(piece_, cache.box(piece_), settings, context);
@@ -197,6 +198,12 @@ class ReachRanking {
         return is_of_cut_ ? std::span<const PieceShare>{} : std::span<const PieceShare>(others_);
     }
 
+    ScanShare counted_scan() const {
+        ScanShare scan = scan_;
+        if (is_of_cut_) scan.seam_mm = 0;
+        return scan;
+    }
+
     // What a plane costs at least, without what the other pieces cost where that is the same for all planes.
     double bound(std::size_t normal, std::size_t offset) const {
         const auto at = reach_.evaluated.find({normal, offset});
@@ -207,7 +214,8 @@ class ReachRanking {
                    scan_area_mm2(piece_);
         }
         if (!at->second.evaluation) return at->second.is_swept ? infinite : 0;
-        const std::optional<Terms> t = terms(*at->second.evaluation, counted_others(), settings_.objectives, scan_);
+        const std::optional<Terms> t =
+            terms(*at->second.evaluation, counted_others(), settings_.objectives, counted_scan());
         return t ? t->total : infinite;
     }
 
@@ -390,10 +398,11 @@ class ReachRanking {
         if (!evaluation.front() || evaluation.front()->solids.size() != 2) return;
         add_late_terms(prepared_piece(), found.plane.normal, {&nudged->offset, 1}, settings_.objectives, evaluation);
         evaluation.front()->reach = CutReach{found.unreachable_mm2, area};
-        const std::optional<Terms> after = terms(*evaluation.front(), counted_others(), settings_.objectives, scan_);
+        const std::optional<Terms> after =
+            terms(*evaluation.front(), counted_others(), settings_.objectives, counted_scan());
         refined.evaluation->reach->unreachable_mm2 = before;
         const std::optional<Terms> unrefined =
-            terms(*refined.evaluation, counted_others(), settings_.objectives, scan_);
+            terms(*refined.evaluation, counted_others(), settings_.objectives, counted_scan());
         if (!after || after->total >= unrefined->total - tie) return;
         evaluation.front()->reach = cut_reach(piece_, refined.candidate.plane, settings_.objectives.tilt_deg);
         refined.evaluation = std::move(evaluation.front());
