@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // To be raised whenever candidates or evaluations of the same piece change.
-constexpr std::uint32_t version_of_evaluations = 2;
+constexpr std::uint32_t version_of_evaluations = 3;
 
 void put(CacheWriter& out, const BaseShare& b) {
     out.put(b.cut);
@@ -26,10 +26,12 @@ void put(CacheWriter& out, const BaseShare& b) {
 void put(CacheWriter& out, const CutEvaluation& evaluation) {
     out.put(evaluation.cap_area_mm2);
     out.put(evaluation.fragility);
+    out.put(evaluation.seam_mm);
     out.put(evaluation.solids.size());
     for (const SolidEvaluation& solid : evaluation.solids) {
         out.put(solid.faces);
         out.put(solid.volume_mm3);
+        for (const double x : {solid.size.x, solid.size.y, solid.size.z}) out.put(x);
         out.put(static_cast<std::uint8_t>(solid.above));
         out.put(solid.bases.size());
         for (const BaseShare& base : solid.bases) put(out, base);
@@ -40,10 +42,12 @@ CutEvaluation evaluation_from(CacheReader& in) {
     CutEvaluation evaluation;
     evaluation.cap_area_mm2 = in.get<double>();
     evaluation.fragility = in.get<double>();
+    evaluation.seam_mm = in.get<double>();
     evaluation.solids.resize(in.count());
     for (SolidEvaluation& solid : evaluation.solids) {
         solid.faces = in.get<std::size_t>();
         solid.volume_mm3 = in.get<double>();
+        for (double* x : {&solid.size.x, &solid.size.y, &solid.size.z}) *x = in.get<double>();
         solid.above = in.get<std::uint8_t>() != 0;
         solid.bases.resize(in.count());
         for (BaseShare& b : solid.bases) {
@@ -94,6 +98,7 @@ std::string name_of_file(const std::string& settings, const Piece& piece) {
     out.put_all(piece.mesh->points);
     out.put_all(piece.mesh->triangles);
     out.put_all(piece.mesh->cap_of);
+    if (piece.seam_cost) out.put_all(*piece.seam_cost);
     for (const HalfSpace& half_space : piece.half_spaces) {
         out.put(half_space.cut);
         out.put(half_space.plane);
@@ -112,6 +117,8 @@ EvaluationStore evaluation_store(const fs::path& folder, const Objectives& objec
     w.put(objectives.fragility_distance);
     w.put(static_cast<std::uint8_t>(objectives.undercut_by_area));
     w.put(options.offsets_per_normal);
+    w.put(static_cast<std::uint8_t>(objectives.needs_sizes()));
+    w.put(static_cast<std::uint8_t>(objectives.needs_seam()));
     const std::string settings(w.bytes().begin(), w.bytes().end());
     EvaluationStore store;
     store.find = [=](const Piece& piece) -> std::optional<PieceEvaluations> {

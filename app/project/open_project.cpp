@@ -192,9 +192,11 @@ bool OpenProject::decide_weights(const Weights& weights) {
 }
 
 void OpenProject::set_weights(const Weights& weights) {
-    const bool had_samples = project_.settings.takes_samples();
+    const SearchSettings before = project_.settings;
     project_.settings.objectives.weights = weights;
-    if (project_.settings.takes_samples() != had_samples) segmentation_.reset();
+    if (project_.settings.needs_same(before)) return;
+    segmentation_.reset();
+    cache_.reset();
 }
 
 bool OpenProject::decide_discard(const std::string& piece) {
@@ -283,13 +285,13 @@ void OpenProject::set_search(const StopRules& stop, std::size_t beam) {
 
 void OpenProject::set_settings(const SearchSettings& settings) {
     if (settings == project_.settings) return;
-    const bool had_samples = project_.settings.takes_samples();
+    const bool needs_same = settings.needs_same(project_.settings);
     if (settings.objectives != project_.settings.objectives) cache_.reset();
     project_.settings = settings;
     project_.beam.reset();
     drop_unfinished_verdict();
     // Made again with samples, or without: as a project that is opened with these settings.
-    if (project_.settings.takes_samples() != had_samples) segmentation_.reset();
+    if (!needs_same) segmentation_.reset();
     save();
 }
 

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/timings.h"
 #include "segment/mesh/measure.h"
+#include "segment/score/seam_cost.h"
 
 namespace qchopper {
 namespace {
@@ -39,6 +40,11 @@ Segmentation replay_cuts(const Project& project, const TriangleMesh& scan, std::
         const StageTimer stage(context, "rays cast");
         context.progress("samples asked", 0, default_surface_samples);
         sample_uncut(segmentation.pieces, store);
+    }
+    if (project.settings.measures_scan()) segmentation.scan = measure_scan(segmentation);
+    if (project.settings.objectives.needs_seam()) {
+        const StageTimer stage(context, "rays cast");
+        find_seam_costs(segmentation.pieces, context);
     }
     discard_now(segmentation, project.discards);
     for (const Cut& cut : std::span(project.cuts).first(cuts)) {

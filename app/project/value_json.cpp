@@ -13,8 +13,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr EnumName<Stop> stop_names[] = {{Stop::any, "any"}, {Stop::all, "all"}};
-constexpr EnumName<FragilityForm> fragility_names[] = {{FragilityForm::thinness, "thinness"},
-                                                       {FragilityForm::thesis, "thesis"}};
+constexpr EnumName<FragilityForm> fragility_names[] = {
+    {FragilityForm::thinness, "thinness"}, {FragilityForm::thesis, "thesis"}, {FragilityForm::binary, "binary"}};
 
 constexpr EnumName<VerdictOutcome> outcome_names[] = {{VerdictOutcome::replaced, "replaced"},
                                                       {VerdictOutcome::kept, "kept"},
@@ -40,33 +40,41 @@ Vec3 vec3_from(const Json& json) {
 }
 
 Json json_of(const Weights& w) {
-    Json json{{"face_ratio", w.face_ratio},
-              {"fragility", w.fragility},
-              {"piece_count", w.piece_count},
-              {"undercut", w.undercut}};
-    if (w.unreachable != 0) json["unreachable"] = w.unreachable;
+    Json json;
+    for (std::size_t i = 0; i < all_objectives.size(); ++i) {
+        const ObjectiveField& field = all_objectives[i];
+        if (i < always_named || w.*field.weight != 0) json[field.key] = w.*field.weight;
+    }
     return json;
 }
 
 Weights weights_from(const Json& json) {
-    return {json.at("face_ratio").get<double>(), json.at("fragility").get<double>(),
-            json.at("piece_count").get<double>(), json.at("undercut").get<double>(), json.value("unreachable", 0.0)};
+    Weights w;
+    for (std::size_t i = 0; i < all_objectives.size(); ++i) {
+        const ObjectiveField& field = all_objectives[i];
+        w.*field.weight = i < always_named ? json.at(field.key).get<double>() : json.value(field.key, 0.0);
+    }
+    return w;
 }
 
 Json json_of(const Terms& t) {
-    Json json{{"face_ratio", t.face_ratio},
-              {"fragility", t.fragility},
-              {"piece_count", t.piece_count},
-              {"undercut", t.undercut}};
-    if (t.unreachable != 0) json["unreachable"] = t.unreachable;
+    Json json;
+    for (std::size_t i = 0; i < all_objectives.size(); ++i) {
+        const ObjectiveField& field = all_objectives[i];
+        if (i < always_named || t.*field.value != 0) json[field.key] = t.*field.value;
+    }
     json["total"] = t.total;
     return json;
 }
 
 Terms terms_from(const Json& json) {
-    return {json.at("face_ratio").get<double>(),  json.at("fragility").get<double>(),
-            json.at("piece_count").get<double>(), json.at("undercut").get<double>(),
-            json.value("unreachable", 0.0),       json.at("total").get<double>()};
+    Terms t;
+    for (std::size_t i = 0; i < all_objectives.size(); ++i) {
+        const ObjectiveField& field = all_objectives[i];
+        t.*field.value = i < always_named ? json.at(field.key).get<double>() : json.value(field.key, 0.0);
+    }
+    t.total = json.at("total").get<double>();
+    return t;
 }
 
 Json json_of(const SolidRecord& solid) {
@@ -113,6 +121,9 @@ Json json_of(const SearchSettings& s) {
               {"near", s.near},
               {"stop", stop}};
     if (o.scope == TermScope::cut) json["terms_over"] = "cut";
+    if (o.utilization_scope == TermScope::whole) json["utilization_over"] = "whole";
+    if (o.print_volume) json["print_volume_mm"] = json_of(*o.print_volume);
+    if (!o.forbidden.empty()) json["forbidden"] = o.forbidden;
     if (o.tilt_deg != default_tilt_deg) json["tilt_deg"] = o.tilt_deg;
     return json;
 }
@@ -126,6 +137,9 @@ SearchSettings settings_from(const Json& json) {
     s.objectives.undercut_by_area = json.at("undercut_by_area").get<bool>();
     s.objectives.fragment_volume_mm3 = json.at("fragment_volume_mm3").get<double>();
     if (json.value("terms_over", "whole") == "cut") s.objectives.scope = TermScope::cut;
+    if (json.value("utilization_over", "cut") == "whole") s.objectives.utilization_scope = TermScope::whole;
+    if (json.contains("print_volume_mm")) s.objectives.print_volume = vec3_from(json.at("print_volume_mm"));
+    if (json.contains("forbidden")) s.objectives.forbidden = json.at("forbidden").get<std::vector<std::string>>();
     s.objectives.tilt_deg = json.value("tilt_deg", default_tilt_deg);
     s.candidates.offsets_per_normal = json.at("offsets_per_normal").get<int>();
     s.runners_up = json.at("runners_up").get<std::size_t>();
@@ -144,9 +158,11 @@ SearchSettings settings_from(const Json& json) {
 }
 
 Json json_of(const Ranked& r) {
-    return {{"normal", json_of(r.plane.normal)},   {"offset_mm", r.plane.offset},
-            {"wanted_offset_mm", r.wanted_offset}, {"normal_index", r.normal_index},
-            {"offset_index", r.offset_index},      {"terms", json_of(r.terms)}};
+    Json json{{"normal", json_of(r.plane.normal)},   {"offset_mm", r.plane.offset},
+              {"wanted_offset_mm", r.wanted_offset}, {"normal_index", r.normal_index},
+              {"offset_index", r.offset_index},      {"terms", json_of(r.terms)}};
+    if (r.seam_mm != 0) json["seam_mm"] = r.seam_mm;
+    return json;
 }
 
 Ranked ranked_from(const Json& json) {
@@ -154,7 +170,8 @@ Ranked ranked_from(const Json& json) {
             json.at("wanted_offset_mm").get<double>(),
             json.at("normal_index").get<int>(),
             json.at("offset_index").get<int>(),
-            terms_from(json.at("terms"))};
+            terms_from(json.at("terms")),
+            json.value("seam_mm", 0.0)};
 }
 
 Json json_of(const Cut& cut) {

@@ -32,6 +32,8 @@ struct Piece {
     std::vector<HalfSpace> half_spaces;  // in the order of the cuts; of some of them the piece may have no cap left
     std::shared_ptr<const SampledPiece> samples =
         {};  // along which directions its surface is open; null: not asked yet
+    // Per point what a mm of seam there costs, in [0, 1] (segment/score/seam_cost.h); null: 1 everywhere.
+    std::shared_ptr<const std::vector<float>> seam_cost = {};
 };
 
 }  // namespace qchopper

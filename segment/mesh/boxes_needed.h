@@ -10,7 +10,7 @@ namespace qchopper {
 
 // The least number of boxes that each fit in `limit`, all in the same order of their axes, into which planes along its
 // axes divide a box: 1 if it fits. Infinite where a limit is not positive. Lengths that differ by less than 1e-6 are
-// equal. O(1).
-double boxes_needed(Vec3 size, Vec3 limit);
+// equal, and a length may exceed a number of boxes by the share `tolerated` of one. O(1).
+double boxes_needed(Vec3 size, Vec3 limit, double tolerated = 0);
 
 }  // namespace qchopper

@@ -11,6 +11,8 @@
 #include <optional>
 #include <vector>
 
+#include "base/vec3.h"
+
 namespace qchopper {
 
 // BaseShare::cut of the cut that is being evaluated. The largest number, so that its base comes last.
@@ -31,6 +33,7 @@ struct SolidEvaluation {
     double volume_mm3 = 0;
     bool above = false;            // it lies above the plane
     std::vector<BaseShare> bases;  // of the cuts whose cap the solid owns, ascending
+    Vec3 size = {};  // along the axes of the oriented box of the piece that is cut; zero if it is not evaluated
 };
 
 // What no tool reaches of the two sides of a plane, in mm2, on samples.
@@ -44,6 +47,7 @@ struct CutEvaluation {
     double cap_area_mm2 = 0;
     double fragility = 0;  // in the form of the objectives
     std::optional<CutReach> reach;
+    double seam_mm = 0;  // length of the section's outline, each point by its cost (Piece::seam_cost)
 };
 
 }  // namespace qchopper

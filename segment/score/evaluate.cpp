@@ -32,10 +32,11 @@ std::vector<Group> groups_of(std::span<const Candidate> candidates) {
 }  // namespace
 
 std::vector<std::optional<CutEvaluation>> evaluate_all(const Piece& piece, std::span<const Candidate> candidates,
-                                                       const Objectives& objectives, const Context& context) {
+                                                       const Objectives& objectives, const Context& context,
+                                                       const std::array<Vec3, 3>* box_axes) {
     std::vector<std::optional<CutEvaluation>> evaluations(candidates.size());
     context.check_cancelled();
-    const PreparedPiece prepared = prepare(piece, objectives);
+    const PreparedPiece prepared = prepare(piece, objectives, box_axes);
     std::mutex reporting;
     std::size_t done = 0;
     const std::vector<Group> groups = groups_of(candidates);

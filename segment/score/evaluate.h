@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,8 +17,10 @@ namespace qchopper {
 
 // One evaluation per candidate, in their order; nothing where the plane misses the piece. Preconditions: the piece is
 // closed; the planes are canonical and nudged off its vertices (nudge.h). Candidates of one normal that follow each
-// other with ascending offsets share a sweep. Reports progress in planes; throws Cancelled between sweeps.
+// other with ascending offsets share a sweep. `box_axes`: as in prepare(). Reports progress in planes; throws Cancelled
+// between sweeps.
 std::vector<std::optional<CutEvaluation>> evaluate_all(const Piece& piece, std::span<const Candidate> candidates,
-                                                       const Objectives& objectives, const Context& context);
+                                                       const Objectives& objectives, const Context& context,
+                                                       const std::array<Vec3, 3>* box_axes = nullptr);
 
 }  // namespace qchopper

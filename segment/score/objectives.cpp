@@ -5,7 +5,41 @@
 #include <algorithm>
 #include <cassert>
 
+#include "segment/mesh/boxes_needed.h"
+
 namespace qchopper {
+namespace {
+
+constexpr double tolerated_share_of_box = 1e-4;
+
+double wasted(const PieceShare& piece, Vec3 box) {
+    return piece.boxes > 0 ? std::max(0.0, 1 - piece.volume_mm3 / (piece.boxes * box.x * box.y * box.z)) : 0;
+}
+
+// Parts, utilization, connector, seam and symmetry, as far as they are evaluated.
+void add_terms_of_chopper(Terms& result, const CutEvaluation& evaluation, std::span<const PieceShare> made,
+                          std::span<const PieceShare> others, const Objectives& objectives, const ScanShare& scan) {
+    double boxes = 0;
+    double further_boxes = 0;  // of the parts that are made, beyond one of each
+    if (objectives.needs_sizes()) {
+        for (const PieceShare& piece : made) {
+            boxes += piece.boxes;
+            further_boxes += piece.boxes - 1;
+            result.utilization = std::max(result.utilization, wasted(piece, *objectives.print_volume));
+        }
+        for (const PieceShare& piece : others) {
+            boxes += piece.boxes;
+            if (objectives.utilization_scope == TermScope::whole)
+                result.utilization = std::max(result.utilization, wasted(piece, *objectives.print_volume));
+        }
+        result.parts = boxes / scan.boxes;
+    }
+    if (objectives.needs_seam() && scan.diagonal_mm > 0) {
+        result.seam = (scan.seam_mm + evaluation.seam_mm * (1 + further_boxes)) / (scan.diagonal_mm * scan.boxes);
+    }
+}
+
+}  // namespace
 
 double undercut(const BaseShare& share, bool by_area) {
     const double all = by_area ? share.all_mm2 : share.all_count;
@@ -20,11 +54,24 @@ double undercut(const SolidEvaluation& solid, bool by_area) {
 }
 
 PieceShare share(const SolidEvaluation& solid, const Objectives& objectives) {
-    return {solid.faces, undercut(solid, objectives.undercut_by_area), 0};
+    return {solid.faces, undercut(solid, objectives.undercut_by_area), 0, print_boxes(solid.size, objectives),
+            solid.volume_mm3};
+}
+
+double print_boxes(Vec3 size, const Objectives& objectives) {
+    return objectives.print_volume ? boxes_needed(size, *objectives.print_volume, tolerated_share_of_box) : 0;
+}
+
+bool is_forbidden(const Terms& terms, const Objectives& objectives) {
+    return std::any_of(objectives.forbidden.begin(), objectives.forbidden.end(), [&](const std::string& key) {
+        return std::any_of(all_objectives.begin(), all_objectives.end(), [&](const ObjectiveField& field) {
+            return key == field.key && terms.*field.value >= 1 - 1e-12;
+        });
+    });
 }
 
 std::optional<Terms> terms(const CutEvaluation& evaluation, std::span<const PieceShare> others,
-                           const Objectives& objectives) {
+                           const Objectives& objectives, const ScanShare& scan) {
     std::vector<PieceShare> pieces;
     for (const SolidEvaluation& solid : evaluation.solids) {
         if (solid.volume_mm3 >= objectives.fragment_volume_mm3) pieces.push_back(share(solid, objectives));
@@ -53,10 +100,8 @@ std::optional<Terms> terms(const CutEvaluation& evaluation, std::span<const Piec
         for (const PieceShare& other : others) unreachable += other.unreachable_mm2;
         result.unreachable = unreachable / evaluation.reach->scan_area_mm2;
     }
-    const Weights& w = objectives.weights;
-    result.total = w.face_ratio * result.face_ratio + w.fragility * result.fragility +
-                   w.piece_count * result.piece_count + w.undercut * result.undercut +
-                   w.unreachable * result.unreachable;
+    add_terms_of_chopper(result, evaluation, std::span(pieces).last(made), others, objectives, scan);
+    result.total = weighted_sum(result, objectives.weights);
     return result;
 }
 

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <map>
 
 #include "base/huge_pages.h"
 #include "base/parallel.h"
 #include "segment/mesh/normals.h"
+#include "segment/mesh/oriented_box.h"
 
 namespace qchopper {
 namespace {
@@ -61,7 +63,39 @@ std::vector<BaseSums> base_sums(const PreparedPiece& p) {
     return sums;
 }
 
+void add_boxes_of_clusters(PreparedPiece& p) {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    p.sizes.of_cluster.assign(p.clusters.count(), {none, none, none, -none, -none, -none});
+    for (std::size_t c = 0; c < p.clusters.count(); ++c) {
+        const std::uint32_t end = p.clusters.cluster[c + 1].first_point;
+        for (std::uint32_t i = p.clusters.cluster[c].first_point; i < end; ++i) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double at = dot(p.sizes.axis[k], p.piece->mesh->points[p.clusters.point[i]]);
+                p.sizes.of_cluster[c][k] = std::min(p.sizes.of_cluster[c][k], at);
+                p.sizes.of_cluster[c][3 + k] = std::max(p.sizes.of_cluster[c][3 + k], at);
+            }
+        }
+    }
+}
+
 }  // namespace
+
+std::vector<CapPoint> cap_points(const Piece& piece) {
+    std::vector<CapPoint> points;
+    if (piece.mesh->cap_of.empty()) return points;
+    for (const HalfSpace& half_space : piece.half_spaces) {
+        std::vector<bool> is_listed(piece.mesh->points.size(), false);
+        for (std::size_t t = 0; t < piece.mesh->triangles.size(); ++t) {
+            if (cap_of(*piece.mesh, t) != half_space.cut) continue;
+            for (const std::uint32_t v : piece.mesh->triangles[t]) {
+                if (is_listed[v]) continue;
+                is_listed[v] = true;
+                points.push_back({v, -half_space.up()});
+            }
+        }
+    }
+    return points;
+}
 
 void add_to_bases(std::span<BaseSums> sums, const PreparedPiece& prepared, std::uint32_t triangle, double share,
                   double faces) {
@@ -80,7 +114,7 @@ void add_to_bases(std::span<BaseSums> sums, const PreparedPiece& prepared, std::
     }
 }
 
-PreparedPiece prepare(const Piece& piece, const Objectives& objectives) {
+PreparedPiece prepare(const Piece& piece, const Objectives& objectives, const std::array<Vec3, 3>* axes) {
     assert(piece.mesh && is_consistent(*piece.mesh) && piece.half_spaces.size() < no_base);
     const TriangleMesh& mesh = *piece.mesh;
     PreparedPiece p;
@@ -98,7 +132,13 @@ PreparedPiece prepare(const Piece& piece, const Objectives& objectives) {
                      }});
     assert(p.base.empty() || p.base.size() == mesh.triangles.size());
     assert(p.sums.size() == mesh.triangles.size() && p.shells.shell_of.size() == mesh.triangles.size());
-    if (objectives.fragility_form == FragilityForm::thesis) p.vertex_normals = vertex_normals(mesh);
+    if (objectives.fragility_form != FragilityForm::thinness) p.vertex_normals = vertex_normals(mesh);
+    if (objectives.fragility_form == FragilityForm::binary) p.cap_points = cap_points(piece);
+    p.has_seam = objectives.needs_seam();
+    if (objectives.needs_sizes()) {
+        p.sizes.axis = axes != nullptr ? *axes : oriented_box(mesh.points).axis;
+        add_boxes_of_clusters(p);
+    }
     return p;
 }
 

@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -31,6 +32,20 @@ struct BaseSums {
     }
 };
 
+// The axes of the piece's oriented box, and the box of each cluster along them.
+struct PreparedSizes {
+    std::array<Vec3, 3> axis;
+    std::vector<std::array<double, 6>> of_cluster;  // least coordinates, then largest ones; empty: not needed
+};
+
+// A point of a cap, with the outward normal of the cap.
+struct CapPoint {
+    std::uint32_t point = 0;
+    Vec3 outward;
+};
+// Each once per cap. O(triangles * half-spaces of the piece).
+std::vector<CapPoint> cap_points(const Piece& piece);
+
 struct PreparedPiece {
     const Piece* piece = nullptr;  // not owned: must outlive this
     Vec3 origin;                   // of the cones: the first point
@@ -42,7 +57,10 @@ struct PreparedPiece {
     std::vector<BaseSums> base_sums;   // per cluster, and in it per half-space of the piece
     std::vector<Vec3> up;              // per half-space of the piece, HalfSpace::up()
     std::vector<std::uint16_t> base;   // per triangle: the half-space that it is a cap of, or no_base; empty: no caps
-    std::vector<Vec3> vertex_normals;  // only for the thesis' fragility
+    std::vector<Vec3> vertex_normals;  // only for the thesis' fragility and the binary one
+    std::vector<CapPoint> cap_points;  // only for the binary one
+    PreparedSizes sizes;               // only if sizes are needed
+    bool has_seam = false;             // whether lengths of outlines are
     // The vector that undercut projects on a direction: the area vector, or the unit normal if triangles are counted.
     Vec3 weighted_normal(std::size_t triangle) const { return unit.empty() ? sums[triangle].area : unit[triangle]; }
 };
@@ -53,7 +71,8 @@ void add_to_bases(std::span<BaseSums> sums, const PreparedPiece& prepared, std::
                   double faces);
 
 // Preconditions: the mesh is consistent (triangle_mesh.h), the piece has fewer than no_base half-spaces. An open mesh
-// is prepared too, but must not be swept (edges.faults).
-PreparedPiece prepare(const Piece& piece, const Objectives& objectives);
+// is prepared too, but must not be swept (edges.faults). `axes`: of the piece's oriented box; null: it is found if it
+// is needed.
+PreparedPiece prepare(const Piece& piece, const Objectives& objectives, const std::array<Vec3, 3>* axes = nullptr);
 
 }  // namespace qchopper

@@ -5,12 +5,17 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <map>
 
 #include "segment/cut/cut.h"
 #include "segment/cut/half_solids.h"
+#include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
+#include "segment/mesh/oriented_box.h"
+#include "segment/score/binary_fragility.h"
 #include "segment/score/fragility.h"
+#include "segment/score/section_measures.h"
 
 namespace qchopper {
 namespace {
@@ -71,6 +76,74 @@ std::vector<SolidEvaluation> measure_solids(const TriangleMesh& mesh, const std:
     return solids;
 }
 
+double plain_fragility(const Piece& piece, const Plane& plane, double cap_area_mm2, const Objectives& objectives) {
+    const double d = objectives.fragility_distance;
+    switch (objectives.fragility_form) {
+        case FragilityForm::thinness:
+            return thinness(piece, plane, cap_area_mm2, d);
+        case FragilityForm::thesis:
+            return thesis_fragility(piece, plane, d);
+        case FragilityForm::binary:
+            break;
+    }
+    return binary_fragility(piece, plane, d);
+}
+
+// What a mm of seam costs at a point of the half that lies in the plane, on an edge of the cut triangle `parent`.
+double cost_on_edge(const Piece& piece, const Plane& plane, Vec3 point, std::uint32_t parent) {
+    const Triangle& corners = piece.mesh->triangles[parent];
+    double nearest = std::numeric_limits<double>::infinity();
+    double cost = 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 a = piece.mesh->points[corners[k]];
+        const Vec3 b = piece.mesh->points[corners[(k + 1) % 3]];
+        const double from = height(plane.normal, a) - plane.offset;
+        const double to = height(plane.normal, b) - plane.offset;
+        if ((from > 0) == (to > 0)) continue;
+        const double share = from / (from - to);
+        const double off = norm(a + share * (b - a) - point);
+        if (off >= nearest) continue;
+        nearest = off;
+        cost = (1 - share) * seam_cost(piece, corners[k]) + share * seam_cost(piece, corners[(k + 1) % 3]);
+    }
+    return cost;
+}
+
+// The outline of the new cap, along the triangles of the half that meet it.
+double seam_of_cap(const Piece& piece, const Plane& plane, const Half& half) {
+    const Edges pairs = edges(half.mesh);
+    double sum = 0;
+    for (std::uint32_t t = 0; t < half.mesh.triangles.size(); ++t) {
+        if (cap_of(half.mesh, t) != new_cut) continue;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const std::uint32_t beside = pairs.twin[3 * t + k] / 3;
+            if (cap_of(half.mesh, beside) == new_cut) continue;
+            const Vec3 a = half.mesh.points[half.mesh.triangles[t][k]];
+            const Vec3 b = half.mesh.points[half.mesh.triangles[t][(k + 1) % 3]];
+            const std::uint32_t parent = half.parent[beside];
+            sum += seam_part(piece, parent, norm(b - a), cost_on_edge(piece, plane, a, parent),
+                             cost_on_edge(piece, plane, b, parent));
+        }
+    }
+    return sum;
+}
+
+// The extents of each solid along the axes.
+void measure_sizes(std::vector<SolidEvaluation>& solids, const TriangleMesh& mesh, const HalfSolids& grouped,
+                   const std::array<Vec3, 3>& axes) {
+    const std::vector<std::uint32_t> solid_of = solid_of_triangle(grouped.shells, grouped.solids);
+    std::vector<PartBox> boxes(solids.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (const std::uint32_t v : mesh.triangles[t]) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double at = dot(axes[k], mesh.points[v]);
+                boxes[solid_of[t]].include(k, at, at);
+            }
+        }
+    }
+    for (std::size_t s = 0; s < solids.size(); ++s) solids[s].size = boxes[s].size();
+}
+
 std::vector<SolidEvaluation> measure_half(const Half& half, const HalfSolids& solids, const Piece& piece,
                                           const HalfSpace& half_space) {
     std::vector<HalfSpace> half_spaces = piece.half_spaces;
@@ -85,21 +158,25 @@ std::vector<SolidEvaluation> measure_half(const Half& half, const HalfSolids& so
 
 }  // namespace
 
-std::optional<CutEvaluation> evaluate_by_cutting(const Piece& piece, const Plane& plane, const Objectives& objectives) {
+std::optional<CutEvaluation> evaluate_by_cutting(const Piece& piece, const Plane& plane, const Objectives& objectives,
+                                                 const std::array<Vec3, 3>* box_axes) {
     const std::optional<CutHalves> halves = cut(*piece.mesh, plane, new_cut);
     if (!halves) return std::nullopt;
     CutEvaluation evaluation;
     evaluation.cap_area_mm2 = halves->cap_area_mm2;
     const SolidsOfHalves solids = solids_of_halves(*piece.mesh, plane, *halves);
     evaluation.solids = measure_half(halves->above, solids.above, piece, {new_cut, plane, true});
-    const std::vector<SolidEvaluation> below =
-        measure_half(halves->below, solids.below, piece, {new_cut, plane, false});
+    std::vector<SolidEvaluation> below = measure_half(halves->below, solids.below, piece, {new_cut, plane, false});
+    if (objectives.needs_sizes()) {
+        const std::array<Vec3, 3> axes = box_axes != nullptr ? *box_axes : oriented_box(piece.mesh->points).axis;
+        measure_sizes(evaluation.solids, halves->above.mesh, solids.above, axes);
+        measure_sizes(below, halves->below.mesh, solids.below, axes);
+    }
     evaluation.solids.insert(evaluation.solids.end(), below.begin(), below.end());
     if (evaluation.cap_area_mm2 > 0) {
-        evaluation.fragility = objectives.fragility_form == FragilityForm::thinness
-                                   ? thinness(piece, plane, evaluation.cap_area_mm2, objectives.fragility_distance)
-                                   : thesis_fragility(piece, plane, objectives.fragility_distance);
+        evaluation.fragility = plain_fragility(piece, plane, evaluation.cap_area_mm2, objectives);
     }
+    if (objectives.needs_seam()) evaluation.seam_mm = seam_of_cap(piece, plane, halves->below);
     return evaluation;
 }
 

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "segment/cut/piece.h"
@@ -15,7 +16,9 @@ namespace qchopper {
 
 // Nothing if the plane misses the piece. Preconditions as for cut() (cut.h). Throws InputError if the mesh is open
 // where the plane passes.
-std::optional<CutEvaluation> evaluate_by_cutting(const Piece& piece, const Plane& plane, const Objectives& objectives);
+// `box_axes`: as in prepare() (prepared.h).
+std::optional<CutEvaluation> evaluate_by_cutting(const Piece& piece, const Plane& plane, const Objectives& objectives,
+                                                 const std::array<Vec3, 3>* box_axes = nullptr);
 
 // The same values of a piece that is not cut.
 SolidEvaluation measure(const Piece& piece);

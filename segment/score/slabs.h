@@ -7,9 +7,11 @@
 
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -37,13 +39,32 @@ struct PartSums {
     }
 };
 
-// Sums of many parts (components, loops or merged ones), and for each part the sums of every half-space of the piece.
-// Merging two parts adds their rows.
+// Along the axes of the piece's oriented box; the default holds nothing.
+struct PartBox {
+    std::array<double, 3> low{no_length, no_length, no_length};
+    std::array<double, 3> high{-no_length, -no_length, -no_length};
+    static constexpr double no_length = std::numeric_limits<double>::infinity();
+    void include(std::size_t axis, double from, double to) {
+        low[axis] = std::min(low[axis], from);
+        high[axis] = std::max(high[axis], to);
+    }
+    void include(const PartBox& b) {
+        for (std::size_t axis = 0; axis < 3; ++axis) include(axis, b.low[axis], b.high[axis]);
+    }
+    Vec3 size() const { return {high[0] - low[0], high[1] - low[1], high[2] - low[2]}; }
+};
+
+// Sums of many parts (components, loops or merged ones), and for each part the sums of every half-space of the piece,
+// and its box along the axes of the piece's oriented box if boxes are asked for. Merging two parts adds their rows.
 class SumTable {
  public:
     SumTable() = default;
-    SumTable(std::size_t parts, std::size_t half_spaces)
-        : half_spaces_(half_spaces), parts_(parts), bases_(parts * half_spaces) {}
+    SumTable(std::size_t parts, std::size_t half_spaces, bool has_boxes = false)
+        : half_spaces_(half_spaces), parts_(parts), bases_(parts * half_spaces), boxes_(has_boxes ? parts : 0) {}
+    bool has_boxes() const { return !boxes_.empty(); }
+    void add_boxes() { boxes_.resize(parts_.size()); }
+    PartBox& box(std::size_t p) { return boxes_[p]; }
+    const PartBox& box(std::size_t p) const { return boxes_[p]; }
     PartSums& part(std::size_t p) { return parts_[p]; }
     const PartSums& part(std::size_t p) const { return parts_[p]; }
     std::span<BaseSums> bases(std::size_t p) { return std::span(bases_).subspan(p * half_spaces_, half_spaces_); }
@@ -57,12 +78,14 @@ class SumTable {
         parts_[to] += from.parts_[p];
         for (std::size_t b = 0; b < half_spaces_; ++b)
             bases_[to * half_spaces_ + b] += from.bases_[p * half_spaces_ + b];
+        if (!boxes_.empty() && !from.boxes_.empty()) boxes_[to].include(from.boxes_[p]);
     }
 
  private:
     std::size_t half_spaces_ = 0;
     std::vector<PartSums> parts_;
     std::vector<BaseSums> bases_;  // part by part
+    std::vector<PartBox> boxes_;   // per part, or none
 };
 
 // A triangle whose corners lie in different slabs.

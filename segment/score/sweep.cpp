@@ -11,8 +11,10 @@
 
 #include "segment/cut/half_solids.h"
 #include "segment/mesh/disjoint_sets.h"
+#include "segment/score/binary_fragility.h"
 #include "segment/score/fragility_sweep.h"
 #include "segment/score/section.h"
+#include "segment/score/section_measures.h"
 #include "segment/score/slabs.h"
 
 namespace qchopper {
@@ -105,7 +107,7 @@ class SweepSide {
                            static_cast<std::uint32_t>(loop - first));
             }
         }
-        SumTable sums(count, sums_.half_spaces());
+        SumTable sums(count, sums_.half_spaces(), sums_.has_boxes());
         std::vector<bool> has_cap(count, false);
         for (std::uint32_t i = 0; i < count; ++i) {
             sums.add(part.root(i), above_ ? section_.above : section_.below, first + i);
@@ -147,6 +149,7 @@ class SweepSide {
         s.faces = static_cast<std::size_t>(all.faces);
         s.volume_mm3 = all.volume;
         s.above = above_;
+        if (sums.has_boxes()) s.size = sums.box(part).size();
         for (std::size_t b = 0; b < p_.piece->half_spaces.size(); ++b) {
             const BaseSums& base = sums.bases(part)[b];
             if (base.faces > 0) s.bases.push_back(share(p_.piece->half_spaces[b].cut, base.up, base.down));
@@ -182,8 +185,9 @@ std::vector<std::optional<CutEvaluation>> sweep_solids(const PreparedPiece& prep
                                                        std::span<const double> offsets) {
     std::vector<std::optional<CutEvaluation>> evaluations(offsets.size());
     if (offsets.empty()) return evaluations;
-    const Slabs all_slabs = slabs(prepared, normal, offsets);
-    const Section section = find_section(prepared, all_slabs, offsets);
+    Slabs all_slabs = slabs(prepared, normal, offsets);
+    Section section = find_section(prepared, all_slabs, offsets);
+    if (!prepared.sizes.of_cluster.empty()) add_boxes(prepared, normal, offsets, all_slabs, section);
     assert(section.first_loop.size() == offsets.size() + 1 && section.first_loop.back() == section.loops.size());
     assert(std::is_sorted(section.first_loop.begin(), section.first_loop.end()));
     std::vector<std::vector<SectionRegion>> all_regions(offsets.size());
@@ -195,6 +199,7 @@ std::vector<std::optional<CutEvaluation>> sweep_solids(const PreparedPiece& prep
         }
         all_regions[plane] = regions(section, all_slabs, plane);
     }
+    if (prepared.has_seam) add_seams(*prepared.piece, all_slabs, section, offsets, evaluations);
     const std::vector<CavityLink> links = cavity_links(*prepared.piece->mesh, prepared.shells, normal);
     for (const bool above : {true, false}) {
         SweepSide(prepared, all_slabs, section, normal, offsets, links, above).run(evaluations, all_regions);
@@ -205,14 +210,17 @@ std::vector<std::optional<CutEvaluation>> sweep_solids(const PreparedPiece& prep
 void add_fragility(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
                    const Objectives& objectives, std::span<std::optional<CutEvaluation>> evaluations) {
     assert(evaluations.size() == offsets.size());
-    const bool by_rays = objectives.fragility_form == FragilityForm::thinness;
     const double d = objectives.fragility_distance;
-    const std::vector<double> sums =
-        by_rays ? sweep_thinness(prepared, normal, offsets, d) : sweep_thesis_fragility(prepared, normal, offsets, d);
-    assert(sums.size() == evaluations.size());
+    const FragilityForm form = objectives.fragility_form;
+    const std::vector<double> values = form == FragilityForm::thinness ? sweep_thinness(prepared, normal, offsets, d)
+                                       : form == FragilityForm::thesis
+                                           ? sweep_thesis_fragility(prepared, normal, offsets, d)
+                                           : sweep_binary_fragility(prepared, normal, offsets, d);
+    assert(values.size() == evaluations.size());
     for (std::size_t j = 0; j < evaluations.size(); ++j) {
         if (!evaluations[j] || evaluations[j]->cap_area_mm2 <= 0) continue;
-        evaluations[j]->fragility = by_rays ? sums[j] / evaluations[j]->cap_area_mm2 : sums[j];
+        evaluations[j]->fragility =
+            form == FragilityForm::thinness ? values[j] / evaluations[j]->cap_area_mm2 : values[j];
     }
 }
 

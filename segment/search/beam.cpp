@@ -19,6 +19,7 @@ double of_cuts(const Segmentation& segmentation, const Objectives& objectives) {
     for (const Cut& cut : segmentation.cuts) {
         const Terms& terms = cut.chosen.terms;
         sum += w.fragility * terms.fragility + w.piece_count * terms.piece_count;
+        sum += w.utilization * terms.utilization + w.connector * terms.connector + w.symmetry * terms.symmetry;
         if (objectives.scope == TermScope::cut) sum += w.face_ratio * terms.face_ratio + w.undercut * terms.undercut;
     }
     return sum;
@@ -32,9 +33,22 @@ double of_reach(const Segmentation& segmentation, const Objectives& objectives, 
     return objectives.weights.unreachable * sum / (samples.area_each_mm2 * static_cast<double>(samples.sample.size()));
 }
 
+// Parts and seam: what all pieces and all cuts cost together.
+double of_print(const Segmentation& segmentation, const Objectives& objectives, EvaluationCache& cache) {
+    if (!objectives.needs_sizes() && !objectives.needs_seam()) return 0;
+    const ScanShare scan = scan_share(segmentation, segmentation.pieces.size(), objectives, cache);
+    double boxes = 0;
+    for (std::size_t p = 0; p < segmentation.pieces.size() && objectives.needs_sizes(); ++p) {
+        boxes += print_boxes(cache.box(segmentation.pieces[p]).size(), objectives);
+    }
+    const Weights& w = objectives.weights;
+    return w.parts * boxes / scan.boxes +
+           (objectives.needs_seam() ? w.seam * scan.seam_mm / (scan.diagonal_mm * scan.boxes) : 0);
+}
+
 double of_pieces(const Segmentation& segmentation, const Objectives& objectives, EvaluationCache& cache) {
     if (segmentation.pieces.empty()) return 0;
-    const double reach = of_reach(segmentation, objectives, cache);
+    const double reach = of_reach(segmentation, objectives, cache) + of_print(segmentation, objectives, cache);
     if (objectives.scope == TermScope::cut) return reach;
     std::size_t most = 0;
     std::size_t fewest = segmentation.pieces.front().mesh->triangles.size();
@@ -57,18 +71,21 @@ struct Head {
     double cost = 0;
     int normal_index = -1;
     int offset_index = -1;
+    bool is_forbidden = false;
 };
 
 bool is_before(const Head& a, const Head& b) {
+    if (a.is_forbidden != b.is_forbidden) return b.is_forbidden;
     if (a.cost + tie < b.cost) return true;
     if (b.cost + tie < a.cost) return false;
     return std::tie(a.normal_index, a.offset_index, a.bsp) < std::tie(b.normal_index, b.offset_index, b.bsp);
 }
 
-Head head(const std::vector<Bsp>& beam, std::size_t i, std::size_t child) {
-    if (!beam[i].is_live()) return {i, child, beam[i].cost, -1, -1};
+Head head(const std::vector<Bsp>& beam, std::size_t i, std::size_t child, const Objectives& objectives) {
+    if (!beam[i].is_live()) return {i, child, beam[i].cost, -1, -1, false};
     const Ranked& r = beam[i].ranked[beam[i].children[child]];
-    return {i, child, beam[i].of_cuts + r.terms.total, r.normal_index, r.offset_index};
+    return {
+        i, child, beam[i].of_cuts + r.terms.total, r.normal_index, r.offset_index, is_forbidden(r.terms, objectives)};
 }
 
 // A cut differs from its evaluation, and may fail, only where the scan intersects itself.
@@ -115,7 +132,7 @@ Bsp bsp(Segmentation segmentation, std::vector<std::string> passed_over, std::ve
 std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& settings, StopJudge& judge,
                             EvaluationCache& cache, const Context& context) {
     std::vector<Head> heads;
-    for (std::size_t i = 0; i < beam.size(); ++i) heads.push_back(head(beam, i, 0));
+    for (std::size_t i = 0; i < beam.size(); ++i) heads.push_back(head(beam, i, 0, settings.objectives));
     std::vector<Bsp> kept;
     std::vector<bool> has_child(beam.size(), false);
     std::vector<Trials> trials(beam.size());
@@ -139,7 +156,7 @@ std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& setting
             has_child[taken.bsp] = true;
         }
         if (taken.child + 1 < parent.children.size() && trials[taken.bsp].count < settings.beam) {
-            *best = head(beam, taken.bsp, taken.child + 1);
+            *best = head(beam, taken.bsp, taken.child + 1, settings.objectives);
             continue;
         }
         heads.erase(best);

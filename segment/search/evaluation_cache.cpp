@@ -108,8 +108,8 @@ void EvaluationCache::evaluate(std::span<const Piece* const> pieces, const Conte
     SharedProgress progress(context, planes);
     parallel_for(0, tasks.size(), [&](std::size_t i) {
         Task& task = tasks[i];
-        task.evaluations.evaluations =
-            evaluate_all(*task.piece, task.evaluations.candidates, objectives_, progress.of_one_piece());
+        task.evaluations.evaluations = evaluate_all(*task.piece, task.evaluations.candidates, objectives_,
+                                                    progress.of_one_piece(), &task.entry->box->axis);
     });
     for (Task& task : tasks) {
         if (store_.keep) store_.keep(*task.piece, task.evaluations);
@@ -130,7 +130,8 @@ const PieceEvaluations& EvaluationCache::evaluations(const Piece& piece) const {
 
 std::optional<CutEvaluation> EvaluationCache::evaluation_of(const Piece& piece, const Candidate& plane,
                                                             const Context& context) {
-    return evaluate_all(piece, std::span(&plane, 1), objectives_, context).front();
+    const std::array<Vec3, 3>* axes = objectives_.needs_sizes() ? &box(piece).axis : nullptr;
+    return evaluate_all(piece, std::span(&plane, 1), objectives_, context, axes).front();
 }
 
 void EvaluationCache::keep_only(std::span<const Segmentation* const> segmentations) {

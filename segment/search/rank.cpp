@@ -38,22 +38,51 @@ std::vector<PieceShare> shares_of_others(const Segmentation& segmentation, std::
         if (objectives.weights.unreachable > 0) {
             shares.back().unreachable_mm2 = cache.unreachable_mm2(other, objectives.tilt_deg);
         }
+        if (objectives.needs_sizes()) shares.back().boxes = print_boxes(cache.box(other).size(), objectives);
     }
     return shares;
 }
 
+ScanShare scan_share(const Segmentation& segmentation, std::size_t piece, const Objectives& objectives,
+                     EvaluationCache& cache) {
+    ScanShare share;
+    const UncutScan& scan = segmentation.scan;
+    share.diagonal_mm = scan.diagonal_mm;
+    if (objectives.needs_sizes()) {
+        share.boxes = 0;
+        for (const Vec3& size : scan.solid_sizes_mm) share.boxes += print_boxes(size, objectives);
+        assert(share.boxes > 0);
+    }
+    if (!objectives.needs_seam()) return share;
+    assert(scan.diagonal_mm > 0);
+    for (const Cut& cut : segmentation.cuts) share.seam_mm += cut.chosen.seam_mm;
+    for (std::size_t p = 0; p < segmentation.pieces.size() && objectives.print_volume; ++p) {
+        const Piece& other = segmentation.pieces[p];
+        const std::int32_t maker = made_by(other);
+        if (p == piece || maker == 0) continue;
+        const double further = print_boxes(cache.box(other).size(), objectives) - 1;
+        share.seam_mm += further * segmentation.cuts[static_cast<std::size_t>(maker) - 1].chosen.seam_mm;
+    }
+    return share;
+}
+
 std::vector<Ranked> rank(const PieceEvaluations& evaluations, std::span<const PieceShare> others,
-                         const Objectives& objectives) {
+                         const Objectives& objectives, const ScanShare& scan) {
     assert(evaluations.candidates.size() == evaluations.evaluations.size());
     std::vector<Ranked> ranked;
     for (std::size_t i = 0; i < evaluations.candidates.size(); ++i) {
         if (!evaluations.evaluations[i]) continue;
-        const std::optional<Terms> t = terms(*evaluations.evaluations[i], others, objectives);
+        const std::optional<Terms> t = terms(*evaluations.evaluations[i], others, objectives, scan);
         if (!t) continue;
         const Candidate& c = evaluations.candidates[i];
-        ranked.push_back({c.plane, c.wanted_offset, c.normal_index, c.offset_index, *t});
+        ranked.push_back(
+            {c.plane, c.wanted_offset, c.normal_index, c.offset_index, *t, evaluations.evaluations[i]->seam_mm});
     }
     sort_best_first(ranked);
+    if (!objectives.forbidden.empty()) {
+        std::stable_partition(ranked.begin(), ranked.end(),
+                              [&](const Ranked& r) { return !is_forbidden(r.terms, objectives); });
+    }
     return ranked;
 }
 

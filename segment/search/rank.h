@@ -24,9 +24,15 @@ constexpr double tie = 1e-9;  // totals that differ by less are equal
 std::vector<PieceShare> shares_of_others(const Segmentation& segmentation, std::size_t piece,
                                          const Objectives& objectives, EvaluationCache& cache);
 
-// The candidates that have terms (objectives.h), best first. `others`: the shares of the other pieces.
+// What the uncut scan and the older cuts add to the terms of a cut of the piece. Precondition: the scan is measured
+// where objectives need it.
+ScanShare scan_share(const Segmentation& segmentation, std::size_t piece, const Objectives& objectives,
+                     EvaluationCache& cache);
+
+// The candidates that have terms (objectives.h), best first; those that are forbidden after all others. `others`: the
+// shares of the other pieces.
 std::vector<Ranked> rank(const PieceEvaluations& evaluations, std::span<const PieceShare> others,
-                         const Objectives& objectives);
+                         const Objectives& objectives, const ScanShare& scan = {});
 
 // Drops from a ranking every candidate that has a better one of the same normal_index at a distance below `near`, a
 // share of the piece's extent. Returns the indices of the others, best first.

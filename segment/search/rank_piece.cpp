@@ -21,7 +21,8 @@ std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, co
     const Piece* target = &segmentation.pieces[piece];
     cache.evaluate(std::span(&target, 1), context);
     const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, cache);
-    return rank(cache.evaluations(*target), others, settings.objectives);
+    return rank(cache.evaluations(*target), others, settings.objectives,
+                scan_share(segmentation, piece, settings.objectives, cache));
 }
 
 std::vector<Ranked> rank_whole_normals(const Segmentation& segmentation, std::size_t piece,
@@ -43,7 +44,8 @@ std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t p
         alone.evaluations.front()->reach = cut_reach(target, plane.plane, settings.objectives.tilt_deg);
     }
     const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, cache);
-    const std::vector<Ranked> ranked = rank(alone, others, settings.objectives);
+    const std::vector<Ranked> ranked =
+        rank(alone, others, settings.objectives, scan_share(segmentation, piece, settings.objectives, cache));
     return ranked.empty() ? std::nullopt : std::optional(ranked.front());
 }
 

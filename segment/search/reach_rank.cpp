@@ -65,7 +65,8 @@ class ReachRanking {
           settings_(settings),
           context_(context),
           reach_(cache.reach(piece_)),
-          is_of_cut_(settings.objectives.scope == TermScope::cut && settings.objectives.weights.undercut == 0) {
+          is_of_cut_(settings.objectives.scope == TermScope::cut && settings.objectives.weights.undercut == 0 &&
+                     !settings.objectives.needs_sizes() && !settings.objectives.needs_seam()) {
         if (reach_.normals.empty()) {
             const StageTimer stage(context, "reach swept");
             reach_ = swept(piece_, cache.box(piece_), settings, context);
@@ -81,6 +82,8 @@ class ReachRanking {
         reach_.best = best;
         reach_.for_size = std::move(for_size);
         others_ = shares_of_others(segmentation, piece, settings.objectives, cache);
+        scan_ = scan_share(segmentation, piece, settings.objectives, cache);
+        box_axes_ = cache.box(piece_).axis;
         for (const PieceShare& other : others_) others_unreachable_mm2_ += other.unreachable_mm2;
         find_candidates(cache.unreachable_mm2(piece_, settings.objectives.tilt_deg));
     }
@@ -155,7 +158,7 @@ class ReachRanking {
                    scan_area_mm2(piece_);
         }
         if (!at->second.evaluation) return at->second.is_swept ? infinite : 0;
-        const std::optional<Terms> t = terms(*at->second.evaluation, counted_others(), settings_.objectives);
+        const std::optional<Terms> t = terms(*at->second.evaluation, counted_others(), settings_.objectives, scan_);
         return t ? t->total : infinite;
     }
 
@@ -291,7 +294,7 @@ class ReachRanking {
     }
 
     const PreparedPiece& prepared_piece() {
-        if (!prepared_) prepared_ = prepare(piece_, settings_.objectives);
+        if (!prepared_) prepared_ = prepare(piece_, settings_.objectives, &box_axes_);
         return *prepared_;
     }
 
@@ -307,7 +310,7 @@ class ReachRanking {
         reach_.is_refined = true;
         if (!reach_.refined) return ranked;
         const std::vector<Ranked> refined =
-            rank({{reach_.refined->candidate}, {reach_.refined->evaluation}}, others_, settings_.objectives);
+            rank({{reach_.refined->candidate}, {reach_.refined->evaluation}}, others_, settings_.objectives, scan_);
         ranked.insert(ranked.begin(), refined.begin(), refined.end());
         return ranked;
     }
@@ -334,9 +337,10 @@ class ReachRanking {
         if (!evaluation.front() || evaluation.front()->solids.size() != 2) return;
         add_fragility(prepared_piece(), found.plane.normal, {&nudged->offset, 1}, settings_.objectives, evaluation);
         evaluation.front()->reach = CutReach{found.unreachable_mm2, area};
-        const std::optional<Terms> after = terms(*evaluation.front(), counted_others(), settings_.objectives);
+        const std::optional<Terms> after = terms(*evaluation.front(), counted_others(), settings_.objectives, scan_);
         refined.evaluation->reach->unreachable_mm2 = before;
-        const std::optional<Terms> unrefined = terms(*refined.evaluation, counted_others(), settings_.objectives);
+        const std::optional<Terms> unrefined =
+            terms(*refined.evaluation, counted_others(), settings_.objectives, scan_);
         if (!after || after->total >= unrefined->total - tie) return;
         evaluation.front()->reach = cut_reach(piece_, refined.candidate.plane, settings_.objectives.tilt_deg);
         refined.evaluation = std::move(evaluation.front());
@@ -350,7 +354,7 @@ class ReachRanking {
             all.candidates.push_back(plane.candidate);
             all.evaluations.push_back(plane.evaluation);
         }
-        return rank(all, others, settings_.objectives);
+        return rank(all, others, settings_.objectives, scan_);
     }
 
     // Of the planes that are taken as the best, the first whose sides are several solids and that was not cut yet.
@@ -385,6 +389,8 @@ class ReachRanking {
     bool is_of_cut_;  // the other pieces add the same to the cost of every plane
     std::vector<PieceShare> others_;
     double others_unreachable_mm2_ = 0;
+    ScanShare scan_;
+    std::array<Vec3, 3> box_axes_;
     bool is_restricted_ = true;  // to the candidates
     bool is_along_box_only_ = false;
     double most_unreachable_mm2_ = 0;  // of a candidate

@@ -9,8 +9,10 @@
 #include "segment/cut/cut_piece.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/order.h"
+#include "segment/mesh/oriented_box.h"
 #include "segment/mesh/solids.h"
 #include "segment/score/sampled_piece.h"
+#include "segment/score/seam_cost.h"
 #include "segment/search/piece_names.h"
 
 namespace qchopper {
@@ -53,6 +55,18 @@ Segmentation uncut(const TriangleMesh& scan, double fragment_volume_mm3) {
     return segmentation;
 }
 
+UncutScan measure_scan(const Segmentation& uncut) {
+    assert(uncut.cuts.empty());
+    UncutScan scan;
+    std::vector<Vec3> points;
+    for (const Piece& piece : uncut.pieces) {
+        scan.solid_sizes_mm.push_back(oriented_box(piece.mesh->points).size());
+        points.insert(points.end(), piece.mesh->points.begin(), piece.mesh->points.end());
+    }
+    if (!points.empty()) scan.diagonal_mm = norm(oriented_box(points).size());
+    return scan;
+}
+
 bool apply(Segmentation& segmentation, Cut cut, double fragment_volume_mm3) {
     const auto piece = std::find_if(segmentation.pieces.begin(), segmentation.pieces.end(),
                                     [&](const Piece& p) { return p.name == cut.piece; });
@@ -60,6 +74,7 @@ bool apply(Segmentation& segmentation, Cut cut, double fragment_volume_mm3) {
     std::optional<CutPieces> made = cut_piece(*piece, cut.chosen.plane, cut.number);
     if (!made) return false;
     sample_parts(*piece, *made);
+    pass_on_seam_costs(*piece, *made);
     segmentation.pieces.erase(piece);
     const std::size_t fragments_before = segmentation.fragments.size();
     cut.pieces = add_solids(segmentation, std::move(made->pieces), cut.number, fragment_volume_mm3);

@@ -23,6 +23,7 @@ struct Ranked {
     int normal_index = 0;  // as in Candidate
     int offset_index = 0;
     Terms terms;
+    double seam_mm = 0;  // CutEvaluation::seam_mm, which later cuts need
     bool operator==(const Ranked&) const = default;
 };
 
@@ -52,6 +53,12 @@ struct Discarded {
     Piece piece;
 };
 
+// What the objectives of Chopper need of the uncut scan: measure_scan().
+struct UncutScan {
+    double diagonal_mm = 0;            // of the oriented box of all solids that are no fragments
+    std::vector<Vec3> solid_sizes_mm;  // of the oriented box of each
+};
+
 struct Segmentation {
     std::vector<Cut> cuts;
     std::vector<Piece> pieces;  // the leaves, in the order of their names
@@ -59,6 +66,7 @@ struct Segmentation {
     std::vector<Discarded> discarded;  // in the order of the decisions
     std::size_t names_given = 0;       // the next piece is piece_name(names_given), piece_names.h
     std::vector<std::string> warnings;
+    UncutScan scan;  // empty: not measured, because no objective needs it
 };
 
 // The number of the cut that made a piece; 0: it was in the scan.
@@ -67,6 +75,9 @@ std::int32_t made_by(const Piece& piece);
 // The uncut scan as a segmentation: every solid is a piece, or a fragment if it is smaller than fragment_volume_mm3.
 // Precondition: a closed mesh. Points and triangles of the pieces are in memory order (order.h).
 Segmentation uncut(const TriangleMesh& scan, double fragment_volume_mm3);
+
+// Precondition: no cut was made yet. O(points).
+UncutScan measure_scan(const Segmentation& uncut);
 
 // Cuts the piece cut.piece along cut.chosen.plane and adds the cut, with the pieces and fragments that it makes filled
 // in. If the piece has samples, those that it makes have them too. Returns false, and changes nothing, if there is no

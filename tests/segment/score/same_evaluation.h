@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "segment/cut/nudge.h"
 #include "segment/mesh/measure.h"
+#include "segment/mesh/oriented_box.h"
 #include "segment/score/reference.h"
 #include "segment/score/sweep.h"
 
@@ -30,6 +32,7 @@ inline void expect_equal(const CutEvaluation& fast, const CutEvaluation& plain, 
     EXPECT_NEAR(fast.cap_area_mm2, plain.cap_area_mm2, 1e-9 * plain.cap_area_mm2 + 1e-13 * area) << what;
     EXPECT_NEAR(fast.fragility, plain.fragility, 1e-9 * (1 + plain.fragility) + 1e-13 * area / plain.cap_area_mm2)
         << what;
+    EXPECT_NEAR(fast.seam_mm, plain.seam_mm, 1e-9 * plain.seam_mm + 1e-12 * size) << what;
     ASSERT_EQ(fast.solids.size(), plain.solids.size()) << what;
     const auto a = sorted(fast.solids);
     const auto b = sorted(plain.solids);
@@ -37,6 +40,7 @@ inline void expect_equal(const CutEvaluation& fast, const CutEvaluation& plain, 
         ASSERT_EQ(a[i].above, b[i].above) << what;
         ASSERT_EQ(a[i].faces, b[i].faces) << what;
         ASSERT_NEAR(a[i].volume_mm3, b[i].volume_mm3, 1e-9 * std::abs(b[i].volume_mm3) + 1e-12 * area * size) << what;
+        ASSERT_NEAR(norm(a[i].size - b[i].size), 0, 1e-9 * size) << what;
         ASSERT_EQ(a[i].bases.size(), b[i].bases.size()) << what;
         for (std::size_t k = 0; k < a[i].bases.size(); ++k) {
             ASSERT_EQ(a[i].bases[k].cut, b[i].bases[k].cut) << what;
@@ -59,10 +63,11 @@ inline std::size_t expect_same(const Piece& piece, Vec3 normal, std::vector<doub
         if (n && (offsets.empty() || n->offset > offsets.back())) offsets.push_back(n->offset);
     }
     if (offsets.empty()) return 0;
-    const auto fast = sweep(prepare(piece, objectives), normal, offsets, objectives);
+    const auto axes = objectives.needs_sizes() ? oriented_box(piece.mesh->points).axis : std::array<Vec3, 3>{};
+    const auto fast = sweep(prepare(piece, objectives, &axes), normal, offsets, objectives);
     const double size = norm(bounds(*piece.mesh).size());
     for (std::size_t j = 0; j < offsets.size(); ++j) {
-        const auto plain = evaluate_by_cutting(piece, {normal, offsets[j]}, objectives);
+        const auto plain = evaluate_by_cutting(piece, {normal, offsets[j]}, objectives, &axes);
         EXPECT_EQ(fast[j].has_value(), plain.has_value()) << what;
         if (!plain || !fast[j]) continue;
         expect_equal(*fast[j], *plain, size, objectives.undercut_by_area, what + " offset " + std::to_string(j));

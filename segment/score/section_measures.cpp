@@ -1,0 +1,91 @@
+// A cluster all of whose points are of one component is added by its box; of the others each point. Outlines are added
+// up crossing by crossing, each with the one before it on its loop.
+
+#include "segment/score/section_measures.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace qchopper {
+namespace {
+
+void add_cluster(const PreparedPiece& p, std::size_t c, Slabs& slabs) {
+    const std::uint32_t first = p.clusters.cluster[c].first_point;
+    const std::span<const std::uint32_t> points(p.clusters.point.data() + first,
+                                                p.clusters.cluster[c + 1].first_point - first);
+    const std::uint32_t component = slabs.component_of[points.front()];
+    const bool is_one =
+        std::all_of(points.begin(), points.end(), [&](std::uint32_t v) { return slabs.component_of[v] == component; });
+    if (is_one) {
+        const std::array<double, 6>& box = p.sizes.of_cluster[c];
+        for (std::size_t k = 0; k < 3; ++k) slabs.inside.box(component).include(k, box[k], box[3 + k]);
+        return;
+    }
+    for (const std::uint32_t v : points) {
+        PartBox& box = slabs.inside.box(slabs.component_of[v]);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double at = dot(p.sizes.axis[k], p.piece->mesh->points[v]);
+            box.include(k, at, at);
+        }
+    }
+}
+
+}  // namespace
+
+void add_boxes(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets, Slabs& slabs,
+               Section& section) {
+    slabs.inside.add_boxes();
+    for (std::size_t c = 0; c < prepared.clusters.count(); ++c) add_cluster(prepared, c, slabs);
+    const PlaneFrame frame = frame_across(normal);
+    section.above.add_boxes();
+    section.below.add_boxes();
+    for (std::size_t l = 0; l < section.loops.size(); ++l) {
+        const SectionLoop& loop = section.loops[l];
+        const Vec3 origin = prepared.origin + (offsets[loop.plane] - height(normal, prepared.origin)) * normal;
+        PartBox& box = section.above.box(l);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 axis = prepared.sizes.axis[k];
+            const double at = dot(axis, origin);
+            const double u = dot(axis, frame.u);
+            const double v = dot(axis, frame.v);
+            std::uint32_t i = loop.first_crossing;
+            for (std::uint32_t n = 0; n < loop.points; ++n, i = section.next[i]) {
+                const double along = at + u * slabs.point[i].x + v * slabs.point[i].y;
+                box.include(k, along, along);
+            }
+        }
+        section.below.box(l) = box;
+    }
+}
+
+void add_seams(const Piece& piece, const Slabs& slabs, const Section& section, std::span<const double> offsets,
+               std::span<std::optional<CutEvaluation>> evaluations) {
+    const TriangleMesh& mesh = *piece.mesh;
+    std::vector<double> cost(slabs.exit.size(), 1.0);  // per crossing, where it leaves its triangle
+    std::uint32_t i = 0;
+    for (const CrossedTriangle& s : slabs.crossed) {
+        for (std::size_t plane = s.low; plane < s.high && piece.seam_cost; ++plane, ++i) {
+            const std::uint32_t from = slabs.exit[i] % 3;
+            const std::uint32_t to = (from + 1) % 3;
+            const double share = (s.height[from] - offsets[plane]) / (s.height[from] - s.height[to]);
+            const double upper = seam_cost(piece, mesh.triangles[s.triangle][from]);
+            cost[i] = upper + share * (seam_cost(piece, mesh.triangles[s.triangle][to]) - upper);
+        }
+    }
+    for (const SectionLoop& loop : section.loops) {
+        if (!evaluations[loop.plane] || loop.points <= 2) continue;  // a cut makes no cap there
+        std::uint32_t at = loop.first_crossing;
+        double sum = 0;
+        for (std::uint32_t n = 0; n < loop.points; ++n) {
+            const std::uint32_t next = section.next[at];
+            const double length =
+                std::hypot(slabs.point[next].x - slabs.point[at].x, slabs.point[next].y - slabs.point[at].y);
+            sum += seam_part(piece, slabs.exit[next] / 3, length, cost[at], cost[next]);
+            at = next;
+        }
+        evaluations[loop.plane]->seam_mm += sum;
+    }
+}
+
+}  // namespace qchopper
