@@ -65,9 +65,13 @@ struct ProjectArguments : RepairChoiceArguments {
     std::optional<double> max_unreachable;  // 0..1
     bool count_narrow = false;
     std::optional<int> max_cuts;
-    std::optional<std::string> stop;       // any | all
-    std::optional<std::string> fragility;  // thinness | thesis
-    std::optional<std::string> weights;    // option_values.h reads it
+    std::optional<std::string> stop;          // any | all
+    std::optional<std::string> fragility;     // thinness | thesis | binary
+    std::optional<std::string> print_volume;  // option_values.h reads it
+    std::optional<std::string> utilization;   // cut | whole
+    std::optional<std::string> connector;     // spread | ratio
+    std::vector<std::string> forbidden;       // objectives
+    std::optional<std::string> weights;       // option_values.h reads it
     std::optional<int> beam;
     std::optional<double> time_limit_s;
     std::optional<std::string> fragments;  // keep | drop

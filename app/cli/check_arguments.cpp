@@ -54,13 +54,21 @@ Action action_of(const SegmentArguments& a) {
 std::string new_project_option(const ProjectArguments& a, bool is_replay_given = false) {
     const bool is_repair_given =
         a.weld_mm || a.fill || a.smooth_pen_grooves || a.alpha_wrap_mm || a.resolve_self_intersections;
-    const std::pair<bool, const char*> options[] = {
-        {a.units.has_value(), "--units"},         {a.scale.has_value(), "--scale"},
-        {a.preset.has_value(), "--preset"},       {a.fragment_volume_mm3.has_value(), "--fragment-volume"},
-        {a.fragments.has_value(), "--fragments"}, {a.out.has_value(), "--out"},
-        {a.fragility.has_value(), "--fragility"}, {is_replay_given, "--replay"},
-        {is_repair_given, "a choice of repair"},  {a.ignore_surface.has_value(), "--ignore-surface"},
-        {a.ignore_inside, "--ignore-inside"}};
+    const std::pair<bool, const char*> options[] = {{a.units.has_value(), "--units"},
+                                                    {a.scale.has_value(), "--scale"},
+                                                    {a.preset.has_value(), "--preset"},
+                                                    {a.fragment_volume_mm3.has_value(), "--fragment-volume"},
+                                                    {a.fragments.has_value(), "--fragments"},
+                                                    {a.out.has_value(), "--out"},
+                                                    {a.fragility.has_value(), "--fragility"},
+                                                    {is_replay_given, "--replay"},
+                                                    {is_repair_given, "a choice of repair"},
+                                                    {a.ignore_surface.has_value(), "--ignore-surface"},
+                                                    {a.ignore_inside, "--ignore-inside"},
+                                                    {a.print_volume.has_value(), "--print-volume"},
+                                                    {a.utilization.has_value(), "--utilization"},
+                                                    {!a.forbidden.empty(), "--forbid"},
+                                                    {a.connector.has_value(), "--connector"}};
     for (const auto& [is_given, name] : options) {
         if (is_given) return name;
     }

@@ -43,11 +43,9 @@ std::optional<Vec3> unit_from(Vec3 direction) {
 }
 
 std::optional<double>* weight_named(GivenWeights& weights, const std::string& name) {
-    if (name == "face_ratio") return &weights.face_ratio;
-    if (name == "fragility") return &weights.fragility;
-    if (name == "piece_count") return &weights.piece_count;
-    if (name == "undercut") return &weights.undercut;
-    if (name == "unreachable") return &weights.unreachable;
+    for (std::size_t i = 0; i < all_objectives.size(); ++i) {
+        if (name == all_objectives[i].key) return &weights.weight[i];
+    }
     return nullptr;
 }
 
@@ -57,12 +55,12 @@ std::optional<GivenWeights> weights_from(const std::string& text) {
     const std::vector<std::string> parts = split(text);
     GivenWeights weights;
     const bool is_bare = text.find('=') == std::string::npos;
-    if (is_bare && parts.size() != 4) return std::nullopt;
-    const std::array<const char*, 4> order{"face_ratio", "fragility", "piece_count", "undercut"};
+    if (is_bare && parts.size() != always_named) return std::nullopt;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const std::size_t equals = parts[i].find('=');
         if (!is_bare && equals == std::string::npos) return std::nullopt;
-        std::optional<double>* weight = weight_named(weights, is_bare ? order[i] : parts[i].substr(0, equals));
+        std::optional<double>* weight =
+            weight_named(weights, is_bare ? all_objectives[i].key : parts[i].substr(0, equals));
         if (weight == nullptr || *weight) return std::nullopt;  // unknown, or named twice
         *weight = number_from(is_bare ? parts[i] : parts[i].substr(equals + 1));
         if (!*weight || **weight < 0 || **weight > largest_weight) return std::nullopt;
@@ -98,6 +96,14 @@ std::optional<std::size_t> place_from(const std::string& text) {
     const std::optional<double> value = number_from(text);
     if (!value || *value < 1 || *value > 1e6 || *value != std::floor(*value)) return std::nullopt;
     return static_cast<std::size_t>(*value);
+}
+
+std::vector<std::string> forbiddable() {
+    std::vector<std::string> keys;
+    for (const ObjectiveField& field : all_objectives) {
+        if (field.can_forbid) keys.emplace_back(field.key);
+    }
+    return keys;
 }
 
 // Messages of their own: those of the option parser have type names and bounds of 300 digits.

@@ -19,6 +19,9 @@ namespace qchopper {
 // count, undercut. Weights are from 0 to 1e12.
 std::optional<GivenWeights> weights_from(const std::string& text);
 
+// The objectives of which a value of 1 can be forbidden.
+std::vector<std::string> forbiddable();
+
 // "nx,ny,nz,d": a direction of any length but zero, and the distance along it in mm. The normal is a unit vector.
 std::optional<Plane> plane_from(const std::string& text);
 

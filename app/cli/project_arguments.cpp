@@ -24,10 +24,18 @@ SearchSettings settings_of(const ProjectArguments& a, const std::string& preset_
     settings.stop.count_narrow = a.count_narrow;
     settings.stop.max_cuts = a.max_cuts.value_or(settings.stop.max_cuts);
     if (a.fragility) {
-        settings.objectives.fragility_form = *a.fragility == "thesis" ? FragilityForm::thesis : FragilityForm::thinness;
+        settings.objectives.fragility_form = *a.fragility == "thesis"   ? FragilityForm::thesis
+                                             : *a.fragility == "binary" ? FragilityForm::binary
+                                                                        : FragilityForm::thinness;
     }
     if (a.beam) settings.beam = static_cast<std::size_t>(*a.beam);
-    return settings;
+    if (a.print_volume) settings.objectives.print_volume = lengths_from(*a.print_volume);
+    if (a.utilization)
+        settings.objectives.utilization_scope = *a.utilization == "whole" ? TermScope::whole : TermScope::cut;
+    if (a.connector)
+        settings.objectives.connector.form = *a.connector == "ratio" ? ConnectorForm::ratio : ConnectorForm::spread;
+    settings.objectives.forbidden = a.forbidden;
+    return stopping_at_print_volume(settings, preset_name);
 }
 
 RepairChoices repair_choices(const RepairChoiceArguments& a) {

@@ -50,8 +50,9 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
          "--preset", a.preset,
          "objectives and stop rules by name: carve cuts for what a tilting tool reaches, until of no piece more "
          "than 2 % is out of reach and every piece fits the cell; thesis has the objectives of Nicholson 2016 "
-         "and no stop rule; bunny, femur, vertebrae and skull are its cases (carve)")
-        ->check(one_of({"carve", "thesis", "bunny", "femur", "vertebrae", "skull"}));
+         "and no stop rule; bunny, femur, vertebrae and skull are its cases; chopper has the objectives of Luo et al. "
+         "2012 and stops when every piece fits the print volume (carve)")
+        ->check(one_of({"carve", "thesis", "bunny", "femur", "vertebrae", "skull", "chopper"}));
     c->add_option("--min-cuts", a.min_cuts, "stop rule: make at least N cuts")
         ->check(number_between(0, 1e6, "a count of cuts"));
     c->add_option("--max-faces", a.max_faces, "stop rule: every piece has fewer than N faces")
@@ -76,15 +77,30 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
     c->add_option("--max-cuts", a.max_cuts, "end the search at N cuts, whatever the stop rules (500)")
         ->check(number_between(0, 1e6, "a count of cuts"));
     c->add_option("--stop", a.stop, "stop when any or all of the rules hold (all)")->check(one_of({"any", "all"}));
-    c->add_option("--fragility", a.fragility, "form of that objective: thinness or thesis (thinness)")
-        ->check(one_of({"thinness", "thesis"}));
+    c->add_option("--fragility", a.fragility,
+                  "form of that objective: thinness, thesis or binary (thinness; binary by chopper)")
+        ->check(one_of({"thinness", "thesis", "binary"}));
+    c->add_option(
+         "--print-volume", a.print_volume,
+         "box of X,Y,Z mm that parts, utilization and seam count by, in the best order of the axes (the largest "
+         "block of the cell, else none)")
+        ->check(read_by(lengths_from, "not X,Y,Z in mm"));
+    c->add_option("--utilization", a.utilization, "over which pieces: those of the newest cut, or the whole (cut)")
+        ->check(one_of({"cut", "whole"}));
+    c->add_option("--connector", a.connector, "form of that objective: spread or ratio (spread)")
+        ->check(one_of({"spread", "ratio"}));
+    c->add_option("--forbid", a.forbidden,
+                  "take a cut with the value 1 of this objective only if no other is left: fragility or connector; "
+                  "several by commas")
+        ->delimiter(',')
+        ->check(one_of(forbiddable()));
     add_fragments(c, a.fragments);
     c->add_option("--fragment-volume", a.fragment_volume_mm3,
                   "solids of less than so many mm3 are no pieces (a hundred-thousandth of the scan's volume)")
         ->check(number_between(0, many, "a volume in mm3"));
-    c->add_option(
-         "--weights", a.weights,
-         "of the terms, any of face_ratio=10,fragility=5,piece_count=50,undercut=10,unreachable=0 (the preset's)")
+    c->add_option("--weights", a.weights,
+                  "of the terms, any of face_ratio=10,fragility=5,piece_count=50,undercut=10,unreachable=0, and of "
+                  "Chopper's parts, utilization, connector, seam, symmetry (the preset's)")
         ->check(
             read_by(weights_from, "not like face_ratio=10,fragility=5,piece_count=50,undercut=10, nor four numbers"));
     c->add_option("--beam", a.beam, "how many segmentations the search keeps (1: greedy)")

@@ -13,9 +13,11 @@
 namespace qchopper {
 
 Weights GivenWeights::over(const Weights& weights) const {
-    return {face_ratio.value_or(weights.face_ratio), fragility.value_or(weights.fragility),
-            piece_count.value_or(weights.piece_count), undercut.value_or(weights.undercut),
-            unreachable.value_or(weights.unreachable)};
+    Weights result = weights;
+    for (std::size_t i = 0; i < all_objectives.size(); ++i) {
+        if (weight[i]) result.*all_objectives[i].weight = *weight[i];
+    }
+    return result;
 }
 
 std::string describe(const Decision& decision) {
@@ -40,6 +42,20 @@ std::string describe_planes(std::size_t evaluated, const SearchSettings& setting
     return "up to " + with_commas(judged) + " planes, " + with_commas(evaluated) + " of them evaluated whole";
 }
 
+namespace {
+
+// ", seam 0.213": of those that have a weight.
+std::string terms_of_chopper(const Terms& t, const Weights& weights) {
+    std::string text;
+    for (std::size_t i = first_of_chopper; i < all_objectives.size(); ++i) {
+        const ObjectiveField& field = all_objectives[i];
+        if (weights.*field.weight > 0) text += ", " + std::string(field.key) + " " + fixed(t.*field.value, 3);
+    }
+    return text;
+}
+
+}  // namespace
+
 std::string cut_line(const Cut& cut, const SearchSettings& settings) {
     const Terms& t = cut.chosen.terms;
     // If another than the best was accepted, the best is among the runners-up. Of totals that differ by a tie none is
@@ -54,8 +70,9 @@ std::string cut_line(const Cut& cut, const SearchSettings& settings) {
     return "cut " + std::to_string(cut.number) + " on piece " + cut.piece + ": " + which + ", total " +
            fixed(t.total, 3) + " (face ratio " + fixed(t.face_ratio, 2) + ", fragility " + fixed(t.fragility, 3) +
            ", piece count " + fixed(t.piece_count, 0) + ", undercut " + fixed(t.undercut, 3) +
-           (t.unreachable > 0 ? ", unreachable " + fixed(100 * t.unreachable, 2) + " %" : "") + "); makes " +
-           makes(cut);
+           (t.unreachable > 0 ? ", unreachable " + fixed(100 * t.unreachable, 2) + " %" : "") +
+           terms_of_chopper(t, settings.objectives.weights) + "); makes " + makes(cut) +
+           (is_forbidden(t, settings.objectives) ? ". No plane without a forbidden value was left" : "");
 }
 
 std::string makes(const Cut& cut) {

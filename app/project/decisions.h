@@ -8,6 +8,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -26,11 +27,7 @@ struct WeightsChange {
 
 // Some of the weights; the others keep their values.
 struct GivenWeights {
-    std::optional<double> face_ratio;
-    std::optional<double> fragility;
-    std::optional<double> piece_count;
-    std::optional<double> undercut;
-    std::optional<double> unreachable;
+    std::array<std::optional<double>, all_objectives.size()> weight = {};  // in the order of the table
     Weights over(const Weights& weights) const;
 };
 

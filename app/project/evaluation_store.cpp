@@ -26,7 +26,7 @@ void put(CacheWriter& out, const BaseShare& b) {
 void put(CacheWriter& out, const CutEvaluation& evaluation) {
     out.put(evaluation.cap_area_mm2);
     out.put(evaluation.fragility);
-    out.put(evaluation.seam_mm);
+    for (const double x : {evaluation.seam_mm, evaluation.connector, evaluation.symmetry_mm}) out.put(x);
     out.put(evaluation.solids.size());
     for (const SolidEvaluation& solid : evaluation.solids) {
         out.put(solid.faces);
@@ -42,7 +42,7 @@ CutEvaluation evaluation_from(CacheReader& in) {
     CutEvaluation evaluation;
     evaluation.cap_area_mm2 = in.get<double>();
     evaluation.fragility = in.get<double>();
-    evaluation.seam_mm = in.get<double>();
+    for (double* x : {&evaluation.seam_mm, &evaluation.connector, &evaluation.symmetry_mm}) *x = in.get<double>();
     evaluation.solids.resize(in.count());
     for (SolidEvaluation& solid : evaluation.solids) {
         solid.faces = in.get<std::size_t>();
@@ -119,6 +119,13 @@ EvaluationStore evaluation_store(const fs::path& folder, const Objectives& objec
     w.put(options.offsets_per_normal);
     w.put(static_cast<std::uint8_t>(objectives.needs_sizes()));
     w.put(static_cast<std::uint8_t>(objectives.needs_seam()));
+    if (objectives.needs_connector()) {
+        const ConnectorOptions& c = objectives.connector;
+        w.put(static_cast<int>(c.form));
+        for (const double x : {c.diameter, c.depth, c.wall, c.spacing}) w.put(x);
+    }
+    w.put(static_cast<std::uint8_t>(objectives.needs_symmetry()));
+    if (objectives.needs_symmetry()) w.put(*objectives.symmetry_plane);
     const std::string settings(w.bytes().begin(), w.bytes().end());
     EvaluationStore store;
     store.find = [=](const Piece& piece) -> std::optional<PieceEvaluations> {

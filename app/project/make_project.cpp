@@ -25,6 +25,31 @@ void take_objectives(const Plan& plan, SearchSettings& settings) {
     settings.objectives.weights = plan.weights;
 }
 
+// What the largest block holds of a piece, with the foam that is kept around that. Nothing if no block holds any.
+std::optional<Vec3> room_in_largest_block(const Cell& cell) {
+    std::optional<Vec3> largest;
+    const auto volume = [](Vec3 v) { return v.x * v.y * v.z; };
+    for (const Stock& stock : cell.stock) {
+        const Vec3 room = stock.size - cell.stock_margin * Vec3{2, 2, 1};
+        if (!(room.x > 0 && room.y > 0 && room.z > 0)) continue;
+        if (!largest || volume(room) > volume(*largest)) largest = room;
+    }
+    return largest;
+}
+
+// The settings of a project in a cell: its tilt, its largest block and its first dowels.
+SearchSettings settings_in(const Cell& cell, const SearchSettings& before, const std::string& preset_name) {
+    SearchSettings settings = with_cell(before, preset_name, max_tilt_deg(cell), room_in_largest_block(cell));
+    if (settings.objectives.needs_connector() && !cell.dowels.empty()) {
+        const DowelSize& dowel = cell.dowels.front();
+        ConnectorOptions& connector = settings.objectives.connector;
+        connector.diameter = dowel.diameter;
+        connector.depth = dowel.depth;
+        connector.wall = dowel.wall;
+    }
+    return settings;
+}
+
 bool was_any_cut_decided(const History& history) {
     return std::any_of(history.decisions.begin(), history.decisions.end(), [](const Decision& decision) {
         return std::holds_alternative<Cut>(decision) || std::holds_alternative<Replacement>(decision);
@@ -34,7 +59,7 @@ bool was_any_cut_decided(const History& history) {
 // What follows from a cell that the project did not know before. Cuts that were decided with another tilt keep theirs.
 void follow_cell(OpenProject& project, const ProjectContext& context) {
     const SearchSettings& before = project.project().settings;
-    SearchSettings after = with_cell(before, project.project().preset, max_tilt_deg(project.setups()->cell()));
+    SearchSettings after = settings_in(project.setups()->cell(), before, project.project().preset);
     const double tilt = after.objectives.tilt_deg;
     if (was_any_cut_decided(project.project().history)) after.objectives.tilt_deg = before.objectives.tilt_deg;
     const double kept = after.objectives.tilt_deg;
@@ -64,7 +89,7 @@ ProjectDraft draft_project(ProjectChoices choices, const ProjectContext& context
     std::optional<IgnoredSurface> ignored = ignore_surface(choices, std::move(painted), imported, context);
     context.warn(imported.report.warnings);
     draft.project = new_project(choices, imported);
-    if (cell) draft.project.settings = with_cell(draft.project.settings, choices.preset, max_tilt_deg(*cell));
+    if (cell) draft.project.settings = settings_in(*cell, draft.project.settings, choices.preset);
     draft.project.ignored = std::move(ignored);
     draft.scan = std::move(imported.mesh);
     return draft;

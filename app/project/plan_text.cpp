@@ -22,8 +22,11 @@ constexpr std::size_t longest_text = 1000;  // bytes; the name of a file has at 
 constexpr std::array<std::string_view, 5> plan_keys{"schema", "scan", "weights", "cut", "discard"};
 constexpr std::array<std::string_view, 9> scan_keys{"name",  "sha256",     "units",      "scale",     "centre_mm",
                                                     "faces", "volume_mm3", "box_min_mm", "box_max_mm"};
-constexpr std::array<std::string_view, 5> weight_keys{"face_ratio", "fragility", "piece_count", "undercut",
-                                                      "unreachable"};
+constexpr auto weight_keys = [] {
+    std::array<std::string_view, all_objectives.size()> keys;
+    for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = all_objectives[i].key;
+    return keys;
+}();
 constexpr std::array<std::string_view, 9> cut_keys{
     "number", "piece", "path", "normal", "offset_mm", "offset_from_centre_mm", "inside_mm", "volume_mm3", "makes_mm3"};
 constexpr std::array<std::string_view, 5> discard_keys{"after", "piece", "path", "inside_mm", "volume_mm3"};
@@ -154,9 +157,11 @@ Plan plan_from(const TomlReader& top) {
     Plan plan;
     plan.scan = scan_from(top.table("scan", scan_keys));
     const TomlReader w = top.table("weights", weight_keys);
-    plan.weights = {w.number("face_ratio", -most, most), w.number("fragility", -most, most),
-                    w.number("piece_count", -most, most), w.number("undercut", -most, most),
-                    w.has("unreachable") ? w.number("unreachable", 0, most) : 0};
+    for (std::size_t i = 0; i < all_objectives.size(); ++i) {
+        const ObjectiveField& field = all_objectives[i];
+        const bool is_old = i < always_named;
+        plan.weights.*field.weight = is_old || w.has(field.key) ? w.number(field.key, is_old ? -most : 0, most) : 0;
+    }
     plan.cuts = cuts_from(top, plan.scan.centre);
     plan.discards = discards_from(top, plan.cuts.size());
     return plan;
@@ -174,12 +179,11 @@ std::string to_text(const Plan& plan) {
         << "\nunits = " << quoted(name_of(s.unit)) << "\nscale = " << in_digits(s.scale)
         << "\ncentre_mm = " << in_digits(s.centre) << "\nfaces = " << s.faces
         << "\nvolume_mm3 = " << in_digits(s.volume_mm3) << "\nbox_min_mm = " << in_digits(s.box.min)
-        << "\nbox_max_mm = " << in_digits(s.box.max)
-        << "\n\n[weights]\nface_ratio = " << in_digits(plan.weights.face_ratio)
-        << "\nfragility = " << in_digits(plan.weights.fragility)
-        << "\npiece_count = " << in_digits(plan.weights.piece_count)
-        << "\nundercut = " << in_digits(plan.weights.undercut) << "\n";
-    if (plan.weights.unreachable > 0) out << "unreachable = " << in_digits(plan.weights.unreachable) << "\n";
+        << "\nbox_max_mm = " << in_digits(s.box.max) << "\n\n[weights]\n";
+    for (std::size_t i = 0; i < all_objectives.size(); ++i) {
+        const double weight = plan.weights.*all_objectives[i].weight;
+        if (i < always_named || weight > 0) out << all_objectives[i].key << " = " << in_digits(weight) << "\n";
+    }
     for (const PlanCut& cut : plan.cuts) {
         out << "\n[[cut]]\nnumber = " << cut.number << "\npiece = " << quoted(cut.piece)
             << "\npath = " << describe(cut.path) << "\nnormal = " << in_digits(cut.plane.normal)

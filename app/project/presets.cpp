@@ -29,6 +29,23 @@ SearchSettings carve() {
     return settings;
 }
 
+// After public re-implementations of Luo et al. 2012: neither their paper nor the thesis gives weights.
+SearchSettings chopper() {
+    SearchSettings settings;
+    settings.objectives.weights = {};
+    for (const ObjectiveField& field : all_objectives) settings.objectives.weights.*field.weight = 0;
+    Weights& w = settings.objectives.weights;
+    w.parts = 1;
+    w.utilization = 0.05;
+    w.connector = 1;
+    w.fragility = 1;
+    w.seam = 0.1;
+    w.symmetry = 0.25;
+    settings.objectives.fragility_form = FragilityForm::binary;
+    settings.objectives.scope = TermScope::cut;
+    return settings;
+}
+
 const std::array<Preset, 4> presets{{
     // name        face ratio, fragility, piece count, undercut
     {"bunny", {10, 5, 50, 10}, false, std::nullopt, 3},
@@ -41,6 +58,7 @@ const std::array<Preset, 4> presets{{
 
 std::optional<SearchSettings> preset(std::string_view name) {
     if (name == "carve") return carve();
+    if (name == "chopper") return chopper();
     if (name == "thesis") return SearchSettings{};
     for (const Preset& p : presets) {
         if (name != p.name) continue;
@@ -59,7 +77,16 @@ bool are_rules_of_carve(std::string_view preset_name, const StopRules& rules) {
            !rules.min_cuts && !rules.max_obb;
 }
 
-SearchSettings with_cell(SearchSettings settings, std::string_view preset_name, double max_tilt_deg) {
+SearchSettings stopping_at_print_volume(SearchSettings settings, std::string_view preset_name) {
+    if (preset_name == "chopper" && !settings.stop.is_any_set())
+        settings.stop.max_obb = settings.objectives.print_volume;
+    return settings;
+}
+
+SearchSettings with_cell(SearchSettings settings, std::string_view preset_name, double max_tilt_deg,
+                         std::optional<Vec3> largest_block) {
+    if (!settings.objectives.print_volume) settings.objectives.print_volume = largest_block;
+    settings = stopping_at_print_volume(settings, preset_name);
     if (are_rules_of_carve(preset_name, settings.stop)) settings.stop.fits_cell = true;
     if (settings.objectives.weights.unreachable > 0)
         settings.objectives.tilt_deg = std::round(1e9 * max_tilt_deg) / 1e9;

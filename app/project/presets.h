@@ -13,7 +13,7 @@ namespace qchopper {
 // What `prepare` and `segment` take where the operator names none.
 constexpr const char* default_preset = "carve";
 
-// "carve", "thesis", "bunny", "femur", "vertebrae" or "skull"; nothing for any other name. "thesis" is
+// "carve", "thesis", "bunny", "femur", "vertebrae", "skull" or "chopper"; nothing for any other name. "thesis" is
 // SearchSettings{}.
 std::optional<SearchSettings> preset(std::string_view name);
 
@@ -24,6 +24,12 @@ bool are_rules_of_carve(std::string_view preset_name, const StopRules& rules);
 // The settings of a project that knows its cell: a preset sees none. To the rules of carve is added that every piece
 // fits the cell, and with the weight `unreachable` the tool tilts as far as the cell's does, rounded to 1e-9
 // degrees: 60 degrees that went through radians are 60 again.
-SearchSettings with_cell(SearchSettings settings, std::string_view preset_name, double max_tilt_deg);
+// The print volume, where none is given, is `largest_block`, what the largest block holds of a piece.
+SearchSettings with_cell(SearchSettings settings, std::string_view preset_name, double max_tilt_deg,
+                         std::optional<Vec3> largest_block = {});
+
+// The settings of the preset chopper with the rule that every piece fits the print volume, if there is one and no rule
+// is set; others as they are.
+SearchSettings stopping_at_print_volume(SearchSettings settings, std::string_view preset_name);
 
 }  // namespace qchopper

@@ -16,6 +16,8 @@ constexpr EnumName<Stop> stop_names[] = {{Stop::any, "any"}, {Stop::all, "all"}}
 constexpr EnumName<FragilityForm> fragility_names[] = {
     {FragilityForm::thinness, "thinness"}, {FragilityForm::thesis, "thesis"}, {FragilityForm::binary, "binary"}};
 
+constexpr EnumName<ConnectorForm> connector_names[] = {{ConnectorForm::spread, "spread"},
+                                                       {ConnectorForm::ratio, "ratio"}};
 constexpr EnumName<VerdictOutcome> outcome_names[] = {{VerdictOutcome::replaced, "replaced"},
                                                       {VerdictOutcome::kept, "kept"},
                                                       {VerdictOutcome::carries_cut, "carries_cut"},
@@ -123,6 +125,14 @@ Json json_of(const SearchSettings& s) {
     if (o.scope == TermScope::cut) json["terms_over"] = "cut";
     if (o.utilization_scope == TermScope::whole) json["utilization_over"] = "whole";
     if (o.print_volume) json["print_volume_mm"] = json_of(*o.print_volume);
+    const ConnectorOptions& c = o.connector;
+    if (c != ConnectorOptions{}) {
+        json["connector"] = {{"form", name_of_value(connector_names, c.form)},
+                             {"diameter_mm", c.diameter},
+                             {"depth_mm", c.depth},
+                             {"wall_mm", c.wall},
+                             {"spacing_mm", c.spacing}};
+    }
     if (!o.forbidden.empty()) json["forbidden"] = o.forbidden;
     if (o.tilt_deg != default_tilt_deg) json["tilt_deg"] = o.tilt_deg;
     return json;
@@ -139,6 +149,12 @@ SearchSettings settings_from(const Json& json) {
     if (json.value("terms_over", "whole") == "cut") s.objectives.scope = TermScope::cut;
     if (json.value("utilization_over", "cut") == "whole") s.objectives.utilization_scope = TermScope::whole;
     if (json.contains("print_volume_mm")) s.objectives.print_volume = vec3_from(json.at("print_volume_mm"));
+    if (json.contains("connector")) {
+        const Json& c = json.at("connector");
+        s.objectives.connector = {value_of_name(connector_names, c.at("form")), c.at("diameter_mm").get<double>(),
+                                  c.at("depth_mm").get<double>(), c.at("wall_mm").get<double>(),
+                                  c.at("spacing_mm").get<double>()};
+    }
     if (json.contains("forbidden")) s.objectives.forbidden = json.at("forbidden").get<std::vector<std::string>>();
     s.objectives.tilt_deg = json.value("tilt_deg", default_tilt_deg);
     s.candidates.offsets_per_normal = json.at("offsets_per_normal").get<int>();

@@ -9,6 +9,7 @@
 #include "app/project/shell_word.h"
 #include "app/project/value_json.h"
 #include "app/report/columns.h"
+#include "app/report/objective_terms.h"
 #include "base/text.h"
 
 namespace qchopper {
@@ -21,9 +22,10 @@ std::string describe(Vec3 v, int digits) {
 }
 
 std::string describe_weights(const Weights& w) {
-    return "face ratio " + fixed(w.face_ratio, 3) + ", fragility " + fixed(w.fragility, 3) + ", piece count " +
-           fixed(w.piece_count, 3) + ", undercut " + fixed(w.undercut, 3) +
-           (w.unreachable > 0 ? ", unreachable " + fixed(w.unreachable, 3) : "");
+    std::string text;
+    for (const ObjectiveTerm& term : objective_terms(w))
+        text += (text.empty() ? "" : ", ") + std::string(term.name) + " " + fixed(w.*term.weight, 3);
+    return text;
 }
 
 bool is_fragment(const SolidEvaluation& solid, const Project& project) {
@@ -52,23 +54,35 @@ std::string percent(double share) {
     return fixed(100 * share, 2) + " %";
 }
 
+std::string shown(const ObjectiveTerm& term, const Terms& values) {
+    const double value = values.*term.value;
+    return term.value == &Terms::unreachable ? percent(value) : fixed(value, term.digits);
+}
+
 std::vector<std::string> proposal_lines(const Proposal& p, const Project& project,
                                         const std::filesystem::path& folder) {
     std::vector<std::string> text;
     text.push_back("Piece " + p.piece + ", " + with_commas(p.faces) +
                    " faces: " + describe_planes(p.ranked.size(), project.settings) + ", best first." +
                    (p.rules_hold ? " The stop rules hold already; this is the piece with most faces." : ""));
-    std::vector<std::vector<std::string>> rows{
-        {"K", "normal", "offset mm", "face ratio", "fragility", "piece count", "undercut", "total"}};
-    if (has_reach(project)) rows.front().insert(rows.front().end() - 1, "unreachable");
+    const Objectives& objectives = project.settings.objectives;
+    const std::vector<ObjectiveTerm> terms = objective_terms(objectives.weights);
+    std::vector<std::vector<std::string>> rows{{"K", "normal", "offset mm"}};
+    for (const ObjectiveTerm& term : terms) rows.front().emplace_back(term.name);
+    rows.front().emplace_back("total");
     for (std::size_t k = 0; k < std::min(p.top, p.ranked.size()); ++k) {
         const Ranked& r = p.ranked[k];
-        rows.push_back({std::to_string(k + 1), describe(r.plane.normal, 4), fixed(r.plane.offset, 3),
-                        fixed(r.terms.face_ratio, 3), fixed(r.terms.fragility, 4), fixed(r.terms.piece_count, 0),
-                        fixed(r.terms.undercut, 4), fixed(r.terms.total, 4)});
-        if (has_reach(project)) rows.back().insert(rows.back().end() - 1, percent(r.terms.unreachable));
+        rows.push_back({
+            std::to_string(k + 1),
+            describe(r.plane.normal, 4),
+            fixed(r.plane.offset, 3),
+        });
+        for (const ObjectiveTerm& term : terms) rows.back().push_back(shown(term, r.terms));
+        rows.back().push_back(fixed(r.terms.total, 4));
     }
     add(text, columns(rows));
+    if (!p.ranked.empty() && is_forbidden(p.ranked.front().terms, objectives))
+        text.emplace_back("Every plane has a forbidden value.");
     if (has_reach(project)) {
         text.emplace_back("unreachable: of the scan's surface, over all pieces, once this plane has cut.");
     }

@@ -47,7 +47,9 @@ struct CutEvaluation {
     double cap_area_mm2 = 0;
     double fragility = 0;  // in the form of the objectives
     std::optional<CutReach> reach;
-    double seam_mm = 0;  // length of the section's outline, each point by its cost (Piece::seam_cost)
+    double seam_mm = 0;      // length of the section's outline, each point by its cost (Piece::seam_cost)
+    double connector = 0;    // connector_sweep.h, in the form of the objectives
+    double symmetry_mm = 0;  // symmetry_sweep.h
 };
 
 }  // namespace qchopper

@@ -34,6 +34,8 @@ void add_terms_of_chopper(Terms& result, const CutEvaluation& evaluation, std::s
         }
         result.parts = boxes / scan.boxes;
     }
+    result.connector = evaluation.connector;
+    if (scan.diagonal_mm > 0) result.symmetry = evaluation.symmetry_mm / scan.diagonal_mm;
     if (objectives.needs_seam() && scan.diagonal_mm > 0) {
         result.seam = (scan.seam_mm + evaluation.seam_mm * (1 + further_boxes)) / (scan.diagonal_mm * scan.boxes);
     }

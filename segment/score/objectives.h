@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/vec3.h"
+#include "segment/mesh/plane.h"
 #include "segment/score/cut_evaluation.h"
 #include "segment/score/weights.h"
 
@@ -30,6 +31,22 @@ enum class FragilityForm {
     binary     // of Chopper: 1 if a vertex near the plane stands over thin material, else 0
 };
 
+enum class ConnectorForm {
+    spread,  // how far apart two dowels can stand in each joint, in [0, 1]: the default
+    ratio    // of Chopper: area of a section's component / area of its dowels, up to 100
+};
+
+// The dowels that connector counts (segment/joint/dowel.h), and the grid of places that is asked.
+struct ConnectorOptions {
+    ConnectorForm form = ConnectorForm::spread;
+    double diameter = 8;  // mm, of the holes
+    double depth = 22;    // of a hole in each of the two pieces
+    double wall = 6;      // least material beside and below a hole
+    double spacing = 5;   // of the grid
+    bool operator==(const ConnectorOptions&) const = default;
+    double clearance() const { return diameter / 2 + wall; }
+};
+
 struct Objectives {
     Weights weights;
     double face_ratio_threshold = 1.5;  // r: up to this ratio of most to fewest faces the cost is 0
@@ -41,11 +58,15 @@ struct Objectives {
     double fragment_volume_mm3 = 0;         // smaller solids are fragments and enter no objective
     std::optional<Vec3> print_volume = {};  // box that every part is to fit, mm; parts and utilization need it
     TermScope utilization_scope = TermScope::cut;
-    std::vector<std::string> forbidden = {};  // keys: a cut whose value is 1 or more is taken only if no other is left
+    ConnectorOptions connector = {};
+    std::optional<Plane> symmetry_plane = {};  // of the uncut scan; symmetry needs it
+    std::vector<std::string> forbidden = {};   // keys: a cut whose value is 1 or more is taken only if no other is left
     bool operator==(const Objectives&) const = default;
     // What is evaluated beside the solids, because it has a weight.
     bool needs_sizes() const { return print_volume && (weights.parts > 0 || weights.utilization > 0 || needs_seam()); }
     bool needs_seam() const { return weights.seam > 0; }
+    bool needs_connector() const { return weights.connector > 0; }
+    bool needs_symmetry() const { return weights.symmetry > 0 && symmetry_plane; }
 };
 
 // The values of one piece that enter the objectives.

@@ -38,10 +38,18 @@ Section find_section(const PreparedPiece& prepared, const Slabs& slabs, std::spa
 struct SectionRegion {
     std::vector<std::size_t> loops;  // in Section::loops, the outer one first
     double area_mm2 = 0;
-    double triangles = 0;  // of its cap: N + 2L - 4 for N points on L loops
+    double triangles = 0;                  // of its cap: N + 2L - 4 for N points on L loops
+    std::array<std::uint32_t, 2> solid{};  // in CutEvaluation::solids, above and below; filled in by the sweep
 };
 
 // Loops of two points have no region, as in the cut (cap.cpp). `plane`: index of the offset.
 std::vector<SectionRegion> regions(const Section& section, const Slabs& slabs, std::size_t plane);
+
+// The sections of all planes of one normal.
+struct SweptSections {
+    Slabs slabs;
+    Section section;
+    std::vector<std::vector<SectionRegion>> regions;  // per plane
+};
 
 }  // namespace qchopper

@@ -12,10 +12,12 @@
 #include "segment/cut/half_solids.h"
 #include "segment/mesh/disjoint_sets.h"
 #include "segment/score/binary_fragility.h"
+#include "segment/score/connector_sweep.h"
 #include "segment/score/fragility_sweep.h"
 #include "segment/score/section.h"
 #include "segment/score/section_measures.h"
 #include "segment/score/slabs.h"
+#include "segment/score/symmetry_sweep.h"
 
 namespace qchopper {
 namespace {
@@ -54,8 +56,7 @@ class SweepSide {
     }
 
     // Adds this side's solids to the evaluations of all planes that have loops.
-    void run(std::vector<std::optional<CutEvaluation>>& evaluations,
-             const std::vector<std::vector<SectionRegion>>& regions) {
+    void run(std::vector<std::optional<CutEvaluation>>& evaluations, std::vector<std::vector<SectionRegion>>& regions) {
         for (std::size_t step = 0; step < planes_; ++step) {
             const std::size_t slab = above_ ? planes_ - step : step;
             const std::size_t plane = above_ ? slab - 1 : slab;
@@ -86,7 +87,7 @@ class SweepSide {
         std::erase_if(live_, [&](std::uint32_t c) { return sets_.root(c) != c; });
     }
 
-    void add_solids(std::size_t plane, const std::vector<SectionRegion>& regions, CutEvaluation& evaluation) {
+    void add_solids(std::size_t plane, std::vector<SectionRegion>& regions, CutEvaluation& evaluation) {
         const std::size_t first = section_.first_loop[plane];
         const std::size_t count = section_.first_loop[plane + 1] - first;
         assert(count > 0);
@@ -121,8 +122,15 @@ class SweepSide {
             add_cap(sums, owner, region, plane);
             if (region.triangles > 0) has_cap[owner] = true;
         }
+        std::vector<std::uint32_t> solid_of(count);
         for (std::uint32_t i = 0; i < count; ++i) {
-            if (part.root(i) == i) evaluation.solids.push_back(solid(sums, i, has_cap[i]));
+            if (part.root(i) != i) continue;
+            solid_of[i] = static_cast<std::uint32_t>(evaluation.solids.size());
+            evaluation.solids.push_back(solid(sums, i, has_cap[i]));
+        }
+        for (SectionRegion& region : regions) {
+            region.solid[above_ ? 0 : 1] =
+                solid_of[part.root(static_cast<std::uint32_t>(region.loops.front() - first))];
         }
         for (const std::uint32_t c : live_) {  // solids that the plane does not touch
             const auto at = std::lower_bound(roots.begin(), roots.end(), std::pair{c, 0U});
@@ -179,32 +187,48 @@ class SweepSide {
     std::vector<std::uint32_t> live_;                        // roots of the components added so far
 };
 
+// Fills in `s`, and returns what follows of the solids.
+std::vector<std::optional<CutEvaluation>> sweep_sections(const PreparedPiece& prepared, Vec3 normal,
+                                                         std::span<const double> offsets, SweptSections& s) {
+    std::vector<std::optional<CutEvaluation>> evaluations(offsets.size());
+    if (offsets.empty()) return evaluations;
+    s.slabs = slabs(prepared, normal, offsets);
+    s.section = find_section(prepared, s.slabs, offsets);
+    if (!prepared.sizes.of_cluster.empty()) add_boxes(prepared, normal, offsets, s.slabs, s.section);
+    assert(s.section.first_loop.size() == offsets.size() + 1 && s.section.first_loop.back() == s.section.loops.size());
+    assert(std::is_sorted(s.section.first_loop.begin(), s.section.first_loop.end()));
+    s.regions.assign(offsets.size(), {});
+    for (std::size_t plane = 0; plane < offsets.size(); ++plane) {
+        if (s.section.first_loop[plane] == s.section.first_loop[plane + 1]) continue;
+        evaluations[plane].emplace();
+        for (std::size_t i = s.section.first_loop[plane]; i < s.section.first_loop[plane + 1]; ++i) {
+            evaluations[plane]->cap_area_mm2 += s.section.loops[i].area_mm2;
+        }
+        s.regions[plane] = regions(s.section, s.slabs, plane);
+    }
+    if (prepared.has_seam) add_seams(*prepared.piece, s.slabs, s.section, offsets, evaluations);
+    const std::vector<CavityLink> links = cavity_links(*prepared.piece->mesh, prepared.shells, normal);
+    for (const bool above : {true, false}) {
+        SweepSide(prepared, s.slabs, s.section, normal, offsets, links, above).run(evaluations, s.regions);
+    }
+    return evaluations;
+}
+
+void add_of_sections(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
+                     const Objectives& objectives, const SweptSections& sections,
+                     std::span<std::optional<CutEvaluation>> evaluations) {
+    if (objectives.needs_connector())
+        add_connector(prepared, normal, offsets, sections, objectives.connector, evaluations);
+    if (objectives.needs_symmetry())
+        add_symmetry(prepared, normal, offsets, sections, *objectives.symmetry_plane, evaluations);
+}
+
 }  // namespace
 
 std::vector<std::optional<CutEvaluation>> sweep_solids(const PreparedPiece& prepared, Vec3 normal,
                                                        std::span<const double> offsets) {
-    std::vector<std::optional<CutEvaluation>> evaluations(offsets.size());
-    if (offsets.empty()) return evaluations;
-    Slabs all_slabs = slabs(prepared, normal, offsets);
-    Section section = find_section(prepared, all_slabs, offsets);
-    if (!prepared.sizes.of_cluster.empty()) add_boxes(prepared, normal, offsets, all_slabs, section);
-    assert(section.first_loop.size() == offsets.size() + 1 && section.first_loop.back() == section.loops.size());
-    assert(std::is_sorted(section.first_loop.begin(), section.first_loop.end()));
-    std::vector<std::vector<SectionRegion>> all_regions(offsets.size());
-    for (std::size_t plane = 0; plane < offsets.size(); ++plane) {
-        if (section.first_loop[plane] == section.first_loop[plane + 1]) continue;
-        evaluations[plane].emplace();
-        for (std::size_t i = section.first_loop[plane]; i < section.first_loop[plane + 1]; ++i) {
-            evaluations[plane]->cap_area_mm2 += section.loops[i].area_mm2;
-        }
-        all_regions[plane] = regions(section, all_slabs, plane);
-    }
-    if (prepared.has_seam) add_seams(*prepared.piece, all_slabs, section, offsets, evaluations);
-    const std::vector<CavityLink> links = cavity_links(*prepared.piece->mesh, prepared.shells, normal);
-    for (const bool above : {true, false}) {
-        SweepSide(prepared, all_slabs, section, normal, offsets, links, above).run(evaluations, all_regions);
-    }
-    return evaluations;
+    SweptSections sections;
+    return sweep_sections(prepared, normal, offsets, sections);
 }
 
 void add_fragility(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
@@ -224,10 +248,21 @@ void add_fragility(const PreparedPiece& prepared, Vec3 normal, std::span<const d
     }
 }
 
+void add_late_terms(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
+                    const Objectives& objectives, std::span<std::optional<CutEvaluation>> evaluations) {
+    add_fragility(prepared, normal, offsets, objectives, evaluations);
+    if (!objectives.needs_connector() && !objectives.needs_symmetry()) return;
+    SweptSections sections;
+    sweep_sections(prepared, normal, offsets, sections);
+    add_of_sections(prepared, normal, offsets, objectives, sections, evaluations);
+}
+
 std::vector<std::optional<CutEvaluation>> sweep(const PreparedPiece& prepared, Vec3 normal,
                                                 std::span<const double> offsets, const Objectives& objectives) {
-    std::vector<std::optional<CutEvaluation>> evaluations = sweep_solids(prepared, normal, offsets);
+    SweptSections sections;
+    std::vector<std::optional<CutEvaluation>> evaluations = sweep_sections(prepared, normal, offsets, sections);
     add_fragility(prepared, normal, offsets, objectives, evaluations);
+    add_of_sections(prepared, normal, offsets, objectives, sections, evaluations);
     return evaluations;
 }
 

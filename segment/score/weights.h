@@ -59,6 +59,7 @@ inline constexpr std::array<ObjectiveField, 10> all_objectives{
 
 // Those that every file and report names; the others only where they have a weight.
 constexpr std::size_t always_named = 4;
+constexpr std::size_t first_of_chopper = 5;
 
 inline double weighted_sum(const Terms& terms, const Weights& weights) {
     double sum = 0;

@@ -59,6 +59,10 @@ const OrientedBox& EvaluationCache::box(const Piece& piece) {
     return *e.box;
 }
 
+std::vector<Candidate> EvaluationCache::candidates(const Piece& piece) {
+    return candidate_planes(piece, box(piece), options_);
+}
+
 const SolidEvaluation& EvaluationCache::solid_evaluation(const Piece& piece) {
     Entry& e = entry(piece);
     if (!e.solid) e.solid = measure(piece);

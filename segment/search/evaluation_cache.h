@@ -13,6 +13,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -52,6 +53,22 @@ struct ReachEvaluations {
     std::set<std::pair<std::size_t, std::size_t>> for_size;  // the candidates of a piece that is too large
 };
 
+// What is known of the candidates of a piece whose slow terms are evaluated only as far as needed (late_rank.h).
+struct LateEvaluations {
+    PieceEvaluations planes;             // slow terms are 0 where they are not evaluated
+    std::vector<std::uint8_t> is_whole;  // per normal, in the order of the candidates; empty: not swept yet
+};
+
+// Orders planes that are equal bit for bit.
+struct PlaneOrder {
+    bool operator()(const Plane& a, const Plane& b) const {
+        return std::tie(a.normal.x, a.normal.y, a.normal.z, a.offset) <
+               std::tie(b.normal.x, b.normal.y, b.normal.z, b.offset);
+    }
+};
+// Per plane what its cut would make, as far as the oriented boxes of the parts count; nothing: it misses.
+using OwnBoxes = std::map<Plane, std::optional<CutEvaluation>, PlaneOrder>;
+
 // Where evaluations are kept beyond the end of the program (app/project/evaluation_store.h). Both functions may be
 // empty; they are called from one thread.
 struct EvaluationStore {
@@ -71,6 +88,11 @@ class EvaluationCache {
     double unreachable_mm2(const Piece& piece, double tilt_deg);
     // Of a piece that has samples; reach_rank.h fills it.
     ReachEvaluations& reach(const Piece& piece) { return entry(piece).reach; }
+    // late_rank.h fills them.
+    LateEvaluations& late(const Piece& piece) { return entry(piece).late; }
+    OwnBoxes& own_boxes(const Piece& piece) { return entry(piece).own_boxes; }
+    // The planes that are proposed for a piece.
+    std::vector<Candidate> candidates(const Piece& piece);
 
     // Evaluates all of the pieces that are neither evaluated nor stored, together, so that all cores are busy.
     // Afterwards evaluations() may be called for each; it must not be called before. Throws Cancelled, and then keeps
@@ -98,6 +120,8 @@ class EvaluationCache {
         std::shared_ptr<const PieceEvaluations> evaluations;
         std::optional<double> unreachable_mm2;
         ReachEvaluations reach;
+        LateEvaluations late;
+        OwnBoxes own_boxes;
     };
 
     Entry& entry(const Piece& piece);

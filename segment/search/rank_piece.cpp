@@ -4,11 +4,19 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 #include "segment/score/cut_reach.h"
+#include "segment/search/late_rank.h"
 #include "segment/search/reach_rank.h"
 
 namespace qchopper {
+namespace {
+
+// So many of the best planes per place in the beam, because near duplicates among them are culled.
+constexpr std::size_t children_per_place = 8;
+
+}  // namespace
 
 std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
                          EvaluationCache& cache, const Context& context, std::size_t best,
@@ -18,11 +26,19 @@ std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, co
         return rank_by_reach(segmentation, piece, settings, cache, context, std::max(best, least_best_planes),
                              too_large_for);
     }
+    const Objectives& objectives = settings.objectives;
+    if (is_ranked_late(settings)) {
+        const std::size_t wanted =
+            std::max({best, settings.runners_up + 1, most_own_boxes, children_per_place * settings.beam});
+        return with_own_boxes(rank_late(segmentation, piece, settings, cache, context, wanted), segmentation, piece,
+                              objectives, cache, context);
+    }
     const Piece* target = &segmentation.pieces[piece];
     cache.evaluate(std::span(&target, 1), context);
     const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, cache);
-    return rank(cache.evaluations(*target), others, settings.objectives,
-                scan_share(segmentation, piece, settings.objectives, cache));
+    std::vector<Ranked> ranked =
+        rank(cache.evaluations(*target), others, objectives, scan_share(segmentation, piece, objectives, cache));
+    return with_own_boxes(std::move(ranked), segmentation, piece, objectives, cache, context);
 }
 
 std::vector<Ranked> rank_whole_normals(const Segmentation& segmentation, std::size_t piece,
@@ -33,7 +49,7 @@ std::vector<Ranked> rank_whole_normals(const Segmentation& segmentation, std::si
         return rank_whole_normals_by_reach(segmentation, piece, settings, cache, context, normals, other,
                                            too_large_for);
     }
-    return rank(segmentation, piece, settings, cache, context);
+    return rank(segmentation, piece, settings, cache, context, std::numeric_limits<std::size_t>::max());
 }
 
 std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t piece, const Candidate& plane,

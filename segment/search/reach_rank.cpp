@@ -285,7 +285,7 @@ class ReachRanking {
                 evaluations.push_back(std::move(plane->evaluation));
             }
             if (planes.empty()) return;
-            add_fragility(prepared, reach_.normals[groups[g].normal], offsets, settings_.objectives, evaluations);
+            add_late_terms(prepared, reach_.normals[groups[g].normal], offsets, settings_.objectives, evaluations);
             for (std::size_t i = 0; i < planes.size(); ++i) {
                 planes[i]->evaluation = std::move(evaluations[i]);
                 planes[i]->has_fragility = true;
@@ -335,7 +335,7 @@ class ReachRanking {
         std::vector<std::optional<CutEvaluation>> evaluation =
             sweep_solids(prepared_piece(), found.plane.normal, {&nudged->offset, 1});
         if (!evaluation.front() || evaluation.front()->solids.size() != 2) return;
-        add_fragility(prepared_piece(), found.plane.normal, {&nudged->offset, 1}, settings_.objectives, evaluation);
+        add_late_terms(prepared_piece(), found.plane.normal, {&nudged->offset, 1}, settings_.objectives, evaluation);
         evaluation.front()->reach = CutReach{found.unreachable_mm2, area};
         const std::optional<Terms> after = terms(*evaluation.front(), counted_others(), settings_.objectives, scan_);
         refined.evaluation->reach->unreachable_mm2 = before;

@@ -9,6 +9,7 @@
 
 #include "base/timings.h"
 #include "segment/search/beam.h"
+#include "segment/search/late_rank.h"
 #include "segment/search/reach_rank.h"
 #include "segment/search/trial.h"
 
@@ -150,7 +151,8 @@ class Search {
                 const Piece& piece = b.segmentation.pieces[b.next.waiting[i]];
                 // The next piece is evaluated already: no reason to evaluate others early.
                 if (i > 0 && cache_.is_evaluated(b.segmentation.pieces[b.next.waiting.front()])) break;
-                if (is_ranked_by_reach(piece, settings_)) continue;  // evaluated as far as needed, by rank()
+                if (is_ranked_by_reach(piece, settings_) || is_ranked_late(settings_))
+                    continue;  // evaluated as far as needed, by rank()
                 if (!contains(pieces, piece)) pieces.push_back(&piece);
             }
         }

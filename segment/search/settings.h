@@ -23,12 +23,16 @@ struct SearchSettings {
     // Whether the pieces need samples (segment/score/sampled_piece.h).
     bool takes_samples() const { return stop.max_unreachable.has_value() || objectives.weights.unreachable > 0; }
     // Whether the scan is to be measured, and its points asked how well they are seen.
-    bool measures_scan() const { return objectives.needs_sizes() || objectives.needs_seam(); }
+    bool measures_scan() const {
+        return objectives.needs_sizes() || objectives.needs_seam() || objectives.weights.symmetry > 0;
+    }
     // Whether pieces and evaluations made with these settings hold what the others need.
     bool needs_same(const SearchSettings& others) const {
         return takes_samples() == others.takes_samples() && measures_scan() == others.measures_scan() &&
                objectives.needs_sizes() == others.objectives.needs_sizes() &&
-               objectives.needs_seam() == others.objectives.needs_seam();
+               objectives.needs_seam() == others.objectives.needs_seam() &&
+               objectives.needs_connector() == others.objectives.needs_connector() &&
+               objectives.needs_symmetry() == others.objectives.needs_symmetry();
     }
     // Whether a search must save more than its segmentation to go on as if it had not been interrupted.
     bool has_state() const { return beam > 1 || stop.max_unreachable; }
