@@ -68,7 +68,8 @@ std::string new_project_option(const ProjectArguments& a, bool is_replay_given =
                                                     {a.print_volume.has_value(), "--print-volume"},
                                                     {a.utilization.has_value(), "--utilization"},
                                                     {!a.forbidden.empty(), "--forbid"},
-                                                    {a.connector.has_value(), "--connector"}};
+                                                    {a.connector.has_value(), "--connector"},
+                                                    {a.structure.has_value(), "--structure"}};
     for (const auto& [is_given, name] : options) {
         if (is_given) return name;
     }

@@ -135,6 +135,7 @@ PreparedPiece prepare(const Piece& piece, const Objectives& objectives, const st
     if (objectives.fragility_form != FragilityForm::thinness) p.vertex_normals = vertex_normals(mesh);
     if (objectives.fragility_form == FragilityForm::binary) p.cap_points = cap_points(piece);
     p.has_seam = objectives.needs_seam();
+    if (objectives.needs_structure() && piece.stress) p.stressed = stressed_part(piece.stress, mesh);
     if (objectives.needs_sizes()) {
         p.sizes.axis = axes != nullptr ? *axes : oriented_box(mesh.points).axis;
         add_boxes_of_clusters(p);

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "segment/mesh/shells.h"
 #include "segment/score/clusters.h"
 #include "segment/score/objectives.h"
+#include "segment/structure/section_stress.h"
 
 namespace qchopper {
 
@@ -61,6 +63,7 @@ struct PreparedPiece {
     std::vector<CapPoint> cap_points;  // only for the binary one
     PreparedSizes sizes;               // only if sizes are needed
     bool has_seam = false;             // whether lengths of outlines are
+    std::optional<StressedPart> stressed;  // only if structure has a weight and the piece has stress
     // The vector that undercut projects on a direction: the area vector, or the unit normal if triangles are counted.
     Vec3 weighted_normal(std::size_t triangle) const { return unit.empty() ? sums[triangle].area : unit[triangle]; }
 };

@@ -66,8 +66,8 @@ struct Cells {
     // The distances to the 27 cells of the block around one.
     std::array<std::ptrdiff_t, 27> block() const {
         std::array<std::ptrdiff_t, 27> steps{};
-        const auto row = static_cast<std::ptrdiff_t>(count[0] + 2);
-        const std::ptrdiff_t layer = row * static_cast<std::ptrdiff_t>(count[1] + 2);
+        const std::ptrdiff_t row = std::ptrdiff_t{count[0]} + 2;
+        const std::ptrdiff_t layer = row * (std::ptrdiff_t{count[1]} + 2);
         for (int i = 0; i < 27; ++i)
             steps[static_cast<std::size_t>(i)] = i % 3 - 1 + (i / 3 % 3 - 1) * row + (i / 9 - 1) * layer;
         return steps;
