@@ -2,14 +2,17 @@
 // the voxels for every normal.
 
 #include <algorithm>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "base/parallel.h"
 #include "bench/choice.h"
 #include "bench/clock.h"
 #include "segment/mesh/measure.h"
 #include "segment/sample/sample.h"
-#include "segment/structure/stress.h"
+#include "segment/score/tool_directions.h"
+#include "segment/structure/section_stress.h"
 
 namespace {
 
@@ -44,10 +47,33 @@ std::string share(std::size_t part, std::size_t all) {
     return number_text(100.0 * static_cast<double>(part) / static_cast<double>(all)) + " %";
 }
 
+// All planes of 129 normals of the octahedron x 200 offsets.
+void measure_planes(const std::string& name, const TriangleMesh& mesh, std::shared_ptr<const StressedModel> model,
+                    Figures& figures) {
+    const double started = cpu_s();
+    const StressedPart part = stressed_part(std::move(model), mesh);
+    figures.record(name, "voxels of a piece", time_text(cpu_s() - started));
+    const std::vector<Vec3> normals = octahedron_normals();
+    const double before = cpu_s();
+    for (const Vec3 normal : normals) {
+        double low = height(normal, mesh.points.front());
+        double high = low;
+        for (const Vec3 p : mesh.points) {
+            low = std::min(low, height(normal, p));
+            high = std::max(high, height(normal, p));
+        }
+        std::vector<double> offsets;
+        for (int k = 1; k <= 200; ++k) offsets.push_back(low + (high - low) * k / 201);
+        static_cast<void>(section_stress(part, normal, offsets));
+    }
+    figures.record(name, std::to_string(normals.size()) + " normals x 200 planes", time_text(cpu_s() - before));
+}
+
 void measure_stress(const std::string& name, const TriangleMesh& mesh, const StructureOptions& options,
                     Figures& figures) {
     const double started = cpu_s();
-    const StressedModel m = stress_of(mesh, options, {});
+    const auto model = std::make_shared<const StressedModel>(stress_of(mesh, options, {}));
+    const StressedModel& m = *model;
     const double time = cpu_s() - started;
     const StructureReport& r = m.report;
     std::size_t floating = 0;
@@ -65,6 +91,7 @@ void measure_stress(const std::string& name, const TriangleMesh& mesh, const Str
                    number_text(100 * r.largest_tension_mpa / m.strength_mpa) + " % at " +
                        number_text(r.largest_tension_at.x) + ", " + number_text(r.largest_tension_at.y) + ", " +
                        number_text(r.largest_tension_at.z));
+    measure_planes(name, mesh, model, figures);
 }
 
 void measure(const Choice& choice, Figures& figures) {

@@ -15,16 +15,16 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// An arch of two posts and a lintel, and a ball that hangs in the air.
-TriangleMesh arch() {
-    return shapes::joined({shapes::box({0, 0, 0}, {40, 40, 100}), shapes::box({160, 0, 0}, {200, 40, 100}),
-                           shapes::box({0, 0, 100}, {200, 40, 140}), shapes::ball({100, 20, 40}, 15)});
+// A ring that stands upright, and a cube that hangs in the air in its middle.
+TriangleMesh ring() {
+    return shapes::joined({shapes::rotated(shapes::torus({0, 0, 0}, 60, 18), {1, 0, 0}, 1.5707963267948966),
+                           shapes::box({-12, -12, -12}, {12, 12, 12})});
 }
 
 struct Structure : ::testing::Test {
     program::Folder folder;
     const std::string load = "upright=+z,density=100,strength=0.5,load=weight,voxel=5";
-    void SetUp() override { write_file(folder.path / "scan.ply", to_ply(arch())); }
+    void SetUp() override { write_file(folder.path / "scan.ply", to_ply(ring())); }
     program::Ended run(const program::Arguments& arguments) const { return program::run(arguments, {folder.path}); }
     program::Ended make(const std::string& structure, const std::string& name) const {
         return run({"segment", "scan.ply", "--units", "mm", "--preset", "thesis", "--structure", structure, "--step",
@@ -47,7 +47,8 @@ TEST_F(Structure, IsReportedKeptAndRecomputedIfItsFileIsBroken) {
     const json told = json::parse(first.out);
     EXPECT_EQ(told["stress"]["voxel_mm"], 5);
     EXPECT_EQ(told["stress"]["floating"].size(), 1U);
-    EXPECT_EQ(told["stress"]["hinges"], 0);
+    EXPECT_TRUE(told["stress"].contains("hinges"));
+    EXPECT_EQ(told["stress"]["floating"][0]["hinged"], false);
     EXPECT_LE(told["stress"]["residual"].get<double>(), 1e-6);
     EXPECT_EQ(told["weights"]["structure"], 1);
     for (const json& plane : told["proposal"]["planes"]) EXPECT_GT(plane["terms"].value("structure", 0.0), 0);
