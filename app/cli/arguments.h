@@ -72,6 +72,7 @@ struct ProjectArguments : RepairChoiceArguments {
     std::optional<std::string> connector;     // spread | ratio
     std::vector<std::string> forbidden;       // objectives
     std::optional<std::string> weights;       // option_values.h reads it
+    std::optional<std::string> structure;     // option_values.h reads it
     std::optional<int> beam;
     std::optional<double> time_limit_s;
     std::optional<std::string> fragments;  // keep | drop

@@ -74,7 +74,8 @@ std::string new_project_option(const ProjectArguments& a, bool is_replay_given =
                                                     {a.offset_step_mm.has_value(), "--offset-step"},
                                                     {a.planes.has_value(), "--planes"},
                                                     {a.symmetry, "--symmetry"},
-                                                    {a.no_cut.has_value(), "--no-cut"}};
+                                                    {a.no_cut.has_value(), "--no-cut"},
+                                                    {a.structure.has_value(), "--structure"}};
     for (const auto& [is_given, name] : options) {
         if (is_given) return name;
     }

@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -95,6 +96,88 @@ std::optional<Vec3> lengths_from(const std::string& text) {
 std::optional<Vec3> print_volume_from(const std::string& text) {
     const std::optional<Vec3> v = lengths_from(text);
     return v && std::min({v->x, v->y, v->z}) >= 1 ? v : std::nullopt;
+}
+
+namespace {
+
+// "+x", "-z", "0:0.1:1": a direction of length 1.
+std::optional<Vec3> direction_from(std::string text) {
+    if (text.size() == 2 && (text[0] == '+' || text[0] == '-') && text[1] >= 'x' && text[1] <= 'z') {
+        Vec3 axis;
+        axis[text[1] - 'x'] = text[0] == '+' ? 1 : -1;
+        return axis;
+    }
+    std::replace(text.begin(), text.end(), ':', ',');
+    const std::vector<std::string> parts = split(text);
+    if (parts.size() != 3) return std::nullopt;
+    Vec3 v;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::optional<double> value = number_from(parts[static_cast<std::size_t>(axis)]);
+        if (!value) return std::nullopt;
+        v[axis] = *value;
+    }
+    return unit_from(v);
+}
+
+std::optional<double> number_within(const std::string& text, double low, double high) {
+    const std::optional<double> value = number_from(text);
+    return value && *value >= low && *value <= high ? value : std::nullopt;
+}
+
+// "weight", "200", "weight+200"
+bool read_load(std::string text, StructureOptions& load) {
+    const std::string weight = "weight";
+    load.has_own_weight = text.starts_with(weight);
+    if (text == weight) return true;
+    if (load.has_own_weight) {
+        if (!text.starts_with(weight + "+")) return false;
+        text.erase(0, weight.size() + 1);
+    }
+    const std::optional<double> force = number_within(text, 1e-6, 1e9);
+    load.force_n = force.value_or(0);
+    return force.has_value();
+}
+
+bool read_load_value(const std::string& name, const std::string& value, StructureOptions& load) {
+    if (name == "load") return read_load(value, load);
+    if (name == "upright") {
+        const std::optional<Vec3> up = direction_from(value);
+        load.up = up.value_or(Vec3{});
+        return up.has_value();
+    }
+    struct Quantity {
+        const char* name;
+        double StructureOptions::*value;
+        double low;
+        double high;
+    };
+    constexpr std::array<Quantity, 4> quantities{{{"density", &StructureOptions::density_kg_per_m3, 1e-3, 1e5},
+                                                  {"strength", &StructureOptions::strength_mpa, 1e-6, 1e6},
+                                                  {"voxel", &StructureOptions::voxel_mm, 1e-3, 1e6},
+                                                  {"poisson", &StructureOptions::poisson_ratio, 0, 0.49}}};
+    for (const Quantity& q : quantities) {
+        if (name != q.name) continue;
+        const std::optional<double> number = number_within(value, q.low, q.high);
+        if (number) load.*q.value = *number;
+        return number.has_value();
+    }
+    return false;
+}
+
+}  // namespace
+
+std::optional<StructureOptions> load_from(const std::string& text) {
+    StructureOptions load;
+    std::set<std::string> given;
+    for (const std::string& part : split(text)) {
+        const std::size_t equals = part.find('=');
+        if (equals == std::string::npos || !given.insert(part.substr(0, equals)).second) return std::nullopt;
+        if (!read_load_value(part.substr(0, equals), part.substr(equals + 1), load)) return std::nullopt;
+    }
+    for (const char* name : {"upright", "density", "strength", "load"}) {
+        if (!given.contains(name)) return std::nullopt;
+    }
+    return load;
 }
 
 std::optional<std::size_t> place_from(const std::string& text) {

@@ -10,6 +10,7 @@
 #include "app/project/decisions.h"
 #include "segment/io/raw_mesh.h"
 #include "segment/mesh/plane.h"
+#include "segment/structure/stress.h"
 
 namespace qchopper {
 
@@ -30,6 +31,11 @@ std::optional<Vec3> lengths_from(const std::string& text);
 
 // The same, each at least 1.
 std::optional<Vec3> print_volume_from(const std::string& text);
+
+// "upright=+z,density=100,strength=0.5,load=weight": the load of the objective structure; any order, each at most once.
+// upright is +x, -x, +y, -y, +z, -z or X:Y:Z of any length but zero; density in kg/m3, strength in MPa; load is weight,
+// a force in N, or weight+FORCE. Also voxel, in mm, and poisson may be given, the others must.
+std::optional<StructureOptions> load_from(const std::string& text);
 
 // A whole number from 1 to 1e6, the place in a ranking.
 std::optional<std::size_t> place_from(const std::string& text);

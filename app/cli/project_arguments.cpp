@@ -91,6 +91,8 @@ ProjectChoices choices_of(const ProjectArguments& a, const std::string& preset_i
     choices.preset = a.preset.value_or(preset_if_none);
     choices.settings = settings_of(a, choices.preset);
     choices.fragment_volume_mm3 = a.fragment_volume_mm3;
+    if (a.structure) choices.load = load_from(*a.structure);
+    if (choices.load) choices.settings.objectives.weights.structure = 1;
     if (a.weights) choices.weights = *weights_from(*a.weights);
     if (a.fragments && *a.fragments == "drop") choices.fragments = FragmentChoice::drop;
     if (a.out) choices.folder = without_slash(*a.out);

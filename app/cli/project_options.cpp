@@ -121,9 +121,14 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
         ->check(number_between(0, many, "a volume in mm3"));
     c->add_option("--weights", a.weights,
                   "of the terms, any of face_ratio=10,fragility=5,piece_count=50,undercut=10,unreachable=0, and of "
-                  "Chopper's parts, utilization, connector, seam, symmetry (the preset's)")
+                  "Chopper's parts, utilization, connector, seam, symmetry, structure (the preset's)")
         ->check(
             read_by(weights_from, "not like face_ratio=10,fragility=5,piece_count=50,undercut=10, nor four numbers"));
+    c->add_option(
+         "--structure", a.structure,
+         "avoid cuts where the whole model, standing upright under a load, has tension and shear (docs/structure.md): "
+         "upright=+z,density=KG_M3,strength=MPA,load=weight; load may be N or weight+N; voxel=MM (off)")
+        ->check(read_by(load_from, "not like upright=+z,density=100,strength=0.5,load=weight"));
     c->add_option("--beam", a.beam, "how many segmentations the search keeps (1: greedy)")
         ->check(number_between(1, 1000, "a count from 1 to 1000"));
     c->add_option("--time-limit", a.time_limit_s, "stop after so many seconds, with the decision being made")

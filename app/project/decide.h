@@ -78,6 +78,7 @@ struct SegmentAnswer {
     Project project;
     bool pieces_written = false;
     std::vector<std::optional<double>> unreachable;  // per piece (share_by_objective); empty: not asked
+    std::shared_ptr<const StressedModel> stress;     // null: structure has no weight
 };
 
 // Does what is asked. Precondition: the caller holds the lock of the project. Throws InputError: (use) for what this

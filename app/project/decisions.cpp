@@ -65,6 +65,11 @@ std::string terms_of_chopper(const Terms& t, const Weights& weights) {
     return text;
 }
 
+std::string coarse_sections(const Ranked& chosen) {
+    if (chosen.coarse_sections == 0) return "";
+    return ". " + counted(chosen.coarse_sections, "section") + " under 3 voxels thick: too coarse for its structure";
+}
+
 }  // namespace
 
 std::string cut_line(const Cut& cut, const SearchSettings& settings) {
@@ -82,7 +87,7 @@ std::string cut_line(const Cut& cut, const SearchSettings& settings) {
            fixed(t.total, 3) + " (face ratio " + fixed(t.face_ratio, 2) + ", fragility " + fixed(t.fragility, 3) +
            ", piece count " + fixed(t.piece_count, 0) + ", undercut " + fixed(t.undercut, 3) +
            (t.unreachable > 0 ? ", unreachable " + fixed(100 * t.unreachable, 2) + " %" : "") +
-           terms_of_chopper(t, settings.objectives.weights) + "); makes " + makes(cut) +
+           terms_of_chopper(t, settings.objectives.weights) + "); makes " + makes(cut) + coarse_sections(cut.chosen) +
            (is_forbidden(t, settings.objectives) ? ". No plane without a forbidden value was left" : "");
 }
 

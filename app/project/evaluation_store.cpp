@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/sha256.h"
+#include "segment/structure/stress.h"
 
 namespace qchopper {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // To be raised whenever candidates or evaluations of the same piece change.
-constexpr std::uint32_t version_of_evaluations = 3;
+constexpr std::uint32_t version_of_evaluations = 5;
 
 void put(CacheWriter& out, const BaseShare& b) {
     out.put(b.cut);
@@ -26,7 +27,9 @@ void put(CacheWriter& out, const BaseShare& b) {
 void put(CacheWriter& out, const CutEvaluation& evaluation) {
     out.put(evaluation.cap_area_mm2);
     out.put(evaluation.fragility);
-    for (const double x : {evaluation.seam_mm, evaluation.connector, evaluation.symmetry_mm}) out.put(x);
+    for (const double x : {evaluation.seam_mm, evaluation.connector, evaluation.symmetry_mm, evaluation.structure})
+        out.put(x);
+    out.put(evaluation.coarse_sections);
     out.put(evaluation.solids.size());
     for (const SolidEvaluation& solid : evaluation.solids) {
         out.put(solid.faces);
@@ -42,7 +45,9 @@ CutEvaluation evaluation_from(CacheReader& in) {
     CutEvaluation evaluation;
     evaluation.cap_area_mm2 = in.get<double>();
     evaluation.fragility = in.get<double>();
-    for (double* x : {&evaluation.seam_mm, &evaluation.connector, &evaluation.symmetry_mm}) *x = in.get<double>();
+    for (double* x : {&evaluation.seam_mm, &evaluation.connector, &evaluation.symmetry_mm, &evaluation.structure})
+        *x = in.get<double>();
+    evaluation.coarse_sections = in.get<std::uint32_t>();
     evaluation.solids.resize(in.count());
     for (SolidEvaluation& solid : evaluation.solids) {
         solid.faces = in.get<std::size_t>();
@@ -106,6 +111,11 @@ std::string name_of_file(const std::string& settings, const Piece& piece) {
     out.put_all(piece.mesh->triangles);
     out.put_all(piece.mesh->cap_of);
     if (piece.seam_cost) out.put_all(*piece.seam_cost);
+    if (piece.stress) {
+        out.put(piece.stress->strength_mpa);
+        out.put_all(piece.stress->voxels);
+        out.put_all(piece.stress->stress);
+    }
     for (const HalfSpace& half_space : piece.half_spaces) {
         out.put(half_space.cut);
         out.put(half_space.plane);

@@ -135,7 +135,8 @@ Explanation explain(OpenProject& project, const Cut& cut, const Context& context
     const SearchSettings settings = settings_at(project.project(), cut);
     const TriangleMesh& scan = project.scan();
     StageTimer stage(context, "cuts replayed");
-    const Before b = before(project.project(), cut, scan);
+    Before b = before(project.project(), cut, scan);
+    if (settings.objectives.needs_structure()) set_stress(b.segmentation.pieces, project.stress());
     stage.next("planes ranked");
     Explanation e = explain_by(b, cut, settings, project.cache(),
                                project.too_large_for(settings, b.segmentation.pieces[b.piece]), context);

@@ -80,6 +80,9 @@ std::map<std::int32_t, Piece> OpenProject::pieces_to_recut(std::vector<std::int3
     if (numbers.empty()) return {};
     std::map<std::int32_t, Piece> divided =
         divided_pieces(project_, scan(), numbers, context, distance_store(folder_ / "cache"));
+    for (auto& [number, piece] : divided) {
+        if (project_.settings.objectives.needs_structure()) piece.stress = stress();
+    }
     release_scan();
     return divided;
 }

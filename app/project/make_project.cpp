@@ -10,6 +10,7 @@
 #include "app/project/no_cut_surface.h"
 #include "app/project/presets.h"
 #include "app/project/project_lines.h"
+#include "app/project/replay.h"
 #include "base/text.h"
 #include "base/timings.h"
 #include "cam/setup/choose_setup.h"
@@ -87,6 +88,8 @@ ProjectDraft draft_project(ProjectChoices choices, const ProjectContext& context
     }
     if (choices.plan) draft.plan = read_plan(*choices.plan);
     if (draft.plan && choices.preset.empty()) take_objectives(*draft.plan, choices.settings);
+    if (!choices.load) choices.settings.objectives.weights.structure = 0;  // a plan has its weight, but no load
+    check_load(choices.load, choices.weights.over(choices.settings.objectives.weights));
     std::optional<PaintedScan> painted = read_painted(choices);
     std::optional<NoCutMarks> no_cut = read_no_cut(choices);
     ImportedScan imported = import_project_scan(choices, context);

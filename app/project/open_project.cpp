@@ -10,8 +10,10 @@
 #include "app/project/ignored_surface.h"
 #include "app/project/piece_program.h"
 #include "app/project/project_folder.h"
+#include "app/project/project_lines.h"
 #include "app/project/replay.h"
 #include "app/project/shell_word.h"
+#include "app/project/stress_store.h"
 #include "app/project/unreachable_of.h"
 #include "base/error.h"
 #include "base/timings.h"
@@ -74,7 +76,16 @@ const Segmentation& OpenProject::segmentation() {
     const TriangleMesh& imported = scan();
     const StageTimer stage(context_, "cuts replayed");
     segmentation_ = replay(project_, imported, context_, distance_store(folder_ / "cache"));
+    if (project_.settings.objectives.needs_structure()) set_stress(segmentation_->pieces, stress());
     return *segmentation_;
+}
+
+const std::shared_ptr<const StressedModel>& OpenProject::stress() {
+    if (!stress_ && project_.load) {
+        stress_ = kept_stress(folder_ / "cache", scan(), *project_.load, context_);
+        for (const std::string& line : stress_lines(*stress_)) context_.message(line);
+    }
+    return stress_;
 }
 
 EvaluationCache& OpenProject::cache() {
@@ -183,6 +194,7 @@ void OpenProject::adopt(const Segmentation& segmentation, std::optional<BeamStat
 
 bool OpenProject::decide_weights(const Weights& weights) {
     if (weights == project_.settings.objectives.weights) return false;
+    check_load(project_.load, weights);
     decide(project_.history, WeightsChange{weights});
     set_weights(weights);
     project_.beam.reset();
@@ -302,6 +314,7 @@ SearchEnd OpenProject::search(const PieceChecks& checks, const std::function<voi
     const StageTimer stage(context, "search");
     BeamProgress progress = beam_progress(
         project_, working, [this]() -> const TriangleMesh& { return scan(); }, distance_store(folder_ / "cache"));
+    if (project_.settings.objectives.needs_structure()) set_stress(progress.root.pieces, stress());
     release_scan();
     const auto keep = [&](const Segmentation& best) {
         adopt(best, progress.saved());

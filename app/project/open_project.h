@@ -60,6 +60,9 @@ class OpenProject {
     const Project& project() const { return project_; }
     const TriangleMesh& scan();
     const Segmentation& segmentation();
+    // The stress of the scan under the project's load, and a message about it; null without a load. Throws what
+    // stress_of throws.
+    const std::shared_ptr<const StressedModel>& stress();
     EvaluationCache& cache();
 
     // How pieces are carved in the project's cell; nullptr without a cell. Throws InputError (config) for a cell file
@@ -159,6 +162,7 @@ class OpenProject {
     std::function<TriangleMesh()> import_scan_;
     std::optional<TriangleMesh> scan_;
     std::optional<Segmentation> segmentation_;
+    std::shared_ptr<const StressedModel> stress_;
     std::unique_ptr<EvaluationCache> cache_;
     std::optional<Setups> setups_;
     std::optional<SearchEnd> end_;  // of the last search, until something else is decided

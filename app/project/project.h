@@ -16,6 +16,7 @@
 #include "segment/import/import_scan.h"
 #include "segment/repair/choices.h"
 #include "segment/search/search.h"
+#include "segment/structure/stress.h"
 
 namespace qchopper {
 
@@ -81,8 +82,9 @@ struct Project {
     ScanSource scan;
     std::optional<IgnoredSurface> ignored;
     std::optional<NoCutSurface> no_cut;
-    std::string preset;       // empty: none
-    SearchSettings settings;  // with the weights in force
+    std::optional<StructureOptions> load;  // under which the scan is to stand; nothing: structure has no weight
+    std::string preset;                    // empty: none
+    SearchSettings settings;               // with the weights in force
     FragmentChoice fragments = FragmentChoice::keep;
     Stage stage = Stage::cutting;
     std::optional<EndReason> end_reason;  // of the search; nothing: it has not ended

@@ -86,6 +86,20 @@ NoCutSurface no_cut_from(const Json& json) {
             sha256_from(json.at("sha256"))};
 }
 
+Json json_of(const StructureOptions& load) {
+    return {{"upright", json_of(load.up)},       {"density_kg_per_m3", load.density_kg_per_m3},
+            {"strength_mpa", load.strength_mpa}, {"own_weight", load.has_own_weight},
+            {"force_n", load.force_n},           {"poisson_ratio", load.poisson_ratio},
+            {"voxel_mm", load.voxel_mm},         {"unknowns", load.unknowns}};
+}
+
+StructureOptions load_from(const Json& json) {
+    return {vec3_from(json.at("upright")),         json.at("density_kg_per_m3").get<double>(),
+            json.at("strength_mpa").get<double>(), json.at("own_weight").get<bool>(),
+            json.at("force_n").get<double>(),      json.at("poisson_ratio").get<double>(),
+            json.at("voxel_mm").get<double>(),     json.at("unknowns").get<std::size_t>()};
+}
+
 Json json_of(const WrittenJob& job) {
     return {{"piece", job.piece}, {"sha256", to_hex(job.sha256)}, {"project_id", job.project_id}, {"part", job.part}};
 }
@@ -254,6 +268,7 @@ Project from_json(const Json& json) {
     project.scan = scan_from(json.at("scan"));
     if (json.contains("ignored")) project.ignored = ignored_from(json.at("ignored"));
     if (json.contains("no_cut")) project.no_cut = no_cut_from(json.at("no_cut"));
+    if (json.contains("load")) project.load = load_from(json.at("load"));
     project.preset = json.at("preset").get<std::string>();
     project.settings = settings_from(json.at("settings"));
     project.fragments = value_of_name(fragment_names, json.at("fragment_choice"));
@@ -296,6 +311,7 @@ std::string to_json(const Project& project) {
               {"jobs", list_of(project.jobs)}};
     if (project.ignored) json["ignored"] = json_of(*project.ignored);
     if (project.no_cut) json["no_cut"] = json_of(*project.no_cut);
+    if (project.load) json["load"] = json_of(*project.load);
     if (project.beam) json["beam"] = json_of(*project.beam);
     if (project.verdict) json["verdict"] = json_of(*project.verdict);
     return text_of(json) + "\n";

@@ -48,6 +48,39 @@ std::vector<std::string> scan_lines(const Project& project) {
     return lines;
 }
 
+std::vector<std::string> stress_lines(const StressedModel& stress) {
+    const StructureReport& r = stress.report;
+    const Vec3 at = r.largest_tension_at;
+    std::vector<std::string> lines{
+        "structure: voxels of " + significant(stress.grid.size, 3) + " mm, " + with_commas(r.unknowns) + " unknowns, " +
+        with_commas(r.iterations) + " iterations; largest tension " +
+        significant(100 * r.largest_tension_mpa / stress.strength_mpa, 3) + " % of the strength, at " + fixed(at.x, 1) +
+        " " + fixed(at.y, 1) + " " + fixed(at.z, 1) + " mm"};
+    const auto share = [&](std::size_t voxels, std::size_t of) {
+        return fixed(100 * static_cast<double>(voxels) / static_cast<double>(of), 2) + " %";
+    };
+    std::size_t floating = 0;
+    std::size_t hinged = 0;
+    for (const FloatingSolid& solid : r.floating) {
+        floating += solid.voxels;
+        hinged += solid.is_hinged ? 1 : 0;
+    }
+    if (floating > 0) {
+        lines.push_back("structure: " + counted(r.floating.size(), "solid") + " of voxels, " +
+                        share(floating, stress.voxels.size()) + " of them, " +
+                        "hang on nothing that stands and get no stress; " + std::to_string(hinged) +
+                        " of them by an edge or a corner of a voxel");
+    }
+    if (r.hinges > 0) {
+        lines.push_back("structure: at " + counted(r.hinges, "place") + " voxels meet by an edge or a corner only");
+    }
+    if (r.thin_voxels > 0) {
+        lines.push_back("structure: " + share(r.thin_voxels, r.standing_voxels) +
+                        " of what stands is under 3 voxels thick, too coarse for its stress");
+    }
+    return lines;
+}
+
 std::string kept_cuts(std::size_t cuts, const std::filesystem::path& folder, bool is_beam) {
     return "The " + std::to_string(cuts) + " cuts " + (is_beam ? "of the best segmentation so far" : "made so far") +
            " are kept in " + folder.string();

@@ -25,6 +25,10 @@ std::string symmetry_line(const SymmetryPlane& symmetry);
 // Those of these lines that the project has.
 std::vector<std::string> scan_lines(const Project& project);
 
+// What the stress analysis found, and what it leaves open: how fine it is, the largest tension, floating solids,
+// hinges, walls that are too thin for its voxels.
+std::vector<std::string> stress_lines(const StressedModel& stress);
+
 // "The 3 cuts made so far are kept in NAME.qch", without a full stop.
 std::string kept_cuts(std::size_t cuts, const std::filesystem::path& folder, bool is_beam = false);
 

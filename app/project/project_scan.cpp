@@ -75,6 +75,7 @@ Project new_project(const ProjectChoices& choices, const ImportedScan& imported)
         choices.fragment_volume_mm3.value_or(fragment_share * scan.volume_mm3);
     project.history.weights_at_start = project.settings.objectives.weights;
     project.fragments = choices.fragments;
+    project.load = choices.load;
     project.warnings = imported.report.warnings;
     return project;
 }

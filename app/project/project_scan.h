@@ -31,6 +31,7 @@ struct ProjectChoices {
     std::optional<double> fragment_volume_mm3 =
         {};  // solids below are no pieces; nothing: a share of the scan's volume
     FragmentChoice fragments = FragmentChoice::keep;
+    std::optional<StructureOptions> load = {};  // Project::load
     // Of the folder (make_project.h).
     std::filesystem::path folder = {};                    // NAME.qch, to be made
     std::optional<std::filesystem::path> cell_file = {};  // to be copied; nothing: no cell yet

@@ -114,6 +114,16 @@ std::optional<std::size_t> piece_named(const Segmentation& segmentation, const s
     return std::nullopt;
 }
 
+void set_stress(std::span<Piece> pieces, const std::shared_ptr<const StressedModel>& stress) {
+    for (Piece& piece : pieces) piece.stress = stress;
+}
+
+void check_load(const std::optional<StructureOptions>& load, const Weights& weights) {
+    if (weights.structure <= 0 || load) return;
+    throw InputError(InputFault::use, "the objective structure needs to know how the scan stands and is loaded",
+                     "leave its weight out, or make a new project with --structure");
+}
+
 BeamProgress beam_progress(const Project& project, const Segmentation& committed,
                            const std::function<const TriangleMesh&()>& scan, const DistanceStore& store) {
     BeamProgress progress;

@@ -9,7 +9,9 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +43,12 @@ std::map<std::int32_t, Piece> divided_pieces(const Project& project, const Trian
 
 // The index of a piece in segmentation.pieces; nothing if no piece has that name. O(pieces).
 std::optional<std::size_t> piece_named(const Segmentation& segmentation, const std::string& name);
+
+// Gives the pieces of a scan its stress; null: none.
+void set_stress(std::span<Piece> pieces, const std::shared_ptr<const StressedModel>& stress);
+
+// Throws InputError (use) if structure has a weight without a load.
+void check_load(const std::optional<StructureOptions>& load, const Weights& weights);
 
 // Where the search of a project goes on: at its beam if it has one and is wider than 1. `committed` is the segmentation
 // of its cuts; `scan` is called only if the root of the beam has fewer.

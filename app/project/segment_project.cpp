@@ -48,6 +48,7 @@ std::vector<std::optional<double>> unreachable_shares(OpenProject& open, const C
 // Adds the state of the project to an answer.
 SegmentAnswer with_state(SegmentAnswer answer, OpenProject& open, const Context& context) {
     if (!answer.proposal && !answer.preview && !answer.plan) answer.unreachable = unreachable_shares(open, context);
+    if (open.project().settings.objectives.needs_structure()) answer.stress = open.stress();
     answer.folder = open.folder();
     answer.project = open.project();
     answer.pieces_written = open.are_pieces_written();

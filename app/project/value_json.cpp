@@ -250,6 +250,7 @@ Json json_of(const Ranked& r) {
               {"wanted_offset_mm", r.wanted_offset}, {"normal_index", r.normal_index},
               {"offset_index", r.offset_index},      {"terms", json_of(r.terms)}};
     if (r.seam_mm != 0) json["seam_mm"] = r.seam_mm;
+    if (r.coarse_sections != 0) json["coarse_sections"] = r.coarse_sections;
     return json;
 }
 
@@ -259,7 +260,8 @@ Ranked ranked_from(const Json& json) {
             json.at("normal_index").get<int>(),
             json.at("offset_index").get<int>(),
             terms_from(json.at("terms")),
-            json.value("seam_mm", 0.0)};
+            json.value("seam_mm", 0.0),
+            json.value("coarse_sections", std::uint32_t{0})};
 }
 
 Json json_of(const Cut& cut) {

@@ -33,7 +33,8 @@ inline constexpr std::array<ObjectiveTerm, all_objectives.size()> all_objective_
      {"utilization", "Utilization", &Terms::utilization, &Weights::utilization, 4, true, 0.01},
      {"connector", "Connector", &Terms::connector, &Weights::connector, 5, true, 0.01},
      {"seam", "Seam", &Terms::seam, &Weights::seam, 7, true, 0.01},
-     {"symmetry", "Symmetry", &Terms::symmetry, &Weights::symmetry, 8, true, 0.001}}};
+     {"symmetry", "Symmetry", &Terms::symmetry, &Weights::symmetry, 8, true, 0.001},
+     {"structure", "Structure", &Terms::structure, &Weights::structure, 10, true, 0.0001, 6}}};
 
 // Those that have a weight, and those of the thesis unless terms of Chopper take their place.
 inline std::vector<ObjectiveTerm> objective_terms(const Weights& weights) {

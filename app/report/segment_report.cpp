@@ -3,6 +3,7 @@
 #include "app/report/segment_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/project/project_lines.h"
@@ -154,13 +155,15 @@ std::vector<std::string> committed_lines(const SegmentAnswer& answer) {
 }
 
 Json plane_json(const Ranked& r, const Project& project) {
-    return {{"normal", json_of(r.plane.normal)},
-            {"offset_mm", r.plane.offset},
-            {"offset_in_scan_mm", r.plane.offset + height(r.plane.normal, project.scan.centre)},
-            {"wanted_offset_mm", r.wanted_offset},
-            {"normal_index", r.normal_index},
-            {"offset_index", r.offset_index},
-            {"terms", json_of(r.terms)}};
+    Json json{{"normal", json_of(r.plane.normal)},
+              {"offset_mm", r.plane.offset},
+              {"offset_in_scan_mm", r.plane.offset + height(r.plane.normal, project.scan.centre)},
+              {"wanted_offset_mm", r.wanted_offset},
+              {"normal_index", r.normal_index},
+              {"offset_index", r.offset_index},
+              {"terms", json_of(r.terms)}};
+    if (r.coarse_sections > 0) json["coarse_sections"] = r.coarse_sections;
+    return json;
 }
 
 Json proposal_json(const Proposal& p, const Project& project) {
@@ -214,6 +217,27 @@ Json cuts_json(const Project& project) {
         cuts.push_back(json);
     }
     return cuts;
+}
+
+Json stress_json(const StressedModel& stress) {
+    const StructureReport& r = stress.report;
+    const double voxel_mm3 = std::pow(stress.grid.size, 3);
+    Json floating = Json::array();
+    for (const FloatingSolid& solid : r.floating) {
+        floating.push_back({{"volume_mm3", static_cast<double>(solid.voxels) * voxel_mm3},
+                            {"centre_mm", json_of(solid.centre)},
+                            {"hinged", solid.is_hinged}});
+    }
+    return {{"voxel_mm", stress.grid.size},
+            {"unknowns", r.unknowns},
+            {"iterations", r.iterations},
+            {"residual", r.residual},
+            {"largest_tension_mpa", r.largest_tension_mpa},
+            {"largest_tension_at_mm", json_of(r.largest_tension_at)},
+            {"standing_voxels", r.standing_voxels},
+            {"thin_voxels", r.thin_voxels},
+            {"hinges", r.hinges},
+            {"floating", floating}};
 }
 
 Json text_or_null(const std::string& text) {
@@ -281,6 +305,7 @@ std::string document(const SegmentAnswer& answer) {
               {"discarded", discarded_json(project)},
               {"warnings", project.warnings}};
     add_scan(json, project);
+    if (answer.stress) json["stress"] = stress_json(*answer.stress);
     if (answer.pieces_written) json["pieces_written"] = (answer.folder / "pieces").string();
     if (answer.plan) json["plan"] = answer.plan->string();
     if (answer.proposal) json["proposal"] = proposal_json(*answer.proposal, project);

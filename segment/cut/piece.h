@@ -24,7 +24,8 @@ struct HalfSpace {
     Vec3 up() const { return above ? plane.normal : -plane.normal; }
 };
 
-struct SampledPiece;  // segment/score/sampled_piece.h
+struct SampledPiece;   // segment/score/sampled_piece.h
+struct StressedModel;  // segment/structure/stress.h
 
 struct Piece {
     std::string name;  // A, B, ... Z, AA, ...: in the order in which pieces were made
@@ -34,6 +35,7 @@ struct Piece {
         {};  // along which directions its surface is open; null: not asked yet
     // Per point what a mm of seam there costs, in [0, 1] (segment/score/seam_cost.h); null: 1 everywhere.
     std::shared_ptr<const std::vector<float>> seam_cost = {};
+    std::shared_ptr<const StressedModel> stress = {};  // of the uncut scan under load; null: no load is given
 };
 
 }  // namespace qchopper

@@ -47,9 +47,11 @@ struct CutEvaluation {
     double cap_area_mm2 = 0;
     double fragility = 0;  // in the form of the objectives
     std::optional<CutReach> reach;
-    double seam_mm = 0;      // length of the section's outline, each point by its cost (Piece::seam_cost)
-    double connector = 0;    // connector_sweep.h, in the form of the objectives
-    double symmetry_mm = 0;  // symmetry_sweep.h
+    double seam_mm = 0;                 // length of the section's outline, each point by its cost (Piece::seam_cost)
+    double connector = 0;               // connector_sweep.h, in the form of the objectives
+    double symmetry_mm = 0;             // symmetry_sweep.h
+    double structure = 0;               // SectionStress::value of the plane (segment/structure/section_stress.h)
+    std::uint32_t coarse_sections = 0;  // of its sections those too coarse for that
 };
 
 }  // namespace qchopper

@@ -102,6 +102,7 @@ std::optional<Terms> terms(const CutEvaluation& evaluation, std::span<const Piec
         for (const PieceShare& other : others) unreachable += other.unreachable_mm2;
         result.unreachable = unreachable / evaluation.reach->scan_area_mm2;
     }
+    result.structure = evaluation.structure;
     add_terms_of_chopper(result, evaluation, std::span(pieces).last(made), others, objectives, scan);
     result.total = weighted_sum(result, objectives.weights);
     return result;

@@ -67,6 +67,7 @@ struct Objectives {
     bool needs_seam() const { return weights.seam > 0; }
     bool needs_connector() const { return weights.connector > 0; }
     bool needs_symmetry() const { return weights.symmetry > 0 && symmetry_plane; }
+    bool needs_structure() const { return weights.structure > 0; }
 };
 
 // The values of one piece that enter the objectives.

@@ -137,6 +137,7 @@ PreparedPiece prepare(const Piece& piece, const Objectives& objectives, const st
     if (objectives.needs_connector() && objectives.connector.form == ConnectorForm::spread)
         p.old_joints = old_joints(piece, objectives.connector);
     p.has_seam = objectives.needs_seam();
+    if (objectives.needs_structure() && piece.stress) p.stressed = stressed_part(piece.stress, mesh);
     if (objectives.needs_sizes()) {
         p.sizes.axis = axes != nullptr ? *axes : oriented_box(mesh.points).axis;
         add_boxes_of_clusters(p);

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "segment/score/clusters.h"
 #include "segment/score/objectives.h"
 #include "segment/score/old_joints.h"
+#include "segment/structure/section_stress.h"
 
 namespace qchopper {
 
@@ -63,6 +65,7 @@ struct PreparedPiece {
     PreparedSizes sizes;               // only if sizes are needed
     std::vector<OldJoint> old_joints;  // only for connector in the form `spread`
     bool has_seam = false;             // whether lengths of outlines are
+    std::optional<StressedPart> stressed;  // only if structure has a weight and the piece has stress
     // The vector that undercut projects on a direction: the area vector, or the unit normal if triangles are counted.
     Vec3 weighted_normal(std::size_t triangle) const { return unit.empty() ? sums[triangle].area : unit[triangle]; }
 };

@@ -223,6 +223,17 @@ void add_of_sections(const PreparedPiece& prepared, Vec3 normal, std::span<const
         add_symmetry(prepared, normal, offsets, sections, *objectives.symmetry_plane, evaluations);
 }
 
+void add_structure(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
+                   std::span<std::optional<CutEvaluation>> evaluations) {
+    if (!prepared.stressed) return;
+    const std::vector<SectionStress> stress = section_stress(*prepared.stressed, normal, offsets);
+    for (std::size_t j = 0; j < evaluations.size(); ++j) {
+        if (!evaluations[j]) continue;
+        evaluations[j]->structure = stress[j].value;
+        evaluations[j]->coarse_sections = stress[j].too_coarse;
+    }
+}
+
 }  // namespace
 
 std::vector<std::optional<CutEvaluation>> sweep_solids(const PreparedPiece& prepared, Vec3 normal,
@@ -251,6 +262,7 @@ void add_fragility(const PreparedPiece& prepared, Vec3 normal, std::span<const d
 void add_late_terms(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
                     const Objectives& objectives, std::span<std::optional<CutEvaluation>> evaluations) {
     add_fragility(prepared, normal, offsets, objectives, evaluations);
+    add_structure(prepared, normal, offsets, evaluations);
     if (!objectives.needs_connector() && !objectives.needs_symmetry()) return;
     SweptSections sections;
     sweep_sections(prepared, normal, offsets, sections);
@@ -263,6 +275,7 @@ std::vector<std::optional<CutEvaluation>> sweep(const PreparedPiece& prepared, V
     std::vector<std::optional<CutEvaluation>> evaluations = sweep_sections(prepared, normal, offsets, sections);
     add_fragility(prepared, normal, offsets, objectives, evaluations);
     add_of_sections(prepared, normal, offsets, objectives, sections, evaluations);
+    add_structure(prepared, normal, offsets, evaluations);
     return evaluations;
 }
 

@@ -30,7 +30,8 @@ std::vector<std::optional<CutEvaluation>> sweep_solids(const PreparedPiece& prep
 void add_fragility(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
                    const Objectives& objectives, std::span<std::optional<CutEvaluation>> evaluations);
 
-// The same, and connector and symmetry where they have a weight: all terms that may wait until a plane can still win.
+// The same, and structure, connector and symmetry where they have a weight: all terms that may wait until a plane can
+// still win.
 void add_late_terms(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
                     const Objectives& objectives, std::span<std::optional<CutEvaluation>> evaluations);
 

@@ -19,6 +19,7 @@ struct Weights {
     double connector = 0;
     double seam = 0;
     double symmetry = 0;
+    double structure = 0;  // above 0 the pieces need the stress of the scan (Piece::stress)
     bool operator==(const Weights&) const = default;
 };
 
@@ -34,6 +35,7 @@ struct Terms {
     double connector = 0;
     double seam = 0;
     double symmetry = 0;
+    double structure = 0;  // tension and shear on the sections by the strength; 0 without a load
     double total = 0;
     bool operator==(const Terms&) const = default;
 };
@@ -45,7 +47,7 @@ struct ObjectiveField {
     bool can_forbid;  // its 1 says "not wanted": such cuts may be forbidden (Objectives::forbidden)
 };
 
-inline constexpr std::array<ObjectiveField, 10> all_objectives{
+inline constexpr std::array<ObjectiveField, 11> all_objectives{
     {{"face_ratio", &Weights::face_ratio, &Terms::face_ratio, false},
      {"fragility", &Weights::fragility, &Terms::fragility, true},
      {"piece_count", &Weights::piece_count, &Terms::piece_count, false},
@@ -55,7 +57,8 @@ inline constexpr std::array<ObjectiveField, 10> all_objectives{
      {"utilization", &Weights::utilization, &Terms::utilization, false},
      {"connector", &Weights::connector, &Terms::connector, true},
      {"seam", &Weights::seam, &Terms::seam, false},
-     {"symmetry", &Weights::symmetry, &Terms::symmetry, false}}};
+     {"symmetry", &Weights::symmetry, &Terms::symmetry, false},
+     {"structure", &Weights::structure, &Terms::structure, false}}};
 
 // Those that every file and report names; the others only where they have a weight.
 constexpr std::size_t always_named = 4;

@@ -19,7 +19,8 @@ double of_cuts(const Segmentation& segmentation, const Objectives& objectives) {
     for (const Cut& cut : segmentation.cuts) {
         const Terms& terms = cut.chosen.terms;
         sum += w.fragility * terms.fragility + w.piece_count * terms.piece_count;
-        sum += w.utilization * terms.utilization + w.connector * terms.connector + w.symmetry * terms.symmetry;
+        sum += w.utilization * terms.utilization + w.connector * terms.connector + w.symmetry * terms.symmetry +
+               w.structure * terms.structure;
         if (objectives.scope == TermScope::cut) sum += w.face_ratio * terms.face_ratio + w.undercut * terms.undercut;
     }
     return sum;

@@ -75,8 +75,8 @@ std::vector<Ranked> rank(const PieceEvaluations& evaluations, std::span<const Pi
         const std::optional<Terms> t = terms(*evaluations.evaluations[i], others, objectives, scan);
         if (!t) continue;
         const Candidate& c = evaluations.candidates[i];
-        ranked.push_back(
-            {c.plane, c.wanted_offset, c.normal_index, c.offset_index, *t, evaluations.evaluations[i]->seam_mm});
+        ranked.push_back({c.plane, c.wanted_offset, c.normal_index, c.offset_index, *t,
+                          evaluations.evaluations[i]->seam_mm, evaluations.evaluations[i]->coarse_sections});
     }
     sort_ranking(ranked, objectives);
     return ranked;

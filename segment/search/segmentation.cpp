@@ -75,6 +75,7 @@ bool apply(Segmentation& segmentation, Cut cut, double fragment_volume_mm3) {
     if (!made) return false;
     sample_parts(*piece, *made);
     pass_on_seam_costs(*piece, *made);
+    for (Piece& part : made->pieces) part.stress = piece->stress;
     segmentation.pieces.erase(piece);
     const std::size_t fragments_before = segmentation.fragments.size();
     cut.pieces = add_solids(segmentation, std::move(made->pieces), cut.number, fragment_volume_mm3);

@@ -23,7 +23,8 @@ struct Ranked {
     int normal_index = 0;  // as in Candidate
     int offset_index = 0;
     Terms terms;
-    double seam_mm = 0;  // CutEvaluation::seam_mm, which later cuts need
+    double seam_mm = 0;                 // CutEvaluation::seam_mm, which later cuts need
+    std::uint32_t coarse_sections = 0;  // as in CutEvaluation
     bool operator==(const Ranked&) const = default;
 };
 

@@ -32,7 +32,8 @@ struct SearchSettings {
                objectives.needs_sizes() == others.objectives.needs_sizes() &&
                objectives.needs_seam() == others.objectives.needs_seam() &&
                objectives.needs_connector() == others.objectives.needs_connector() &&
-               objectives.needs_symmetry() == others.objectives.needs_symmetry();
+               objectives.needs_symmetry() == others.objectives.needs_symmetry() &&
+               objectives.needs_structure() == others.objectives.needs_structure();
     }
     // Whether a search must save more than its segmentation to go on as if it had not been interrupted.
     bool has_state() const { return beam > 1 || stop.max_unreachable; }

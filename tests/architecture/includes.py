@@ -14,7 +14,7 @@ MODULES = ["base", "segment", "cam", "devices", "sim", "app"]
 
 # Inside these modules the sub-modules are ordered as well.
 SUB_MODULES = {
-    "segment": ["mesh", "io", "repair", "import", "cut", "simplify", "sample", "picture", "score", "search", "joint"],
+    "segment": ["mesh", "io", "repair", "import", "structure", "cut", "simplify", "sample", "picture", "score", "search", "joint"],
     "cam": ["cell", "setup", "toolpath", "program", "post", "job", "export"],
     "app": ["project", "report", "cli"],
 }
@@ -34,6 +34,7 @@ FREE_OF_CGAL = ["devices", "sim"]
 HEAVY = {
     "CGAL": (r"CGAL/", 7),
     "OpenMesh": (r"OpenMesh/", 2),
+    "Eigen": (r"Eigen/", 3),
     "Embree": (r"embree3/", 1),
     "tinygltf": (r"(.*/)?tiny_gltf\.h$", 2),
     "TBB": (r"tbb/", 1),
