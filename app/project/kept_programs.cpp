@@ -27,6 +27,7 @@ std::optional<std::vector<DrawnCap>> decided(const ReadJob& job, const ProgramSo
     }
     decide_holes(caps, drilled, reasons, {});
     std::vector<JobCap> own;
+    own.reserve(caps.size());
     for (const DrawnCap& drawn : caps) own.push_back(drawn.cap);
     if (own != job.caps) return std::nullopt;
     return caps;
