@@ -25,6 +25,9 @@ namespace {
 
 constexpr double cells_per_radius = 6;  // of the finest tool, in the maps of foam
 constexpr double least_foam_cell = 0.5;
+// Of holder and spindle from foam at the middles of cells: foam stands up to 0.71 cells beside where another direction
+// says so (holder_limit_over allows for the cell of this one).
+constexpr double clearance_cells = 1.2;
 constexpr double worth_a_round = 50;  // mm of passes that were blocked and are free now
 constexpr double border_cells = 6;
 constexpr double surface_spacing = 1;       // mm, between points that are asked what is left over them
@@ -32,7 +35,7 @@ constexpr double clear_of_table = 2;        // mm, of all points of a tool
 constexpr double rim_clear_of_table = 1.1;  // mm; the check tool_to_table of cam/setup asks for 1
 constexpr double finishing_border = 0.075;  // mm, of the cells of finishing (TipOptions::border)
 constexpr double upright = 0.9999;          // cosine of the tilt of a direction from above
-constexpr double skin_cells = 2.5;          // by which foam may be known as more than it is
+constexpr double skin_beyond = 4.2;         // mm beyond the allowance: a narrower rim of foam is left to finishing
 
 class ToolpathMaker {
  public:
@@ -136,7 +139,7 @@ class ToolpathMaker {
         space.is_limit_between = false;
         RoughingOptions options;
         if (!is_first) {
-            options = {operation.step_down, settings_.allowance + skin_cells * foam_cell_};
+            options = {operation.step_down, settings_.allowance + skin_beyond};
         }
         std::vector<PathRun> runs = rough(space, tool, body_of(tool_index), operation, options, context_);
         add(std::move(operation), space, std::move(runs));
@@ -184,7 +187,7 @@ class ToolpathMaker {
         double carved = 0;
         while (!left.passes.empty()) {
             context_.check_cancelled();
-            space.holder_limit = holder_limit_over(space.foam, body);
+            space.holder_limit = holder_limit_over(space.middle_foam, body, {clearance_cells * foam_cell_, 1});
             ClippedPasses parts = clipped(left.passes, space, tool);
             left.passes = std::move(parts.blocked);
             const double length = length_of(parts.free);

@@ -28,8 +28,8 @@ struct LevelSpan {
 
 class RoughingLevels {
  public:
-    RoughingLevels(CarvingSpace& space, const CarvingTool& tool, const RoughingOptions& options)
-        : space_(space), tool_(tool), options_(options) {
+    RoughingLevels(CarvingSpace& space, const CarvingTool& tool, double step_down, const RoughingOptions& options)
+        : space_(space), tool_(tool), step_down_(step_down), options_(options) {
         const double radius = 0.5 * tool.diameter;
         core_radius_ = std::max(0.0, radius - options.skin_width);
         flute_radius_ = std::max(0.0, radius - flute_rim);
@@ -76,12 +76,13 @@ class RoughingLevels {
     }
 
  private:
-    // A skin that were left to finishing would in the end be higher than the flute.
-    double highest_skin() const { return 0.5 * tool_.flute_length; }
+    // A higher skin is not left to finishing: at the next level but one it would be higher than the flute.
+    double highest_skin() const { return std::max(0.5 * tool_.flute_length, tool_.flute_length - 2 * step_down_); }
     double least_above() const { return std::max(least_foam, options_.skin_height); }
 
     const CarvingSpace& space_;
     const CarvingTool& tool_;
+    double step_down_;
     RoughingOptions options_;
     double core_radius_ = 0;   // foam within it is to go
     double flute_radius_ = 0;  // foam within it is cut by the flute
@@ -92,7 +93,7 @@ class RoughingLevels {
 
 std::vector<PathRun> rough(CarvingSpace& space, const CarvingTool& tool, const ToolBody& body,
                            const Operation& operation, const RoughingOptions& options, const Context& context) {
-    const RoughingLevels levels(space, tool, options);
+    const RoughingLevels levels(space, tool, operation.step_down, options);
     const LevelSpan heights = levels.heights();
     if (heights.is_empty()) return {};
     const auto count = static_cast<std::size_t>(std::ceil((heights.top - heights.bottom) / operation.step_down - 1e-6));

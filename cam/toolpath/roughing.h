@@ -17,7 +17,8 @@ namespace qchopper {
 
 struct RoughingOptions {
     // Foam that another direction or a larger tool left on its surface is left to finishing: what is not higher than
-    // `skin_height`, or lies at most `skin_width` inside the rim of the tool. Both 0 in the first direction.
+    // `skin_height`, or lies at most `skin_width` inside the rim of the tool, unless it stands higher than the flute
+    // less two levels. Both 0 in the first direction.
     double skin_height = 0;
     double skin_width = 0;
 };

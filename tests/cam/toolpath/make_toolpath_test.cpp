@@ -158,7 +158,7 @@ TEST(MakeToolpath, NeverCutsFoamAboveTheFlute) {
     const Cell cell = ready_cell();
     ToolpathSettings settings = coarse_settings();
     settings.has_fine_finishing = false;
-    PlainReplay replay(setup, cell, 1.7);
+    PlainReplay replay(setup, cell, 2.1);
     for (const Operation& operation : make_toolpath(setup, mesh, cell, settings).operations) replay.carve(operation);
     expect_clean(replay, "tall box");
 }
