@@ -64,7 +64,7 @@ void measure_planes(const Measured& measured, Figures& figures) {
                    number_text(evaluating / static_cast<double>(candidates.size()) / cutting));
 }
 
-void measure(const Choice& choice, Figures& figures) {
+void measure_specimen(const Choice& choice, Figures& figures) {
     const ThreadLimit one(1);
     const auto head = choice.is_small ? nullptr : scan(choice.data / "ct_head_1912k.ply", 1);
     const Measured measured =
@@ -76,5 +76,5 @@ void measure(const Choice& choice, Figures& figures) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    return print_figures(argc, argv, usage, measure);
+    return print_figures(argc, argv, usage, measure_specimen);
 }
