@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <map>
 #include <string>
@@ -146,6 +147,7 @@ void print_places(const TriangleMesh& mesh, const LeftoverFigures& left, double 
         if (distance > place.most) place.most = distance, place.at = at;
     }
     std::vector<Place> sorted;
+    sorted.reserve(places.size());
     for (const auto& [key, place] : places) sorted.push_back(place);
     std::sort(sorted.begin(), sorted.end(), [](const Place& a, const Place& b) { return a.area > b.area; });
     for (std::size_t i = 0; i < std::min(listed, sorted.size()); ++i) {
@@ -223,8 +225,13 @@ int main(int argc, char** argv) {
         std::cerr << usage;
         return 64;
     }
+    const double replay_cell = argc == 4 ? std::strtod(argv[3], nullptr) : 0.5;
+    if (!(replay_cell > 0)) {
+        std::cerr << usage;
+        return 64;
+    }
     try {
-        return measure(argv[1], argv[2], argc == 4 ? std::stod(argv[3]) : 0.5);
+        return measure(argv[1], argv[2], replay_cell);
     } catch (const InputError& error) {
         std::cerr << error.what() << "\n";
         return 66;
