@@ -77,6 +77,12 @@ struct ProjectArguments : RepairChoiceArguments {
     std::optional<double> time_limit_s;
     std::optional<std::string> fragments;  // keep | drop
     std::optional<double> fragment_volume_mm3;
+    std::optional<std::string> normals;  // box | sphere
+    std::optional<int> offsets;
+    std::optional<double> offset_step_mm;
+    std::optional<std::filesystem::path> planes;
+    bool symmetry = false;
+    std::optional<std::filesystem::path> no_cut;
     std::optional<std::filesystem::path> ignore_surface;
     bool ignore_inside = false;
     std::optional<std::filesystem::path> out;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/cli/option_values.h"
+#include "app/cli/plane_list.h"
 #include "app/project/project_folder.h"
 #include "base/error.h"
 
@@ -15,6 +16,17 @@ namespace {
 std::optional<Stop> combine_of(const ProjectArguments& a) {
     if (!a.stop) return std::nullopt;
     return *a.stop == "any" ? Stop::any : Stop::all;
+}
+
+void take_candidates(const ProjectArguments& a, CandidateOptions& candidates) {
+    if (a.normals) candidates.normals = *a.normals == "box" ? CandidateNormals::box : CandidateNormals::sphere;
+    if (a.offsets) {
+        candidates.offsets_per_normal = *a.offsets;
+        candidates.offset_step_mm.reset();
+    }
+    if (a.offset_step_mm) candidates.offset_step_mm = a.offset_step_mm;
+    if (a.planes) candidates.given = planes_of_file(*a.planes);
+    candidates.takes_symmetry = candidates.takes_symmetry || a.symmetry;
 }
 
 SearchSettings settings_of(const ProjectArguments& a, const std::string& preset_name) {
@@ -29,6 +41,7 @@ SearchSettings settings_of(const ProjectArguments& a, const std::string& preset_
                                                                         : FragilityForm::thinness;
     }
     if (a.beam) settings.beam = static_cast<std::size_t>(*a.beam);
+    take_candidates(a, settings.candidates);
     if (a.print_volume) settings.objectives.print_volume = lengths_from(*a.print_volume);
     if (a.utilization)
         settings.objectives.utilization_scope = *a.utilization == "whole" ? TermScope::whole : TermScope::cut;
@@ -74,6 +87,7 @@ ProjectChoices choices_of(const ProjectArguments& a, const std::string& preset_i
     choices.scale = a.scale.value_or(1);
     choices.repair = repair_choices(a);
     choices.ignore = {a.ignore_surface, a.ignore_inside};
+    choices.no_cut = a.no_cut;
     choices.preset = a.preset.value_or(preset_if_none);
     choices.settings = settings_of(a, choices.preset);
     choices.fragment_volume_mm3 = a.fragment_volume_mm3;

@@ -38,6 +38,25 @@ void add_repair_choices(CLI::App* c, RepairChoiceArguments& a) {
     c->add_option("--wrap", a.alpha_wrap_mm)->check(is_length)->group("");
 }
 
+void add_candidate_options(CLI::App* c, ProjectArguments& a) {
+    c->add_option("--normals", a.normals,
+                  "planes are tried along the axes of the piece's box, or along 129 normals of the sphere too: box or "
+                  "sphere (sphere by carve, else box; docs/candidate-planes.md)")
+        ->check(one_of({"box", "sphere"}));
+    CLI::Option* offsets = c->add_option("--offsets", a.offsets, "so many planes along each normal (80 by carve, 40)")
+                               ->check(number_between(1, 10'000, "a count from 1 to 10000"));
+    c->add_option("--offset-step", a.offset_step_mm,
+                  "planes so many mm apart instead, but at most 199 along each normal")
+        ->check(number_between(1e-3, many, "a length in mm"))
+        ->excludes(offsets);
+    c->add_option("--planes", a.planes,
+                  "a text file with a plane nx,ny,nz,d in each line; every piece is tried with them too");
+    c->add_flag("--symmetry", a.symmetry,
+                "find the symmetry plane of the scan; it and the mirror images of cuts are tried too");
+    c->add_option("--no-cut", a.no_cut,
+                  "a PLY of the scan in which surface that must not be cut is painted red or has the property no_cut");
+}
+
 void add_project_options(CLI::App* c, ProjectArguments& a) {
     add_repair_choices(c, a);
     c->add_flag("--resolve-self-intersections", a.resolve_self_intersections,
@@ -67,6 +86,7 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
         ->check(number_between(0, 1, "a share from 0 to 1"));
     c->add_flag("--count-narrow", a.count_narrow,
                 "surface too narrow for the smallest tool counts as out of reach (it is only reported)");
+    add_candidate_options(c, a);
     c->add_option(
         "--ignore-surface", a.ignore_surface,
         "a PLY of the scan in which surface that may stay as it is, is painted red or has the property ignore; "

@@ -39,7 +39,8 @@ class CacheWriter {
     Bytes& bytes() { return bytes_; }
 
  private:
-    void add(const void* from, std::size_t count) {
+    // Not inline: of several calls in a row g++ 12 believes that the vector cannot grow.
+    [[gnu::noinline]] void add(const void* from, std::size_t count) {
         if (count == 0) return;
         const std::size_t before = bytes_.size();
         bytes_.resize(before + count);

@@ -31,9 +31,11 @@ std::string describe(const Decision& decision) {
 }
 
 std::size_t most_judged_planes(const SearchSettings& settings) {
-    constexpr std::size_t normals = 129 + 3;  // of the octahedron, and the axes of the piece's box
+    constexpr std::size_t of_box = 3;
+    constexpr std::size_t of_sphere = 129 + of_box;  // the octahedron's
     if (settings.objectives.weights.unreachable <= 0) return 0;
-    return normals * static_cast<std::size_t>(settings.candidates.offsets_per_normal);
+    const bool is_box = settings.candidates.normals == CandidateNormals::box;
+    return (is_box ? of_box : of_sphere) * static_cast<std::size_t>(most_offsets(settings.candidates));
 }
 
 std::string describe_planes(std::size_t evaluated, const SearchSettings& settings) {
@@ -43,6 +45,15 @@ std::string describe_planes(std::size_t evaluated, const SearchSettings& setting
 }
 
 namespace {
+
+// What is said of a plane that is along none of the normals.
+std::string kind_of(const Ranked& plane) {
+    if (plane.normal_index == refined_index) return ", refined";
+    if (plane.normal_index == symmetry_index) return ", the symmetry plane";
+    if (plane.normal_index == given_index) return ", a given one";
+    if (plane.normal_index == mirror_index) return ", the mirror image of cut " + std::to_string(plane.offset_index);
+    return "";
+}
 
 // ", seam 0.213": of those that have a weight.
 std::string terms_of_chopper(const Terms& t, const Weights& weights) {
@@ -71,7 +82,7 @@ std::string cut_line(const Cut& cut, const SearchSettings& settings) {
     const std::string which = cut.chosen.normal_index == own_index
                                   ? "given plane"
                                   : (is_best || is_refined ? "best of " : "one of ") +
-                                        describe_planes(cut.candidates, settings) + (is_refined ? ", refined" : "");
+                                        describe_planes(cut.candidates, settings) + kind_of(cut.chosen);
     return "cut " + std::to_string(cut.number) + " on piece " + cut.piece + ": " + which + ", total " +
            fixed(t.total, 3) + " (face ratio " + fixed(t.face_ratio, 2) + ", fragility " + fixed(t.fragility, 3) +
            ", piece count " + fixed(t.piece_count, 0) + ", undercut " + fixed(t.undercut, 3) +

@@ -97,6 +97,13 @@ std::optional<PieceEvaluations> from_bytes(std::span<const std::uint8_t> bytes) 
     return evaluations;
 }
 
+void put(CacheWriter& out, const CandidateOptions& options) {
+    const bool is_sphere = options.normals == CandidateNormals::sphere;
+    out.put_all(std::vector<double>{static_cast<double>(options.offsets_per_normal), is_sphere ? 1.0 : 0.0,
+                                    options.offset_step_mm.value_or(0)});
+    if (options.no_cut.points) out.put_all(*options.no_cut.points);
+}
+
 std::string name_of_file(const std::string& settings, const Piece& piece) {
     CacheWriter out;
     out.put(settings);
@@ -126,7 +133,7 @@ EvaluationStore evaluation_store(const fs::path& folder, const Objectives& objec
     w.put(static_cast<int>(objectives.fragility_form));
     w.put(objectives.fragility_distance);
     w.put(static_cast<std::uint8_t>(objectives.undercut_by_area));
-    w.put(options.offsets_per_normal);
+    put(w, options);
     w.put(static_cast<std::uint8_t>(objectives.needs_sizes()));
     w.put(static_cast<std::uint8_t>(objectives.needs_seam()));
     if (objectives.needs_connector()) {

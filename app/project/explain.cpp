@@ -48,7 +48,7 @@ Before before(const Project& project, const Cut& cut, const TriangleMesh& scan) 
 std::vector<Ranked> along_own_normal(const Before& b, const Plane& own, const SearchSettings& settings,
                                      EvaluationCache& cache, const Context& context) {
     const Piece& piece = b.segmentation.pieces[b.piece];
-    PieceEvaluations along{candidates_along(piece, own.normal, -1, settings.candidates.offsets_per_normal), {}};
+    PieceEvaluations along{candidates_along(piece, own.normal, own_index, settings.candidates), {}};
     along.evaluations = evaluate_all(piece, along.candidates, settings.objectives, context);
     if (is_ranked_by_reach(piece, settings)) {
         std::vector<double> offsets;
@@ -119,7 +119,7 @@ Explanation explain_by(const Before& b, const Cut& cut, const SearchSettings& se
         if (e.ranked[i].plane == cut.chosen.plane) e.place = i;
     }
     if (e.place) e.chosen = e.ranked[*e.place];
-    if (e.place && e.chosen.normal_index != refined_index) return e;
+    if (e.place && e.chosen.normal_index >= 0) return e;
     const Candidate own{cut.chosen.plane, cut.chosen.wanted_offset, cut.chosen.normal_index, cut.chosen.offset_index};
     if (!e.place) {
         const std::optional<Ranked> evaluated = rank_plane(b.segmentation, b.piece, own, settings, cache, context);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "app/project/painted_scan.h"
 #include "app/project/project_lines.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -20,9 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double far_share = 0.005;     // of the diagonal: a painted surface farther from the scan is another's
-constexpr double most_far_area = 0.01;  // of the painted area
-constexpr double least_left = 0.001;    // of the area: with less there is nothing to carve
+constexpr double least_left = 0.001;  // of the area: with less there is nothing to carve
 
 double ignored_share(const TriangleMesh& scan) {
     double ignored = 0;
@@ -33,22 +32,6 @@ double ignored_share(const TriangleMesh& scan) {
         if (is_ignored(scan, t)) ignored += area;
     }
     return all > 0 ? ignored / all : 0;
-}
-
-// To millimetres about the centre of the scan.
-void place(PaintedScan& painted, double factor, Vec3 centre) {
-    for (Vec3& p : painted.mesh.points) p = factor * p - centre;
-}
-
-void check_is_of_scan(const PaintedScan& painted, const ImportedScan& imported, const std::string& name) {
-    if (painted.sha256 == imported.sha256) return;
-    const double distance = far_share * norm(bounds(imported.mesh).size());
-    const double off = share_off_scan(painted.mesh, imported.mesh, distance);
-    if (off <= most_far_area) return;
-    throw InputError(InputFault::mesh,
-                     name + " is not painted on this scan: " + fixed(100 * off, 1) + " % of its surface is more than " +
-                         significant(distance, 3) + " mm away from it",
-                     "paint a copy of the scan, and export it in the same units and place");
 }
 
 }  // namespace
@@ -69,8 +52,10 @@ std::optional<IgnoredSurface> ignore_surface(const ProjectChoices& choices, std:
     std::vector<std::uint8_t> flags(scan.triangles.size());
     if (painted) {
         ignored.painted = fs::absolute(*choices.ignore.painted);
-        place(*painted, imported.mm_per_unit * choices.scale, imported.centre);
-        check_is_of_scan(*painted, imported, choices.ignore.painted->string());
+        place_on_scan(painted->mesh, imported.mm_per_unit * choices.scale, imported.centre);
+        if (painted->sha256 != imported.sha256) {
+            check_is_of_scan(painted->mesh, scan, choices.ignore.painted->string());
+        }
         flags = mapped_marks(painted->mesh, scan);
         painted.reset();
     }

@@ -7,7 +7,9 @@
 #include <variant>
 
 #include "app/project/ignored_surface.h"
+#include "app/project/no_cut_surface.h"
 #include "app/project/presets.h"
+#include "app/project/project_lines.h"
 #include "app/project/replay.h"
 #include "base/text.h"
 #include "base/timings.h"
@@ -21,7 +23,8 @@ void take_objectives(const Plan& plan, SearchSettings& settings) {
     if (plan.weights.unreachable > 0) {
         const SearchSettings carve = *preset("carve");
         settings.objectives.scope = carve.objectives.scope;
-        settings.candidates = carve.candidates;
+        int& offsets = settings.candidates.offsets_per_normal;
+        if (offsets == CandidateOptions{}.offsets_per_normal) offsets = carve.candidates.offsets_per_normal;
     }
     settings.objectives.weights = plan.weights;
 }
@@ -88,10 +91,23 @@ ProjectDraft draft_project(ProjectChoices choices, const ProjectContext& context
     if (!choices.load) choices.settings.objectives.weights.structure = 0;  // a plan has its weight, but no load
     check_load(choices.load, choices.weights.over(choices.settings.objectives.weights));
     std::optional<PaintedScan> painted = read_painted(choices);
+    std::optional<NoCutMarks> no_cut = read_no_cut(choices);
     ImportedScan imported = import_project_scan(choices, context);
     std::optional<IgnoredSurface> ignored = ignore_surface(choices, std::move(painted), imported, context);
+    CandidateOptions& candidates = choices.settings.candidates;
+    std::optional<NoCutSurface> no_cut_surface = mark_no_cut(choices, std::move(no_cut), imported, candidates, context);
+    candidates.takes_symmetry |= choices.weights.over(choices.settings.objectives.weights).symmetry > 0;
+    if (candidates.takes_symmetry) {
+        const StageTimer stage(context, "symmetry plane found");
+        candidates.symmetry = symmetry_plane(imported.mesh);
+        if (candidates.symmetry) {
+            choices.settings.objectives.symmetry_plane = candidates.symmetry->plane;
+            context.message(symmetry_line(*candidates.symmetry) + ".");
+        }
+    }
     context.warn(imported.report.warnings);
     draft.project = new_project(choices, imported);
+    draft.project.no_cut = std::move(no_cut_surface);
     if (cell) draft.project.settings = settings_in(*cell, draft.project.settings, choices.preset);
     draft.project.ignored = std::move(ignored);
     draft.scan = std::move(imported.mesh);

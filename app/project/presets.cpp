@@ -42,6 +42,9 @@ SearchSettings chopper() {
     w.seam = 0.1;
     w.symmetry = 0.25;
     settings.objectives.fragility_form = FragilityForm::binary;
+    settings.candidates.normals = CandidateNormals::sphere;
+    settings.candidates.offset_step_mm = 5;
+    settings.candidates.takes_symmetry = true;
     settings.objectives.scope = TermScope::cut;
     return settings;
 }

@@ -45,6 +45,14 @@ struct IgnoredSurface {
     bool operator==(const IgnoredSurface&) const = default;
 };
 
+// Surface through which no candidate goes (no_cut_surface.h).
+struct NoCutSurface {
+    std::filesystem::path painted;  // absolute: the file that marks it
+    std::size_t points = 0;         // of the imported scan
+    Sha256 sha256;                  // of the points in the folder
+    bool operator==(const NoCutSurface&) const = default;
+};
+
 // What the project records of a piece or a fragment. Derived from scan and cuts; kept for readers of the file.
 struct SolidRecord {
     std::string name;      // empty for a fragment
@@ -74,8 +82,9 @@ struct Project {
     ScanSource scan;
     std::optional<IgnoredSurface> ignored;
     std::optional<StructureOptions> load;  // under which the scan is to stand; nothing: structure has no weight
-    std::string preset;                    // empty: none
-    SearchSettings settings;               // with the weights in force
+    std::optional<NoCutSurface> no_cut;
+    std::string preset;       // empty: none
+    SearchSettings settings;  // with the weights in force
     FragmentChoice fragments = FragmentChoice::keep;
     Stage stage = Stage::cutting;
     std::optional<EndReason> end_reason;  // of the search; nothing: it has not ended

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "app/project/ignored_surface.h"
+#include "app/project/no_cut_surface.h"
 #include "app/project/project_json.h"
 #include "app/project/shell_word.h"
 #include "base/error.h"
@@ -60,6 +61,8 @@ void create_project(const fs::path& folder, const Project& project, const std::o
         fs::create_directory(aside.path() / "pictures");
         if (cell_file) write_file(aside.path() / "cell.toml", *cell_file);
         if (!ignored.empty()) write_file(aside.path() / ignored_file, ignored);
+        const Bytes no_cut = no_cut_bytes(project.settings.candidates.no_cut);
+        if (!no_cut.empty()) write_file(aside.path() / no_cut_file, no_cut);
         save_project(aside.path(), project);
         aside.move_to_its_place();
     } catch (const fs::filesystem_error& e) {
@@ -85,7 +88,9 @@ Project load_project(const fs::path& folder) {
                          "name a folder that prepare has made");
     }
     const Bytes bytes = read_file(file, record_limit);
-    return project_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
+    Project project = project_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
+    if (project.no_cut) project.settings.candidates.no_cut = load_no_cut(folder, *project.no_cut);
+    return project;
 }
 
 void clear_leftovers(const fs::path& folder) {

@@ -3,6 +3,7 @@
 //   NAME.qch/
 //     project.json      scan, settings, decisions with their terms and runners-up, pieces, fragments
 //     ignored.bin       surface that may stay as it is (ignored_surface.h); missing if there is none
+//     no_cut.bin        surface that must not be cut (no_cut_surface.h); missing if there is none
 //     cell.toml         a copy of the cell file; missing while the project has no cell
 //     pieces/A.ply ...  the pieces (binary PLY, double, face property cap = number of the cut)
 //     jobs/A.qjob ...   one job file per piece
@@ -10,9 +11,9 @@
 //     cache/            evaluations (evaluation_store.h); may be deleted at any time
 //     lock              held while a program writes
 //
-// Everything but cell.toml and ignored.bin follows from project.json and the scan. Pieces, jobs and pictures are never
-// stale: they are removed before a decision changes and written when the cutting is over (outputs.h).
-// docs/project-folder.md is the grammar.
+// Everything but cell.toml, ignored.bin and no_cut.bin follows from project.json and the scan. Pieces, jobs and
+// pictures are never stale: they are removed before a decision changes and written when the cutting is over
+// (outputs.h). docs/project-folder.md is the grammar.
 
 #pragma once
 
@@ -36,7 +37,8 @@ bool is_project_folder(const std::filesystem::path& path);
 void check_output(const std::filesystem::path& out);
 
 // Makes the folder, which appears whole or not at all. `cell_file`: the bytes of the cell file; nothing: no cell yet.
-// `ignored`: per triangle of the imported scan (ignored_surface.h), or empty.
+// `ignored`: per triangle of the imported scan (ignored_surface.h), or empty. The points that must not be cut are those
+// of the project's settings.
 // Throws InputError (create, io).
 void create_project(const std::filesystem::path& folder, const Project& project, const std::optional<Bytes>& cell_file,
                     const Bytes& ignored = {});

@@ -95,6 +95,11 @@ StructureOptions load_from(const Json& json) {
             json.at("voxel_mm").get<double>(),     json.at("unknowns").get<std::size_t>()};
 }
 
+NoCutSurface no_cut_from(const Json& json) {
+    return {json.at("painted").get<std::string>(), json.at("points").get<std::size_t>(),
+            sha256_from(json.at("sha256"))};
+}
+
 Json json_of(const WrittenJob& job) {
     return {{"piece", job.piece}, {"sha256", to_hex(job.sha256)}, {"project_id", job.project_id}, {"part", job.part}};
 }
@@ -263,6 +268,7 @@ Project from_json(const Json& json) {
     project.scan = scan_from(json.at("scan"));
     if (json.contains("ignored")) project.ignored = ignored_from(json.at("ignored"));
     if (json.contains("load")) project.load = load_from(json.at("load"));
+    if (json.contains("no_cut")) project.no_cut = no_cut_from(json.at("no_cut"));
     project.preset = json.at("preset").get<std::string>();
     project.settings = settings_from(json.at("settings"));
     project.fragments = value_of_name(fragment_names, json.at("fragment_choice"));
@@ -305,6 +311,7 @@ std::string to_json(const Project& project) {
               {"jobs", list_of(project.jobs)}};
     if (project.ignored) json["ignored"] = json_of(*project.ignored);
     if (project.load) json["load"] = json_of(*project.load);
+    if (project.no_cut) json["no_cut"] = json_of(*project.no_cut);
     if (project.beam) json["beam"] = json_of(*project.beam);
     if (project.verdict) json["verdict"] = json_of(*project.verdict);
     return text_of(json) + "\n";

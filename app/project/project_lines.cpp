@@ -27,9 +27,25 @@ std::string ignored_line(const IgnoredSurface& ignored) {
     return "ignored: " + fixed(100 * ignored.share, 2) + " % of the scan's surface (" + by + ")";
 }
 
-std::vector<std::string> ignored_lines(const Project& project) {
-    if (!project.ignored) return {};
-    return {ignored_line(*project.ignored)};
+std::string no_cut_line(const NoCutSurface& no_cut) {
+    return "no cut: through " + with_commas(no_cut.points) + (no_cut.points == 1 ? " point" : " points") +
+           " of the scan (painted in " + no_cut.painted.string() + ")";
+}
+
+std::string symmetry_line(const SymmetryPlane& s) {
+    const Vec3 n = s.plane.normal;
+    return "symmetry plane: normal " + fixed(n.x, 4) + " " + fixed(n.y, 4) + " " + fixed(n.z, 4) + ", offset " +
+           fixed(s.plane.offset, 3) + " mm; mirror images miss by " + fixed(s.ratio(), 2) +
+           " of the distance of samples: " + (s.is_symmetric() ? "symmetric" : "not symmetric");
+}
+
+std::vector<std::string> scan_lines(const Project& project) {
+    std::vector<std::string> lines;
+    if (project.ignored) lines.push_back(ignored_line(*project.ignored));
+    if (project.no_cut) lines.push_back(no_cut_line(*project.no_cut));
+    const std::optional<SymmetryPlane>& symmetry = project.settings.candidates.symmetry;
+    if (symmetry) lines.push_back(symmetry_line(*symmetry));
+    return lines;
 }
 
 std::vector<std::string> stress_lines(const StressedModel& stress) {

@@ -17,8 +17,13 @@ std::vector<std::string> discarded_lines(const Project& project);
 
 // "ignored: 12.40 % of the scan's surface (painted in FILE, inside)".
 std::string ignored_line(const IgnoredSurface& ignored);
-// That line, or none.
-std::vector<std::string> ignored_lines(const Project& project);
+// "no cut: through 1,234 points of the scan (painted in FILE)".
+std::string no_cut_line(const NoCutSurface& no_cut);
+// "symmetry plane: normal 1.0000 0.0000 0.0000, offset 0.012 mm; mirror images miss by 0.44 of the distance of samples:
+// symmetric".
+std::string symmetry_line(const SymmetryPlane& symmetry);
+// Those of these lines that the project has.
+std::vector<std::string> scan_lines(const Project& project);
 
 // What the stress analysis found, and what it leaves open: how fine it is, the largest tension, floating solids,
 // hinges, walls that are too thin for its voxels.

@@ -24,9 +24,10 @@ struct ProjectChoices {
     double scale = 1;
     RepairChoices repair = {};
     IgnoreChoices ignore = {};
-    std::string preset = {};       // the name of the settings; empty: none
-    SearchSettings settings = {};  // all but the volume below which solids are no pieces
-    GivenWeights weights = {};     // in place of those of the settings
+    std::optional<std::filesystem::path> no_cut = {};  // a PLY that marks surface that must not be cut
+    std::string preset = {};                           // the name of the settings; empty: none
+    SearchSettings settings = {};                      // all but the volume below which solids are no pieces
+    GivenWeights weights = {};                         // in place of those of the settings
     std::optional<double> fragment_volume_mm3 =
         {};  // solids below are no pieces; nothing: a share of the scan's volume
     FragmentChoice fragments = FragmentChoice::keep;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/project/enum_names.h"
+#include "base/error.h"
 #include "segment/score/tool_directions.h"
 
 namespace qchopper {
@@ -16,12 +17,27 @@ constexpr EnumName<Stop> stop_names[] = {{Stop::any, "any"}, {Stop::all, "all"}}
 constexpr EnumName<FragilityForm> fragility_names[] = {
     {FragilityForm::thinness, "thinness"}, {FragilityForm::thesis, "thesis"}, {FragilityForm::binary, "binary"}};
 
+constexpr EnumName<CandidateNormals> normals_names[] = {{CandidateNormals::box, "box"},
+                                                        {CandidateNormals::sphere, "sphere"}};
+
 constexpr EnumName<ConnectorForm> connector_names[] = {{ConnectorForm::spread, "spread"},
                                                        {ConnectorForm::ratio, "ratio"}};
+
 constexpr EnumName<VerdictOutcome> outcome_names[] = {{VerdictOutcome::replaced, "replaced"},
                                                       {VerdictOutcome::kept, "kept"},
                                                       {VerdictOutcome::carries_cut, "carries_cut"},
                                                       {VerdictOutcome::decided, "decided"}};
+
+// Shorter ones would make grids that no memory holds.
+double length_from(double length) {
+    constexpr double least = 0.1;
+    constexpr double most = 1e6;
+    if (length >= least && length <= most) return length;
+    throw InputError(InputFault::config, "a length of its print volume or connectors is not from 0.1 to 1e6 mm");
+}
+double length_from(const Json& json) {
+    return length_from(json.get<double>());
+}
 
 Json json_of(const CarvedSurface& s) {
     return {{"unreachable_mm2", s.unreachable_mm2}, {"area_mm2", s.area_mm2}};
@@ -101,6 +117,58 @@ Json json_of(const IgnoredSurface& ignored) {
             {"sha256", to_hex(ignored.sha256)}};
 }
 
+Json json_of(const NoCutSurface& no_cut) {
+    return {{"painted", no_cut.painted.string()}, {"points", no_cut.points}, {"sha256", to_hex(no_cut.sha256)}};
+}
+
+Json json_of(const SymmetryPlane& s) {
+    return {{"normal", json_of(s.plane.normal)}, {"offset_mm", s.plane.offset}, {"score_mm", s.score_mm},
+            {"spacing_mm", s.spacing_mm},        {"ratio", s.ratio()},          {"is_symmetric", s.is_symmetric()}};
+}
+
+void add_scan(Json& json, const Project& project) {
+    if (project.ignored) json["ignored"] = json_of(*project.ignored);
+    if (project.no_cut) json["no_cut"] = json_of(*project.no_cut);
+    const std::optional<SymmetryPlane>& symmetry = project.settings.candidates.symmetry;
+    if (symmetry) json["symmetry"] = json_of(*symmetry);
+}
+
+namespace {
+
+// All but the number of offsets, and what is kept beside project.json.
+void add_candidates(Json& json, const CandidateOptions& c) {
+    if (c.normals) json["normals"] = name_of_value(normals_names, *c.normals);
+    if (c.offset_step_mm) json["offset_step_mm"] = *c.offset_step_mm;
+    if (c.takes_symmetry) json["takes_symmetry"] = true;
+    if (c.symmetry) json["symmetry"] = json_of(*c.symmetry);
+    for (const Plane& plane : c.given) {
+        json["planes"].push_back({{"normal", json_of(plane.normal)}, {"offset_mm", plane.offset}});
+    }
+}
+
+Plane plane_from(const Json& json) {
+    return {vec3_from(json.at("normal")), json.at("offset_mm").get<double>()};
+}
+
+void take_candidates(CandidateOptions& c, const Json& json) {
+    c.offsets_per_normal = json.at("offsets_per_normal").get<int>();
+    if (json.contains("normals")) c.normals = value_of_name(normals_names, json.at("normals").get<std::string>());
+    if (json.contains("offset_step_mm")) c.offset_step_mm = json.at("offset_step_mm").get<double>();
+    c.takes_symmetry = json.value("takes_symmetry", false);
+    if (json.contains("symmetry")) {
+        const Json& s = json.at("symmetry");
+        c.symmetry = SymmetryPlane{plane_from(s), s.at("score_mm").get<double>(), s.at("spacing_mm").get<double>()};
+    }
+    if (json.contains("planes")) {
+        for (const Json& plane : json.at("planes")) c.given.push_back(plane_from(plane));
+    }
+    if (c.offset_step_mm && !(*c.offset_step_mm > 0)) {
+        throw InputError(InputFault::config, "the step between offsets in it is not above 0");
+    }
+}
+
+}  // namespace
+
 Json json_of(const SearchSettings& s) {
     const Objectives& o = s.objectives;
     Json stop{{"combine", name_of_value(stop_names, s.stop.combine)},
@@ -135,6 +203,7 @@ Json json_of(const SearchSettings& s) {
     }
     if (!o.forbidden.empty()) json["forbidden"] = o.forbidden;
     if (o.tilt_deg != default_tilt_deg) json["tilt_deg"] = o.tilt_deg;
+    add_candidates(json, s.candidates);
     return json;
 }
 
@@ -148,16 +217,20 @@ SearchSettings settings_from(const Json& json) {
     s.objectives.fragment_volume_mm3 = json.at("fragment_volume_mm3").get<double>();
     if (json.value("terms_over", "whole") == "cut") s.objectives.scope = TermScope::cut;
     if (json.value("utilization_over", "cut") == "whole") s.objectives.utilization_scope = TermScope::whole;
-    if (json.contains("print_volume_mm")) s.objectives.print_volume = vec3_from(json.at("print_volume_mm"));
+    if (json.contains("print_volume_mm")) {
+        const Vec3 box = vec3_from(json.at("print_volume_mm"));
+        s.objectives.print_volume = Vec3{length_from(box.x), length_from(box.y), length_from(box.z)};
+    }
     if (json.contains("connector")) {
         const Json& c = json.at("connector");
-        s.objectives.connector = {value_of_name(connector_names, c.at("form")), c.at("diameter_mm").get<double>(),
-                                  c.at("depth_mm").get<double>(), c.at("wall_mm").get<double>(),
-                                  c.at("spacing_mm").get<double>()};
+        s.objectives.connector = {value_of_name(connector_names, c.at("form")), length_from(c.at("diameter_mm")),
+                                  length_from(c.at("depth_mm")), length_from(c.at("wall_mm")),
+                                  length_from(c.at("spacing_mm"))};
     }
     if (json.contains("forbidden")) s.objectives.forbidden = json.at("forbidden").get<std::vector<std::string>>();
     s.objectives.tilt_deg = json.value("tilt_deg", default_tilt_deg);
-    s.candidates.offsets_per_normal = json.at("offsets_per_normal").get<int>();
+    take_candidates(s.candidates, json);
+    if (s.candidates.symmetry) s.objectives.symmetry_plane = s.candidates.symmetry->plane;
     s.runners_up = json.at("runners_up").get<std::size_t>();
     s.beam = json.at("beam").get<std::size_t>();
     s.near = json.at("near").get<double>();

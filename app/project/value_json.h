@@ -18,9 +18,14 @@ nlohmann::ordered_json json_of(const Weights& weights);
 nlohmann::ordered_json json_of(const Terms& terms);
 nlohmann::ordered_json json_of(const SolidRecord& solid);  // a fragment has no name
 nlohmann::ordered_json json_of(const IgnoredSurface& ignored);
+nlohmann::ordered_json json_of(const NoCutSurface& no_cut);
+nlohmann::ordered_json json_of(const SymmetryPlane& symmetry);
 nlohmann::ordered_json json_of(const SearchSettings& settings);
 nlohmann::ordered_json json_of(const Cut& cut);
 nlohmann::ordered_json json_of(const CutVerdict& verdict);
+
+// What was found on the scan before the first cut: the keys ignored, no_cut and symmetry, where there is something.
+void add_scan(nlohmann::ordered_json& document, const Project& project);
 
 Vec3 vec3_from(const nlohmann::ordered_json& json);
 Weights weights_from(const nlohmann::ordered_json& json);

@@ -125,7 +125,7 @@ std::string verdict(const Explanation& e) {
 std::vector<std::string> lines(const Explanation& e, const Project& project, const std::string& picture) {
     std::vector<std::string> text{"cut " + std::to_string(e.cut.number) + " on piece " + e.cut.piece + " makes " +
                                   makes(e.cut)};
-    for (const std::string& line : ignored_lines(project)) text.push_back(line);
+    for (const std::string& line : scan_lines(project)) text.push_back(line);
     for (const std::string& line : discarded_lines(project)) text.push_back(line);
     text.push_back(verdict(e));
     for (const std::string& line : opened_lines(e)) text.push_back(line);
@@ -162,7 +162,7 @@ std::string document(const Explanation& e, const Project& project, const std::st
         json["opened"] = json_of(*e.opened);
         json["most_judged"] = e.most_judged;
     }
-    if (project.ignored) json["ignored"] = json_of(*project.ignored);
+    add_scan(json, project);
     return text_of(json);
 }
 

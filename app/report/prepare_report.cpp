@@ -171,7 +171,7 @@ std::vector<std::string> table(const PreparedProject& prepared) {
         "its depth.");
     if (const std::string note = arm_note(prepared.cell); !note.empty()) lines.push_back(note);
     for (const std::string& line : joint_lines(prepared.joints)) lines.push_back(line);
-    for (const std::string& line : ignored_lines(prepared.project)) lines.push_back(line);
+    for (const std::string& line : scan_lines(prepared.project)) lines.push_back(line);
     const std::size_t fragments = prepared.project.fragment_list.size();
     if (fragments > 0) {
         double volume = 0;
@@ -229,7 +229,7 @@ std::string document(const PreparedProject& prepared) {
               {"fragments", fragments},
               {"discarded", discarded_json(p)},
               {"warnings", p.warnings}};
-    if (p.ignored) json["ignored"] = json_of(*p.ignored);
+    add_scan(json, p);
     return text_of(json);
 }
 

@@ -146,7 +146,7 @@ std::vector<std::string> committed_lines(const SegmentAnswer& answer) {
     text.push_back(counted(project.pieces.size(), "piece") + " by " + counted(project.cuts.size(), "cut") + ", " +
                    counted(project.fragment_list.size(), "fragment") +
                    ". Weights: " + describe_weights(project.settings.objectives.weights) + ".");
-    add(text, ignored_lines(project));
+    add(text, scan_lines(project));
     add(text, discarded_lines(project));
     for (const auto& [option, what] : {std::pair{"--undo", describe_step("Undo ", to_undo(project.history))},
                                        {"--redo", describe_step("Redo ", to_redo(project.history))}})
@@ -304,7 +304,7 @@ std::string document(const SegmentAnswer& answer) {
               {"fragments", project.fragment_list.size()},
               {"discarded", discarded_json(project)},
               {"warnings", project.warnings}};
-    if (project.ignored) json["ignored"] = json_of(*project.ignored);
+    add_scan(json, project);
     if (answer.stress) json["stress"] = stress_json(*answer.stress);
     if (answer.pieces_written) json["pieces_written"] = (answer.folder / "pieces").string();
     if (answer.plan) json["plan"] = answer.plan->string();

@@ -2,6 +2,7 @@
 
 #include "segment/import/map_painted.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 
@@ -13,6 +14,7 @@ namespace qchopper {
 namespace {
 
 constexpr std::size_t triangles_at_once = 1024;
+constexpr std::size_t points_at_once = 1024;
 constexpr double on_the_surface = 1e-9;  // of the diagonal: a nearer triangle is not looked for
 
 Vec3 centroid(const TriangleMesh& mesh, std::size_t triangle) {
@@ -40,6 +42,29 @@ std::vector<std::uint8_t> mapped_marks(const TriangleMesh& painted, const Triang
         marks[t] = painted.ignored[tree.nearest(painted, centroid(scan, t), enough).triangle];
     });
     return marks;
+}
+
+std::vector<Vec3> mapped_points(const TriangleMesh& painted, const std::vector<std::uint8_t>& is_marked,
+                                const TriangleMesh& scan) {
+    assert(!painted.triangles.empty() && is_marked.size() == painted.points.size());
+    const TriangleTree tree(painted);
+    std::vector<std::uint8_t> marks(scan.points.size());
+    parallel_ranges(0, marks.size(), points_at_once, [&](std::size_t first, std::size_t end) {
+        for (std::size_t v = first; v < end; ++v) {
+            const Vec3 p = scan.points[v];
+            const Triangle& corners = painted.triangles[tree.nearest(painted, p).triangle];
+            const std::uint32_t nearest =
+                *std::min_element(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
+                    return norm(painted.points[a] - p) < norm(painted.points[b] - p);
+                });
+            marks[v] = is_marked[nearest];
+        }
+    });
+    std::vector<Vec3> points;
+    for (std::size_t v = 0; v < marks.size(); ++v) {
+        if (marks[v] != 0) points.push_back(scan.points[v]);
+    }
+    return points;
 }
 
 double share_off_scan(const TriangleMesh& painted, const TriangleMesh& scan, double distance) {

@@ -18,6 +18,11 @@ namespace qchopper {
 // ignored. O((triangles of both) log (triangles of painted)).
 std::vector<std::uint8_t> mapped_marks(const TriangleMesh& painted, const TriangleMesh& scan);
 
+// The points of `scan` that are marked, each as the corner nearest to it of the painted triangle that is nearest to it.
+// `is_marked`: one per point of `painted`. O(points of scan x log (triangles of painted)).
+std::vector<Vec3> mapped_points(const TriangleMesh& painted, const std::vector<std::uint8_t>& is_marked,
+                                const TriangleMesh& scan);
+
 // The share of the area of `painted`, 0 to 1, whose triangles have their centroid at least as far as `distance`, above
 // 0, from the surface of `scan`. O((triangles of both) log (triangles of scan)).
 double share_off_scan(const TriangleMesh& painted, const TriangleMesh& scan, double distance);

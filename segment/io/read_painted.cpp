@@ -19,7 +19,9 @@
 namespace qchopper {
 namespace {
 
-constexpr std::array<std::string_view, 4> mark_names{"ignore", "mask", "scalar_ignore", "scalar_mask"};
+using MarkNames = std::array<std::string_view, 4>;
+constexpr MarkNames ignore_names{"ignore", "mask", "scalar_ignore", "scalar_mask"};
+constexpr MarkNames no_cut_names{"no_cut", "mask", "scalar_no_cut", "scalar_mask"};
 constexpr double least_red = 200;
 constexpr double most_other = 60;
 
@@ -40,8 +42,8 @@ std::optional<std::size_t> property_named(const PlyElement& vertex, std::string_
     return static_cast<std::size_t>(found - vertex.properties.begin());
 }
 
-std::optional<MarkSource> mark_source(const PlyElement& vertex) {
-    for (const std::string_view name : mark_names) {
+std::optional<MarkSource> mark_source(const PlyElement& vertex, const MarkNames& names) {
+    for (const std::string_view name : names) {
         if (const auto property = property_named(vertex, name)) return MarkSource{{*property}};
     }
     for (const std::string prefix : {"", "diffuse_"}) {
@@ -96,25 +98,36 @@ std::vector<std::uint8_t> marks(const PlyHeader& header, std::string_view file, 
     }
 }
 
-}  // namespace
-
-TriangleMesh parse_painted_ply(const Bytes& bytes, const std::string& name) {
+MarkedPoints parse_marked(const Bytes& bytes, const std::string& name, const MarkNames& names,
+                          const std::string& page) {
     if (!is_ply(bytes)) {
         throw InputError(InputFault::mesh, name + " is not a PLY file", "export the painted scan as PLY");
     }
-    TriangleMesh mesh = parse_ply(bytes, name).mesh;
+    MarkedPoints marked{parse_ply(bytes, name).mesh, {}};
     const std::string_view file = as_text(bytes);
     const PlyHeader header = read_ply_header(file, name);
     const auto vertex = std::find_if(header.elements.begin(), header.elements.end(),
                                      [](const PlyElement& e) { return e.name == "vertex"; });
-    const auto source = vertex == header.elements.end() ? std::nullopt : mark_source(*vertex);
+    const auto source = vertex == header.elements.end() ? std::nullopt : mark_source(*vertex, names);
     if (!source) {
         throw InputError(InputFault::mesh,
-                         name + " marks nothing: its vertices have neither a property ignore or mask " + "nor colours",
-                         "paint what may stay red and export the vertex colours too (docs/ignored-surface.md)");
+                         name + " marks nothing: its vertices have neither a property " + std::string(names[0]) +
+                             " or mask nor colours",
+                         "paint the surface red and export the vertex colours too (" + page + ")");
     }
-    const std::vector<std::uint8_t> is_marked = marks(header, file, *source);
-    mesh.cap_of.clear();
+    marked.is_marked = marks(header, file, *source);
+    marked.mesh.cap_of.clear();
+    return marked;
+}
+
+}  // namespace
+
+MarkedPoints parse_no_cut_ply(const Bytes& bytes, const std::string& name) {
+    return parse_marked(bytes, name, no_cut_names, "docs/candidate-planes.md");
+}
+
+TriangleMesh parse_painted_ply(const Bytes& bytes, const std::string& name) {
+    auto [mesh, is_marked] = parse_marked(bytes, name, ignore_names, "docs/ignored-surface.md");
     mesh.ignored.reserve(mesh.triangles.size());
     for (const Triangle& t : mesh.triangles) {
         mesh.ignored.push_back(is_marked[t[0]] + is_marked[t[1]] + is_marked[t[2]] >= 2 ? 1 : 0);

@@ -7,7 +7,9 @@
 
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "base/file.h"
 #include "segment/mesh/triangle_mesh.h"
@@ -17,5 +19,15 @@ namespace qchopper {
 // In the unit of the file, with TriangleMesh::ignored filled in. `name` stands for the file. Throws InputError (mesh):
 // what parse_ply throws, and for a file that is no PLY or has neither such a property nor colours.
 TriangleMesh parse_painted_ply(const Bytes& bytes, const std::string& name);
+
+// A surface on which points are marked.
+struct MarkedPoints {
+    TriangleMesh mesh;                    // in the unit of the file
+    std::vector<std::uint8_t> is_marked;  // one per point: 1 or 0
+};
+
+// The same for surface that must not be cut: the property is named `no_cut` or `mask` (`scalar_no_cut`, `scalar_mask`),
+// and the marks are those of the vertices. Throws as above.
+MarkedPoints parse_no_cut_ply(const Bytes& bytes, const std::string& name);
 
 }  // namespace qchopper

@@ -20,7 +20,7 @@ struct Projected {
     double h;
 };
 
-struct Hit {
+struct ColumnHit {
     std::uint32_t column;
     double height;
 };
@@ -46,9 +46,9 @@ double height_at(Point2 at, const std::array<Projected, 3>& c) {
     return std::clamp(c[0].h + s * (c[1].h - c[0].h) + t * (c[2].h - c[0].h), low, high);
 }
 
-class Columns {
+class ColumnFinder {
  public:
-    Columns(const TriangleMesh& mesh, Vec3 normal, Vec3 origin, double spacing) : mesh_(mesh), spacing_(spacing) {
+    ColumnFinder(const TriangleMesh& mesh, Vec3 normal, Vec3 origin, double spacing) : mesh_(mesh), spacing_(spacing) {
         const PlaneFrame frame = frame_across(normal);
         points_.reserve(mesh.points.size());
         for (const Vec3& p : mesh.points) {
@@ -59,7 +59,7 @@ class Columns {
     SolidColumns run() {
         find_grid();
         for (const Triangle& t : mesh_.triangles) add_triangle(t);
-        std::sort(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) {
+        std::sort(hits_.begin(), hits_.end(), [](const ColumnHit& a, const ColumnHit& b) {
             return a.column != b.column ? a.column < b.column : a.height < b.height;
         });
         pair_hits();
@@ -123,20 +123,21 @@ class Columns {
     const TriangleMesh& mesh_;
     double spacing_;
     std::vector<Projected> points_;
-    std::vector<Hit> hits_;
+    std::vector<ColumnHit> hits_;
     SolidColumns out_;
 };
 
-std::span<const Range> solid_at(const SolidColumns& columns, std::int32_t i, std::int32_t j) {
+std::span<const HeightRange> solid_at(const SolidColumns& columns, std::int32_t i, std::int32_t j) {
     if (i < 0 || j < 0 || i >= columns.count_i || j >= columns.count_j) return {};
     const auto c = static_cast<std::size_t>(j * columns.count_i + i);
     return std::span(columns.solid).subspan(columns.first[c], columns.first[c + 1] - columns.first[c]);
 }
 
-void intersect(std::vector<Range>& ranges, std::span<const Range> others, std::vector<Range>& scratch) {
+void intersect(std::vector<HeightRange>& ranges, std::span<const HeightRange> others,
+               std::vector<HeightRange>& scratch) {
     scratch.clear();
     std::size_t k = 0;
-    for (const Range& r : ranges) {
+    for (const HeightRange& r : ranges) {
         while (k < others.size() && others[k].high < r.low) ++k;
         for (std::size_t o = k; o < others.size() && others[o].low <= r.high; ++o) {
             scratch.push_back({std::max(r.low, others[o].low), std::min(r.high, others[o].high)});
@@ -148,7 +149,7 @@ void intersect(std::vector<Range>& ranges, std::span<const Range> others, std::v
 }  // namespace
 
 SolidColumns solid_columns(const TriangleMesh& mesh, Vec3 normal, Vec3 origin, double spacing) {
-    return Columns(mesh, normal, origin, spacing).run();
+    return ColumnFinder(mesh, normal, origin, spacing).run();
 }
 
 std::vector<DowelSite> dowel_sites(const SolidColumns& columns, const ConnectorOptions& dowel) {
@@ -162,19 +163,19 @@ std::vector<DowelSite> dowel_sites(const SolidColumns& columns, const ConnectorO
     }
     const double shorter = dowel.depth + dowel.wall;
     std::vector<DowelSite> sites;
-    std::vector<Range> ranges;
-    std::vector<Range> scratch;
+    std::vector<HeightRange> ranges;
+    std::vector<HeightRange> scratch;
     for (std::int32_t j = 0; j < columns.count_j; ++j) {
         for (std::int32_t i = 0; i < columns.count_i; ++i) {
             ranges.clear();
-            for (const Range& r : solid_at(columns, i, j)) {
+            for (const HeightRange& r : solid_at(columns, i, j)) {
                 if (r.high - r.low >= 2 * shorter) ranges.push_back(r);
             }
             for (const auto& [di, dj] : around) {
                 if (ranges.empty()) break;
                 intersect(ranges, solid_at(columns, i + di, j + dj), scratch);
             }
-            for (const Range& r : ranges) {
+            for (const HeightRange& r : ranges) {
                 if (r.high - r.low >= 2 * shorter)
                     sites.push_back({columns.first_i + i, columns.first_j + j, {r.low + shorter, r.high - shorter}});
             }

@@ -16,10 +16,10 @@
 
 namespace qchopper {
 
-struct Range {
+struct HeightRange {
     double low = 0;
     double high = 0;
-    bool operator==(const Range&) const = default;
+    bool operator==(const HeightRange&) const = default;
 };
 
 // The grid in plane coordinates (plane_frame.h) about `origin`: column (i, j) stands at (i, j) x spacing.
@@ -29,7 +29,7 @@ struct SolidColumns {
     std::int32_t count_i = 0;
     std::int32_t count_j = 0;
     std::vector<std::uint32_t> first;  // per column, row by row: in `solid`; and one more
-    std::vector<Range> solid;          // heights along the normal between which the column is in material, ascending
+    std::vector<HeightRange> solid;    // heights along the normal between which the column is in material, ascending
 };
 
 // Precondition: a closed mesh. O(points + triangles + crossings of lines and triangles).
@@ -38,7 +38,7 @@ SolidColumns solid_columns(const TriangleMesh& mesh, Vec3 normal, Vec3 origin, d
 struct DowelSite {
     std::int32_t i = 0;
     std::int32_t j = 0;
-    Range offsets;  // of the planes across which a dowel fits
+    HeightRange offsets;  // of the planes across which a dowel fits
 };
 
 // Row by row, ascending in i and in offsets.

@@ -134,6 +134,8 @@ PreparedPiece prepare(const Piece& piece, const Objectives& objectives, const st
     assert(p.sums.size() == mesh.triangles.size() && p.shells.shell_of.size() == mesh.triangles.size());
     if (objectives.fragility_form != FragilityForm::thinness) p.vertex_normals = vertex_normals(mesh);
     if (objectives.fragility_form == FragilityForm::binary) p.cap_points = cap_points(piece);
+    if (objectives.needs_connector() && objectives.connector.form == ConnectorForm::spread)
+        p.old_joints = old_joints(piece, objectives.connector);
     p.has_seam = objectives.needs_seam();
     if (objectives.needs_structure() && piece.stress) p.stressed = stressed_part(piece.stress, mesh);
     if (objectives.needs_sizes()) {

@@ -15,6 +15,7 @@
 #include "segment/mesh/shells.h"
 #include "segment/score/clusters.h"
 #include "segment/score/objectives.h"
+#include "segment/score/old_joints.h"
 #include "segment/structure/section_stress.h"
 
 namespace qchopper {
@@ -62,6 +63,7 @@ struct PreparedPiece {
     std::vector<Vec3> vertex_normals;  // only for the thesis' fragility and the binary one
     std::vector<CapPoint> cap_points;  // only for the binary one
     PreparedSizes sizes;               // only if sizes are needed
+    std::vector<OldJoint> old_joints;  // only for connector in the form `spread`
     bool has_seam = false;             // whether lengths of outlines are
     std::optional<StressedPart> stressed;  // only if structure has a weight and the piece has stress
     // The vector that undercut projects on a direction: the area vector, or the unit normal if triangles are counted.

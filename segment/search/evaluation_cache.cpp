@@ -3,7 +3,9 @@
 
 #include "segment/search/evaluation_cache.h"
 
+#include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <mutex>
 #include <set>
 
@@ -130,6 +132,31 @@ bool EvaluationCache::is_evaluated(const Piece& piece) const {
 const PieceEvaluations& EvaluationCache::evaluations(const Piece& piece) const {
     assert(is_evaluated(piece));
     return *entries_.at(piece.mesh.get()).evaluations;
+}
+
+std::vector<std::optional<CutEvaluation>> EvaluationCache::further_evaluations(const Piece& piece,
+                                                                               std::span<const Candidate> planes,
+                                                                               const Context& context) {
+    PieceEvaluations& known = entry(piece).further;
+    const auto place = [&](const Candidate& plane) {
+        return std::find_if(known.candidates.begin(), known.candidates.end(),
+                            [&](const Candidate& c) { return c.plane == plane.plane; }) -
+               known.candidates.begin();
+    };
+    std::vector<Candidate> fresh;
+    for (const Candidate& plane : planes) {
+        if (place(plane) == std::ssize(known.candidates)) fresh.push_back(plane);
+    }
+    if (!fresh.empty()) {
+        const StageTimer stage(context, "planes evaluated");
+        std::vector<std::optional<CutEvaluation>> evaluated =
+            evaluate_all(piece, fresh, objectives_, context, &box(piece).axis);
+        known.candidates.insert(known.candidates.end(), fresh.begin(), fresh.end());
+        known.evaluations.insert(known.evaluations.end(), evaluated.begin(), evaluated.end());
+    }
+    std::vector<std::optional<CutEvaluation>> result;
+    for (const Candidate& plane : planes) result.push_back(known.evaluations[static_cast<std::size_t>(place(plane))]);
+    return result;
 }
 
 std::optional<CutEvaluation> EvaluationCache::evaluation_of(const Piece& piece, const Candidate& plane,

@@ -46,7 +46,8 @@ struct ReachEvaluations {
     std::vector<std::vector<double>> offsets;                             // per normal, not nudged
     std::vector<std::vector<double>> unreachable_mm2;                     // per normal and offset
     std::map<std::pair<std::size_t, std::size_t>, ReachPlane> evaluated;  // by normal and offset
-    bool is_refined = false;
+    std::vector<ReachPlane> further;                                      // planes along none of the normals
+    std::optional<Plane> refined_from;                                    // the best plane, if it was refined
     std::optional<ReachPlane> refined;  // the best plane moved and turned; nothing: it leaves no less
     Objectives objectives;              // with these, and for so many best planes
     std::size_t best = 0;
@@ -101,6 +102,11 @@ class EvaluationCache {
     const PieceEvaluations& evaluations(const Piece& piece) const;
     bool is_evaluated(const Piece& piece) const;
 
+    // Evaluations of further planes, which are kept like the others: one per plane, nothing where it misses.
+    // Preconditions as in evaluate_all (evaluate.h).
+    std::vector<std::optional<CutEvaluation>> further_evaluations(const Piece& piece, std::span<const Candidate> planes,
+                                                                  const Context& context);
+
     // Evaluates one plane that is no candidate, such as one given by the operator. Not kept. Preconditions as in
     // evaluate_all (evaluate.h).
     std::optional<CutEvaluation> evaluation_of(const Piece& piece, const Candidate& plane, const Context& context);
@@ -118,6 +124,7 @@ class EvaluationCache {
         std::optional<OrientedBox> box;
         std::optional<SolidEvaluation> solid;
         std::shared_ptr<const PieceEvaluations> evaluations;
+        PieceEvaluations further;
         std::optional<double> unreachable_mm2;
         ReachEvaluations reach;
         LateEvaluations late;

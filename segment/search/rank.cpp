@@ -78,12 +78,15 @@ std::vector<Ranked> rank(const PieceEvaluations& evaluations, std::span<const Pi
         ranked.push_back({c.plane, c.wanted_offset, c.normal_index, c.offset_index, *t,
                           evaluations.evaluations[i]->seam_mm, evaluations.evaluations[i]->coarse_sections});
     }
-    sort_best_first(ranked);
-    if (!objectives.forbidden.empty()) {
-        std::stable_partition(ranked.begin(), ranked.end(),
-                              [&](const Ranked& r) { return !is_forbidden(r.terms, objectives); });
-    }
+    sort_ranking(ranked, objectives);
     return ranked;
+}
+
+void sort_ranking(std::vector<Ranked>& ranked, const Objectives& objectives) {
+    sort_best_first(ranked);
+    if (objectives.forbidden.empty()) return;
+    std::stable_partition(ranked.begin(), ranked.end(),
+                          [&](const Ranked& r) { return !is_forbidden(r.terms, objectives); });
 }
 
 std::vector<std::size_t> without_near_duplicates(const std::vector<Ranked>& ranked, int offsets_per_normal,

@@ -34,6 +34,9 @@ ScanShare scan_share(const Segmentation& segmentation, std::size_t piece, const 
 std::vector<Ranked> rank(const PieceEvaluations& evaluations, std::span<const PieceShare> others,
                          const Objectives& objectives, const ScanShare& scan = {});
 
+// Sorts by the totals as they are; what is forbidden comes last.
+void sort_ranking(std::vector<Ranked>& ranked, const Objectives& objectives);
+
 // Drops from a ranking every candidate that has a better one of the same normal_index at a distance below `near`, a
 // share of the piece's extent. Returns the indices of the others, best first.
 std::vector<std::size_t> without_near_duplicates(const std::vector<Ranked>& ranked, int offsets_per_normal,

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "segment/score/cut_reach.h"
+#include "segment/search/further_candidates.h"
 #include "segment/search/late_rank.h"
 #include "segment/search/reach_rank.h"
 
@@ -27,18 +28,39 @@ std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, co
                              too_large_for);
     }
     const Objectives& objectives = settings.objectives;
+    const CandidateOptions& options = settings.candidates;
+    const Piece& target = segmentation.pieces[piece];
+    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, objectives, cache);
+    const ScanShare scan = scan_share(segmentation, piece, objectives, cache);
+    const auto ranked_further = [&](std::vector<Candidate> planes) {
+        auto evaluations = cache.further_evaluations(target, planes, context);
+        return rank({std::move(planes), std::move(evaluations)}, others, objectives, scan);
+    };
+    const auto with_boxes = [&](std::vector<Ranked> ranked) {
+        return with_own_boxes(std::move(ranked), segmentation, piece, objectives, cache, context);
+    };
+    std::vector<Ranked> ranked;
     if (is_ranked_late(settings)) {
         const std::size_t wanted =
             std::max({best, settings.runners_up + 1, most_own_boxes, children_per_place * settings.beam});
-        return with_own_boxes(rank_late(segmentation, piece, settings, cache, context, wanted), segmentation, piece,
-                              objectives, cache, context);
+        ranked = rank_late(segmentation, piece, settings, cache, context, wanted);
+    } else {
+        const Piece* one = &target;
+        cache.evaluate(std::span(&one, 1), context);
+        ranked = rank(cache.evaluations(target), others, objectives, scan);
     }
-    const Piece* target = &segmentation.pieces[piece];
-    cache.evaluate(std::span(&target, 1), context);
-    const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, cache);
-    std::vector<Ranked> ranked =
-        rank(cache.evaluations(*target), others, objectives, scan_share(segmentation, piece, objectives, cache));
-    return with_own_boxes(std::move(ranked), segmentation, piece, objectives, cache, context);
+    const std::vector<Ranked> further = ranked_further(further_candidates(segmentation, piece, options));
+    ranked.insert(ranked.end(), further.begin(), further.end());
+    if (!further.empty()) sort_ranking(ranked, objectives);
+    ranked = with_boxes(std::move(ranked));
+    if (options.normals != CandidateNormals::sphere || ranked.empty() || ranked.front().normal_index < 0) return ranked;
+    const std::vector<Ranked> finer = with_boxes(ranked_further(offsets_around(target, ranked.front(), options)));
+    const auto is_out = [&](const Ranked& r) { return is_forbidden(r.terms, objectives); };
+    if (!finer.empty() && is_out(finer.front()) <= is_out(ranked.front()) &&
+        finer.front().terms.total + tie < ranked.front().terms.total) {
+        ranked.insert(ranked.begin(), finer.front());
+    }
+    return ranked;
 }
 
 std::vector<Ranked> rank_whole_normals(const Segmentation& segmentation, std::size_t piece,

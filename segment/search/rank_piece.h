@@ -1,5 +1,5 @@
-// Ranks the planes of one piece of a segmentation: those of its box (rank.h), or where surface out of reach has a
-// weight those of many normals (reach_rank.h).
+// Ranks the planes of one piece of a segmentation: those along its normals (rank.h), or where surface out of reach has
+// a weight the best of them (reach_rank.h), and further ones (further_candidates.h).
 //
 // Ties and preconditions as in rank.h (tests/segment/search/search_test.cpp, reach_rank_test.cpp beside it).
 
@@ -14,9 +14,11 @@
 
 namespace qchopper {
 
-// All candidates of one piece, best first, evaluated if they are not in the cache. Throws Cancelled.
-// Of a piece that is ranked by reach at least max(settings.beam, best) of them (reach_rank.h). `too_large_for`: of a
-// piece that is cut for size, StopJudge::too_large_for(); of no effect where surface out of reach has no weight.
+// All candidates of one piece, best first, evaluated if they are not in the cache. Where the normals are set to those
+// of the sphere, the best plane of a normal is refined: a finer offset beside it that costs less stands before it.
+// Throws Cancelled. Of a piece that is ranked by reach at least max(settings.beam, best) of them (reach_rank.h).
+// `too_large_for`: of a piece that is cut for size, StopJudge::too_large_for(); of no effect where surface out of reach
+// has no weight.
 std::vector<Ranked> rank(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,
                          EvaluationCache& cache, const Context& context, std::size_t best = 1,
                          const BlocksNeeded& too_large_for = {});

@@ -18,7 +18,7 @@
 #include "segment/score/cut_reach.h"
 #include "segment/score/dense_reach.h"
 #include "segment/score/sweep.h"
-#include "segment/score/tool_directions.h"
+#include "segment/search/further_candidates.h"
 #include "segment/search/refined_plane.h"
 #include "segment/search/size_candidates.h"
 
@@ -33,21 +33,23 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 ReachEvaluations swept(const Piece& piece, const OrientedBox& box, const SearchSettings& settings,
                        const Context& context) {
     ReachEvaluations result;
-    result.normals = reach_normals(box);
+    const CandidateOptions& options = settings.candidates;
+    result.normals = candidate_normals(box, options.normals.value_or(CandidateNormals::sphere));
     result.offsets.resize(result.normals.size());
     result.unreachable_mm2.resize(result.normals.size());
     const SampledPiece& samples = *piece.samples;
     const JudgedPiece judged = samples.judged();
     const ReachSweep sweep(piece, judged, cap_bases(piece), settings.objectives.tilt_deg);
-    const int count = settings.candidates.offsets_per_normal;
+    const std::vector<NoCutTriangle> no_cut = no_cut_triangles(*piece.mesh, options.no_cut);
     parallel_for(0, result.normals.size(), [&](std::size_t n) {
         context.check_cancelled();
-        const Extent range = extent(*piece.mesh, result.normals[n]);
-        for (int k = 1; k <= count; ++k) {
-            result.offsets[n].push_back(range.low + range.size() * k / (count + 1));
-        }
+        result.offsets[n] = candidate_offsets(extent(*piece.mesh, result.normals[n]), options);
         for (const PlaneReach& plane : sweep.sweep(result.normals[n], result.offsets[n])) {
             result.unreachable_mm2[n].push_back(unreachable_mm2(plane));
+        }
+        const std::vector<Extent> forbidden = forbidden_heights(no_cut, result.normals[n]);
+        for (std::size_t k = 0; k < result.offsets[n].size(); ++k) {
+            if (is_forbidden(forbidden, result.offsets[n][k])) result.unreachable_mm2[n][k] = infinite;
         }
     });
     return result;
@@ -66,21 +68,25 @@ class ReachRanking {
           context_(context),
           reach_(cache.reach(piece_)),
           is_of_cut_(settings.objectives.scope == TermScope::cut && settings.objectives.weights.undercut == 0 &&
-                     !settings.objectives.needs_sizes() && !settings.objectives.needs_seam()) {
+                     (settings.objectives.weights.utilization == 0 ||
+                      settings.objectives.utilization_scope == TermScope::cut)) {
         if (reach_.normals.empty()) {
             const StageTimer stage(context, "reach swept");
             reach_ = swept(piece_, cache.box(piece_), settings, context);
         }
         best = std::max(settings.beam, best);
-        auto for_size = candidates_for_size(cache.box(piece_), settings.candidates.offsets_per_normal, too_large_for);
+        auto for_size = candidates_for_size(cache.box(piece_), settings.candidates, too_large_for);
         if (reach_.objectives != settings.objectives || reach_.best != best || reach_.for_size != for_size) {
             reach_.evaluated.clear();
-            reach_.is_refined = false;
+            reach_.further.clear();
+            reach_.refined_from.reset();
             reach_.refined.reset();
         }
         reach_.objectives = settings.objectives;
         reach_.best = best;
         reach_.for_size = std::move(for_size);
+        no_cut_ = no_cut_triangles(*piece_.mesh, settings.candidates.no_cut);
+        further_ = further_candidates(segmentation, piece, settings.candidates);
         others_ = shares_of_others(segmentation, piece, settings.objectives, cache);
         scan_ = scan_share(segmentation, piece, settings.objectives, cache);
         box_axes_ = cache.box(piece_).axis;
@@ -105,6 +111,7 @@ class ReachRanking {
     }
 
     std::vector<Ranked> run() {
+        evaluate_further();
         for (int cuts = 0;; ++cuts) {
             evaluate_what_can_win();
             std::vector<Ranked> ranked = ranking(others_);
@@ -144,8 +151,57 @@ class ReachRanking {
                                   : reach_.unreachable_mm2[normal][offset] <= most_unreachable_mm2_;
     }
 
+    // Of planes along none of the normals. Beside planes by which the piece is cut for size there is no room for them.
+    bool is_further_candidate(const ReachPlane& plane) const {
+        if (!is_restricted_) return true;
+        if (!reach_.for_size.empty()) return false;
+        return is_along_box_only_ || plane.evaluation->reach->unreachable_mm2 <= most_unreachable_mm2_;
+    }
+
+    ReachPlane* further_plane(const Plane& plane) {
+        const auto at = std::find_if(reach_.further.begin(), reach_.further.end(),
+                                     [&](const ReachPlane& p) { return p.candidate.plane == plane; });
+        return at == reach_.further.end() ? nullptr : &*at;
+    }
+
+    ReachPlane& plane_of(const Ranked& ranked) {
+        if (ranked.normal_index < 0) return *further_plane(ranked.plane);
+        return reach_.evaluated.at(
+            {static_cast<std::size_t>(ranked.normal_index), static_cast<std::size_t>(ranked.offset_index)});
+    }
+
+    // With all terms; the evaluation is nothing if the plane misses.
+    ReachPlane evaluated_alone(const Candidate& candidate) {
+        const Plane& plane = candidate.plane;
+        std::vector<std::optional<CutEvaluation>> evaluation =
+            sweep_solids(prepared_piece(), plane.normal, {&plane.offset, 1});
+        if (evaluation.front()) {
+            add_late_terms(prepared_piece(), plane.normal, {&plane.offset, 1}, settings_.objectives, evaluation);
+            evaluation.front()->reach = cut_reach(piece_, plane, settings_.objectives.tilt_deg);
+        }
+        return {candidate, true, std::move(evaluation.front()), true, false};
+    }
+
+    void evaluate_further() {
+        if (further_.empty()) return;
+        const StageTimer stage(context_, "planes evaluated");
+        for (const Candidate& candidate : further_) {
+            context_.check_cancelled();
+            if (further_plane(candidate.plane) != nullptr) continue;
+            reach_.further.push_back(evaluated_alone(candidate));
+            ReachPlane& plane = reach_.further.back();
+            if (plane.evaluation && plane.evaluation->solids.size() > 2) cut_really(plane);
+        }
+    }
+
     std::span<const PieceShare> counted_others() const {
         return is_of_cut_ ? std::span<const PieceShare>{} : std::span<const PieceShare>(others_);
+    }
+
+    ScanShare counted_scan() const {
+        ScanShare scan = scan_;
+        if (is_of_cut_) scan.seam_mm = 0;
+        return scan;
     }
 
     // What a plane costs at least, without what the other pieces cost where that is the same for all planes.
@@ -158,7 +214,8 @@ class ReachRanking {
                    scan_area_mm2(piece_);
         }
         if (!at->second.evaluation) return at->second.is_swept ? infinite : 0;
-        const std::optional<Terms> t = terms(*at->second.evaluation, counted_others(), settings_.objectives, scan_);
+        const std::optional<Terms> t =
+            terms(*at->second.evaluation, counted_others(), settings_.objectives, counted_scan());
         return t ? t->total : infinite;
     }
 
@@ -249,10 +306,11 @@ class ReachRanking {
                                            static_cast<int>(offsets[g][i])};
             }
             const std::vector<std::optional<Nudged>> nudged = nudge(piece_, reach_.normals[n], wanted_offsets);
+            const std::vector<Extent> forbidden = forbidden_heights(no_cut_, reach_.normals[n]);
             std::vector<double> nudged_offsets;
             std::vector<ReachPlane*> met;
             for (std::size_t i = 0; i < fresh.size(); ++i) {
-                if (!nudged[i]) continue;
+                if (!nudged[i] || is_forbidden(forbidden, nudged[i]->offset)) continue;
                 fresh[i]->candidate.plane.offset = nudged[i]->offset;
                 nudged_offsets.push_back(nudged[i]->offset);
                 met.push_back(fresh[i]);
@@ -302,12 +360,13 @@ class ReachRanking {
     // several solids, because only cutting judges those, nor where the piece is cut for size.
     std::vector<Ranked> with_refined(std::vector<Ranked> ranked) {
         if (ranked.empty()) return ranked;
-        const auto n = static_cast<std::size_t>(ranked.front().normal_index);
-        const auto k = static_cast<std::size_t>(ranked.front().offset_index);
-        const ReachPlane& best = reach_.evaluated.at({n, k});
+        const ReachPlane& best = plane_of(ranked.front());
         const bool may_refine = best.evaluation->solids.size() == 2 && reach_.for_size.empty();
-        if (!reach_.is_refined && may_refine) refine(best);
-        reach_.is_refined = true;
+        if (reach_.refined_from != best.candidate.plane) {
+            reach_.refined_from = best.candidate.plane;
+            reach_.refined.reset();
+            if (may_refine) refine(best);
+        }
         if (!reach_.refined) return ranked;
         const std::vector<Ranked> refined =
             rank({{reach_.refined->candidate}, {reach_.refined->evaluation}}, others_, settings_.objectives, scan_);
@@ -320,14 +379,16 @@ class ReachRanking {
         if (best.evaluation->reach->unreachable_mm2 < least_gain_of_scan * area) return;
         const StageTimer stage(context_, "planes refined");
         DenseReach reach(piece_, settings_.objectives.tilt_deg);
-        const double step = extent(*piece_.mesh, best.candidate.plane.normal).size() /
-                            (2.0 * (settings_.candidates.offsets_per_normal + 1));
+        const double step = offset_step(extent(*piece_.mesh, best.candidate.plane.normal), settings_.candidates) / 2;
         const double before = reach.unreachable_mm2(best.candidate.plane);
-        const RefinedPlane found = refined_plane(reach, piece_, best.candidate.plane, step, context_);
+        const auto is_allowed = [&](const Plane& plane) {
+            return !is_forbidden(forbidden_heights(no_cut_, plane.normal), plane.offset);
+        };
+        const RefinedPlane found = refined_plane(reach, piece_, best.candidate.plane, step, context_, is_allowed);
         if (found.unreachable_mm2 >= before) return;
         ReachPlane refined = best;
         const std::optional<Nudged> nudged = nudge(piece_, found.plane.normal, {&found.plane.offset, 1}).front();
-        if (!nudged) return;
+        if (!nudged || !is_allowed({found.plane.normal, nudged->offset})) return;
         refined.candidate.plane = {found.plane.normal, nudged->offset};
         refined.candidate.wanted_offset = found.plane.offset;
         refined.candidate.normal_index = refined_index;
@@ -337,21 +398,28 @@ class ReachRanking {
         if (!evaluation.front() || evaluation.front()->solids.size() != 2) return;
         add_late_terms(prepared_piece(), found.plane.normal, {&nudged->offset, 1}, settings_.objectives, evaluation);
         evaluation.front()->reach = CutReach{found.unreachable_mm2, area};
-        const std::optional<Terms> after = terms(*evaluation.front(), counted_others(), settings_.objectives, scan_);
+        const std::optional<Terms> after =
+            terms(*evaluation.front(), counted_others(), settings_.objectives, counted_scan());
         refined.evaluation->reach->unreachable_mm2 = before;
         const std::optional<Terms> unrefined =
-            terms(*refined.evaluation, counted_others(), settings_.objectives, scan_);
+            terms(*refined.evaluation, counted_others(), settings_.objectives, counted_scan());
         if (!after || after->total >= unrefined->total - tie) return;
         evaluation.front()->reach = cut_reach(piece_, refined.candidate.plane, settings_.objectives.tilt_deg);
         refined.evaluation = std::move(evaluation.front());
         reach_.refined = std::move(refined);
     }
 
-    std::vector<Ranked> ranking(std::span<const PieceShare> others) const {
+    std::vector<Ranked> ranking(std::span<const PieceShare> others) {
         PieceEvaluations all;
         for (const auto& [key, plane] : reach_.evaluated) {
             if (!plane.has_fragility) continue;
             all.candidates.push_back(plane.candidate);
+            all.evaluations.push_back(plane.evaluation);
+        }
+        for (const Candidate& candidate : further_) {
+            const ReachPlane& plane = *further_plane(candidate.plane);
+            if (!plane.evaluation || !is_further_candidate(plane)) continue;
+            all.candidates.push_back(candidate);
             all.evaluations.push_back(plane.evaluation);
         }
         return rank(all, others, settings_.objectives, scan_);
@@ -360,8 +428,7 @@ class ReachRanking {
     // Of the planes that are taken as the best, the first whose sides are several solids and that was not cut yet.
     ReachPlane* first_in_doubt(const std::vector<Ranked>& ranked) {
         for (std::size_t i = 0; i < std::min(settings_.beam, ranked.size()); ++i) {
-            ReachPlane& plane = reach_.evaluated.at(
-                {static_cast<std::size_t>(ranked[i].normal_index), static_cast<std::size_t>(ranked[i].offset_index)});
+            ReachPlane& plane = plane_of(ranked[i]);
             if (!plane.is_really_cut && plane.evaluation->solids.size() > 2) return &plane;
         }
         return nullptr;
@@ -387,6 +454,8 @@ class ReachRanking {
     const Context& context_;
     ReachEvaluations& reach_;
     bool is_of_cut_;  // the other pieces add the same to the cost of every plane
+    std::vector<NoCutTriangle> no_cut_;
+    std::vector<Candidate> further_;
     std::vector<PieceShare> others_;
     double others_unreachable_mm2_ = 0;
     ScanShare scan_;
@@ -402,17 +471,6 @@ class ReachRanking {
 
 bool is_ranked_by_reach(const Piece& piece, const SearchSettings& settings) {
     return settings.objectives.weights.unreachable > 0 && piece.samples;
-}
-
-std::vector<Vec3> reach_normals(const OrientedBox& box) {
-    std::vector<Vec3> normals;
-    for (const Vec3& axis : box.axis) normals.push_back(canonical({axis, 0}).normal);
-    for (const Vec3& normal : octahedron_normals()) {
-        const Vec3 n = canonical({normal, 0}).normal;
-        const auto is_there = [&](Vec3 other) { return norm(cross(n, other)) < 1e-9; };
-        if (std::none_of(normals.begin(), normals.begin() + 3, is_there)) normals.push_back(n);
-    }
-    return normals;
 }
 
 std::vector<Ranked> rank_by_reach(const Segmentation& segmentation, std::size_t piece, const SearchSettings& settings,

@@ -21,10 +21,6 @@ namespace qchopper {
 // Whether the settings and the piece's samples ask for this ranking.
 bool is_ranked_by_reach(const Piece& piece, const SearchSettings& settings);
 
-// The three axes of the piece's box, then those of the 129 normals of the octahedron that are none of them: what
-// Candidate::normal_index counts.
-std::vector<Vec3> reach_normals(const OrientedBox& box);
-
 // Candidates are the planes that open at least this share of the surface that the best one opens: further terms decide
 // between planes that serve nearly as well. Where no plane opens this share of the scan's area, only the axes of the
 // piece's box have candidates.

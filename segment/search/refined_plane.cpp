@@ -29,7 +29,7 @@ Plane moved(const Plane& from, Vec3 middle, const Move& move) {
 }  // namespace
 
 RefinedPlane refined_plane(DenseReach& reach, const Piece& piece, const Plane& from, double step_mm,
-                           const Context& context) {
+                           const Context& context, const std::function<bool(const Plane&)>& is_allowed) {
     const Vec3 middle = bounds(*piece.mesh).centre();
     Move best{};
     RefinedPlane found{from, reach.unreachable_mm2(from)};
@@ -44,6 +44,7 @@ RefinedPlane refined_plane(DenseReach& reach, const Piece& piece, const Plane& f
                     Move tried = start;
                     tried[k] += sign * step[k];
                     const Plane plane = moved(from, middle, tried);
+                    if (is_allowed && !is_allowed(plane)) continue;
                     const double unreachable = reach.unreachable_mm2(plane);
                     if (unreachable >= found.unreachable_mm2) continue;
                     found = {plane, unreachable};

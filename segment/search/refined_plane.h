@@ -6,6 +6,8 @@
 
 #pragma once
 
+#include <functional>
+
 #include "base/context.h"
 #include "segment/cut/piece.h"
 #include "segment/score/dense_reach.h"
@@ -21,7 +23,8 @@ struct RefinedPlane {
 // problems, 1961): of six neighbours, `step` along the normal and three degrees about two axes through the middle of
 // the piece, the best is taken while it leaves less; then once more with half the steps. The plane `from` itself
 // if none leaves less. Precondition: step_mm > 0. Some 25 planes at most. Throws Cancelled.
+// `is_allowed`: planes of which it is false are left out; empty: none is.
 RefinedPlane refined_plane(DenseReach& reach, const Piece& piece, const Plane& from, double step_mm,
-                           const Context& context);
+                           const Context& context, const std::function<bool(const Plane&)>& is_allowed = {});
 
 }  // namespace qchopper

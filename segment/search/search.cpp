@@ -9,6 +9,7 @@
 
 #include "base/timings.h"
 #include "segment/search/beam.h"
+#include "segment/search/further_candidates.h"
 #include "segment/search/late_rank.h"
 #include "segment/search/reach_rank.h"
 #include "segment/search/trial.h"
@@ -126,9 +127,7 @@ class Search {
             for (Bsp& b : beam_) {
                 if (!b.is_live() || !b.ranked.empty()) continue;
                 const Piece& piece = b.segmentation.pieces[*b.next.piece];
-                b.ranked =
-                    rank(b.segmentation, *b.next.piece, settings_, cache_, context_, 1, judge_.too_large_for(piece));
-                b.children = without_near_duplicates(b.ranked, settings_.candidates.offsets_per_normal, settings_.near);
+                rank_children(b, piece);
                 if (!b.ranked.empty()) continue;
                 b.passed_over.push_back(piece.name);
                 find_next_piece(b);
@@ -140,6 +139,21 @@ class Search {
             if (!stuck_ || b.cost < stuck_->cost) stuck_ = b;
         }
         std::erase_if(beam_, [](const Bsp& b) { return !b.is_live() && !b.next.is_finished; });
+    }
+
+    // Of planes near to each other only the best is a child: where not all are ranked, more are until each place of the
+    // beam has a child.
+    void rank_children(Bsp& b, const Piece& piece) {
+        constexpr std::size_t more = 16;
+        for (std::size_t best = 1;; best *= more) {
+            b.ranked =
+                rank(b.segmentation, *b.next.piece, settings_, cache_, context_, best, judge_.too_large_for(piece));
+            b.children = settings_.candidates.normals == CandidateNormals::sphere
+                             ? without_near_planes(b.ranked, piece, cache_.box(piece))
+                             : without_near_duplicates(b.ranked, most_offsets(settings_.candidates), settings_.near);
+            const bool is_part = is_ranked_late(settings_) && !is_ranked_by_reach(piece, settings_);
+            if (!is_part || b.children.size() >= settings_.beam || b.ranked.size() < best) return;
+        }
     }
 
     void evaluate_next_pieces() {

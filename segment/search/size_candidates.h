@@ -1,6 +1,6 @@
 // Proposes the planes by which a piece that is too large is cut for size: docs/decisions/0024.
 //
-// Offsets as in candidates.h, before their nudge. Tests: tests/segment/search/size_cut_test.cpp.
+// Offsets as in candidates.h, along the three axes, before their nudge. Tests: tests/segment/search/size_cut_test.cpp.
 
 #pragma once
 
@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "segment/mesh/oriented_box.h"
+#include "segment/score/candidates.h"
 #include "segment/search/stop_rules.h"
 
 namespace qchopper {
@@ -16,7 +17,8 @@ namespace qchopper {
 // The candidates of a piece that is too large, by normal and offset: the planes along the axes of its box that leave
 // two boxes which need the fewest blocks together. A box that needs one block only, though the piece does not fit, is
 // cut across its length within the middle half. None: no number of blocks is enough. O(offsets).
-std::set<std::pair<std::size_t, std::size_t>> candidates_for_size(const OrientedBox& box, int offsets_per_normal,
+std::set<std::pair<std::size_t, std::size_t>> candidates_for_size(const OrientedBox& box,
+                                                                  const CandidateOptions& options,
                                                                   const BlocksNeeded& too_large_for);
 
 }  // namespace qchopper

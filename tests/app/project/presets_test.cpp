@@ -53,5 +53,21 @@ TEST(Presets, RulesOfTheOperatorAreNotThoseOfCarve) {
     EXPECT_FALSE(are_rules_of_carve("carve", other));
 }
 
+TEST(Presets, ChopperStopsAtThePrintVolumeThatIsGivenOrThatOfTheCell) {
+    const SearchSettings chopper = *preset("chopper");
+    EXPECT_EQ(chopper.objectives.fragility_form, FragilityForm::binary);
+    EXPECT_EQ(chopper.objectives.weights, (Weights{0, 1, 0, 0, 0, 1, 0.05, 1, 0.1, 0.25}));
+    EXPECT_FALSE(stopping_at_print_volume(chopper, "chopper").stop.is_any_set());
+    const SearchSettings in_cell = with_cell(chopper, "chopper", 30, Vec3{300, 200, 100});
+    EXPECT_EQ(in_cell.objectives.print_volume, (Vec3{300, 200, 100}));
+    EXPECT_EQ(in_cell.stop.max_obb, (Vec3{300, 200, 100}));
+    SearchSettings given = chopper;
+    given.objectives.print_volume = Vec3{50, 60, 70};
+    given.stop.min_cuts = 2;
+    const SearchSettings kept = with_cell(given, "chopper", 30, Vec3{300, 200, 100});
+    EXPECT_EQ(kept.objectives.print_volume, (Vec3{50, 60, 70}));
+    EXPECT_FALSE(kept.stop.max_obb) << "a rule is set already";
+}
+
 }  // namespace
 }  // namespace qchopper

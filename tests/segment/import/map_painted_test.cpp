@@ -51,6 +51,27 @@ TEST(MapPainted, LandsOnTheRightFacesAfterARepair) {
     EXPECT_EQ(share_off_scan(painted, repaired.mesh, 0.1), 0);
 }
 
+TEST(MapPainted, PointsTakeTheMarkOfTheNearestVertex) {
+    const TriangleMesh ball = shapes::ball({0, 0, 0}, 50, 24);
+    std::vector<std::uint8_t> is_marked;
+    for (const Vec3& p : ball.points) is_marked.push_back(p.z > 10 ? 1 : 0);
+    const auto above = [](const TriangleMesh& mesh, double z) {
+        std::vector<Vec3> points;
+        for (const Vec3& p : mesh.points) {
+            if (p.z > z) points.push_back(p);
+        }
+        return points;
+    };
+    EXPECT_EQ(mapped_points(ball, is_marked, ball), above(ball, 10)) << "of the same surface exactly";
+    const TriangleMesh other = shapes::ball({0, 0, 0}, 50, 40);
+    const std::vector<Vec3> mapped = mapped_points(ball, is_marked, other);
+    EXPECT_LE(mapped.size(), above(other, 6).size());
+    EXPECT_GE(mapped.size(), above(other, 14).size());
+    for (const Vec3& p : mapped) EXPECT_GT(p.z, 6);
+    const ThreadLimit one(1);
+    EXPECT_EQ(mapped_points(ball, is_marked, other), mapped);
+}
+
 TEST(MapPainted, KnowsAnotherSurface) {
     const TriangleMesh ball = painted_above(shapes::ball({0, 0, 0}, 50, 24), 0);
     EXPECT_EQ(share_off_scan(ball, shapes::ball({0, 0, 0}, 50, 40), 1), 0) << "other triangles of one surface";

@@ -102,6 +102,20 @@ TEST(ReadPainted, APropertyCountsBeforeColours) {
         {{"uchar", "red", 0, 255}, {"uchar", "green", 0, 0}, {"uchar", "blue", 0, 0}, {"uchar", "ignore", 1, 0}});
 }
 
+TEST(ReadPainted, MarksOfSurfaceThatMustNotBeCutAreThoseOfTheVertices) {
+    for (const char* name : {"no_cut", "mask", "scalar_no_cut", "scalar_mask"}) {
+        for (const Bytes& file : {ascii_file({{"uchar", name, 1, 0}}), binary_file({{"float", name, 0.5, 0}}, true)}) {
+            const MarkedPoints marked = parse_no_cut_ply(file, "painted.ply");
+            EXPECT_EQ(marked.mesh.triangles, flaps.triangles);
+            EXPECT_EQ(marked.is_marked, std::vector<std::uint8_t>(is_marked.begin(), is_marked.end()));
+        }
+    }
+    EXPECT_NE(refusal([] {
+                  static_cast<void>(parse_no_cut_ply(ascii_file({{"uchar", "ignore", 1, 0}}), "painted.ply"));
+              }).find("no_cut"),
+              std::string::npos);
+}
+
 TEST(ReadPainted, RefusesWhatMarksNothing) {
     const auto refused = [](const Bytes& file) {
         return refusal([&] { static_cast<void>(parse_painted_ply(file, "painted.ply")); });

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "base/parallel.h"
 #include "segment/cut/nudge.h"
 #include "segment/score/evaluate.h"
@@ -20,6 +23,64 @@ TEST(Candidates, FortyOffsetsEvenlyInsideTheExtentOfThreeNormals) {
         EXPECT_DOUBLE_EQ(c.wanted_offset, range.low + range.size() * (c.offset_index + 1) / 41);
         EXPECT_NEAR(c.plane.offset, c.wanted_offset, 1e-7 * range.size());
         EXPECT_EQ(canonical(c.plane), c.plane);
+    }
+}
+
+TEST(Candidates, OfTheSphereHaveThe129NormalsAndTheAxesOfTheBox) {
+    const Piece piece = piece_of(shapes::rotated(shapes::box({0, 0, 0}, {90, 50, 20}, 4), {3, 1, 2}, 0.77));
+    const OrientedBox box = oriented_box(piece.mesh->points);
+    const std::vector<Vec3> normals = candidate_normals(box, CandidateNormals::sphere);
+    ASSERT_EQ(normals.size(), 132U);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(normals[i], canonical({box.axis[i], 0}).normal);
+    EXPECT_EQ(candidate_normals(box, CandidateNormals::box).size(), 3U);
+    // A box along the axes of the world, and one turned by less and by more than half a degree.
+    OrientedBox level{{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}, {0, 0, 0}, {1, 1, 1}};
+    EXPECT_EQ(candidate_normals(level, CandidateNormals::sphere).size(), 129U);
+    const auto turn_about_z = [&](double degrees) {
+        const double angle = degrees * std::numbers::pi / 180;
+        level.axis[0] = {std::cos(angle), std::sin(angle), 0};
+        level.axis[1] = {-std::sin(angle), std::cos(angle), 0};
+    };
+    turn_about_z(0.49);
+    EXPECT_EQ(candidate_normals(level, CandidateNormals::sphere).size(), 129U);
+    turn_about_z(0.51);
+    EXPECT_EQ(candidate_normals(level, CandidateNormals::sphere).size(), 131U);
+}
+
+TEST(Candidates, OffsetsAtStepsAreTheStepApartOrATwoHundredthOfTheExtent) {
+    CandidateOptions options;
+    options.offset_step_mm = 5;
+    const std::vector<double> few = candidate_offsets({-10, 41}, options);
+    ASSERT_EQ(few.size(), 10U);
+    for (std::size_t k = 0; k < few.size(); ++k) EXPECT_DOUBLE_EQ(few[k], -10 + 5.0 * static_cast<double>(k + 1));
+    const std::vector<double> many = candidate_offsets({0, 2'000}, options);
+    ASSERT_EQ(many.size(), 199U);
+    EXPECT_DOUBLE_EQ(many.front(), 10);
+    EXPECT_DOUBLE_EQ(many.back(), 1'990);
+    EXPECT_EQ(most_offsets(options), 199);
+    EXPECT_TRUE(candidate_offsets({0, 4}, options).empty());
+    EXPECT_TRUE(candidate_offsets({0, 5}, options).empty()) << "strictly inside";
+}
+
+TEST(Candidates, ABoxOfFourStepsIsCutAtEachOfThem) {
+    const Piece piece = piece_of(shapes::box({0, 0, 0}, {400, 30, 20}, 3));
+    CandidateOptions options;
+    options.offset_step_mm = 100;
+    const std::vector<Candidate> all = candidates_along(piece, {1, 0, 0}, 0, options);
+    ASSERT_EQ(all.size(), 3U);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(all[k].plane.offset, 100.0 * static_cast<double>(k + 1), 1e-4);
+}
+
+TEST(Candidates, AreOrderedByNormalThenOffset) {
+    const Piece piece = piece_of(shapes::linked_tori());
+    CandidateOptions options;
+    options.normals = CandidateNormals::sphere;
+    options.offsets_per_normal = 3;
+    const std::vector<Candidate> all = candidate_planes(piece, options);
+    EXPECT_GT(all.size(), 380U);
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        EXPECT_LT(std::pair(all[i - 1].normal_index, all[i - 1].offset_index),
+                  std::pair(all[i].normal_index, all[i].offset_index));
     }
 }
 

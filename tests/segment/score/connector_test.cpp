@@ -12,6 +12,7 @@
 #include "segment/mesh/disjoint_sets.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
+#include "segment/score/dowel_columns.h"
 #include "segment/score/sweep.h"
 #include "tests/pieces.h"
 #include "tests/shapes.h"
@@ -40,7 +41,7 @@ TEST(Connector, ColumnsOfABallAreItsChords) {
             ASSERT_LE(columns.first[c + 1] - columns.first[c], 1U);
             if (square > 45 * 45) continue;
             ASSERT_EQ(columns.first[c + 1] - columns.first[c], 1U);
-            const Range r = columns.solid[columns.first[c]];
+            const HeightRange r = columns.solid[columns.first[c]];
             EXPECT_NEAR(r.high - r.low, 2 * std::sqrt(radius * radius - square), 0.5);
             volume += 25 * (r.high - r.low);
         }
@@ -53,7 +54,7 @@ TEST(Connector, ColumnsAlongEdgesAndFacesEnterAsOftenAsTheyLeave) {
         for (const Vec3 n : {Vec3{0, 0, 1}, Vec3{1, 0, 0}, canonical({normalized({1, 1, 0}), 0}).normal}) {
             const SolidColumns columns = solid_columns(mesh, n, mesh.points.front(), 0.37);
             double volume = 0;
-            for (const Range& r : columns.solid) volume += 0.37 * 0.37 * (r.high - r.low);
+            for (const HeightRange& r : columns.solid) volume += 0.37 * 0.37 * (r.high - r.low);
             const double size = norm(bounds(mesh).size());
             EXPECT_NEAR(volume, volume_mm3(mesh), 0.02 * volume_mm3(mesh) + 0.01 * size * size * 0.37) << name;
         }
@@ -73,7 +74,7 @@ TEST(Connector, ASiteIsWhereTheDiscOfLinesIsSolidOnBothSides) {
         }
         return false;
     };
-    std::map<std::pair<std::int32_t, std::int32_t>, std::vector<Range>> sites;
+    std::map<std::pair<std::int32_t, std::int32_t>, std::vector<HeightRange>> sites;
     for (const DowelSite& site : dowel_sites(columns, dowel)) sites[{site.i, site.j}].push_back(site.offsets);
     const Extent range = extent(mesh, n);
     std::size_t found = 0;
@@ -89,7 +90,7 @@ TEST(Connector, ASiteIsWhereTheDiscOfLinesIsSolidOnBothSides) {
                     }
                 }
                 bool is_site = false;
-                for (const Range& r : sites[{i + columns.first_i, j + columns.first_j}])
+                for (const HeightRange& r : sites[{i + columns.first_i, j + columns.first_j}])
                     is_site = is_site || (r.low <= o && o <= r.high);
                 ASSERT_EQ(is_site, fits) << i << " " << j << " " << o;
                 found += fits ? 1 : 0;

@@ -45,14 +45,23 @@ TEST(ToolDirections, NeighboursLie11To16DegreesApartAndNothingIsFartherThan10) {
     const std::vector<Vec3> directions = tool_directions(world);
     for (const Vec3& d : directions) {
         const double neighbour = to_nearest(directions, d, 1e-3);
-        EXPECT_GT(neighbour, 11.1);
-        EXPECT_LT(neighbour, 15.6);
+        EXPECT_GT(neighbour, 11.2);
+        EXPECT_LT(neighbour, 15.5);
     }
     std::mt19937 random(3);
     double farthest = 0;
     for (int i = 0; i < 5'000; ++i) farthest = std::max(farthest, to_nearest(directions, random_normal(random)));
-    EXPECT_LT(farthest, 10.1);
+    EXPECT_LT(farthest, 10.0);
     EXPECT_GT(farthest, 9);
+}
+
+TEST(ToolDirections, TheOctahedronsAreClosedUnderReflectionInTheAxes) {
+    const std::vector<Vec3> directions = tool_directions(world);
+    for (const Vec3& d : directions) {
+        for (const Vec3& image : {Vec3{-d.x, d.y, d.z}, Vec3{d.x, -d.y, d.z}, Vec3{d.x, d.y, -d.z}}) {
+            EXPECT_LT(index_of(directions, image), directions.size());
+        }
+    }
 }
 
 TEST(ToolDirections, DenseOnesLeaveNoGap) {

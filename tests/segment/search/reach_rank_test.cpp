@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/parallel.h"
 #include "segment/sample/sample.h"
 #include "segment/score/cut_reach.h"
+#include "segment/score/seam_cost.h"
 #include "segment/search/search.h"
 #include "tests/shapes.h"
 
@@ -36,7 +38,8 @@ TriangleMesh bone(Specimen specimen) {
 // All planes of all normals with all their terms, nothing left out.
 std::vector<Ranked> rank_all(const Segmentation& segmentation, const SearchSettings& settings) {
     EvaluationCache cache(settings.objectives, settings.candidates);
-    const int count = static_cast<int>(reach_normals(cache.box(segmentation.pieces[0])).size());
+    const int count =
+        static_cast<int>(candidate_normals(cache.box(segmentation.pieces[0]), CandidateNormals::sphere).size());
     std::vector<Ranked> all;
     for (int n = 0; n < count; ++n) all = rank_whole_normals_by_reach(segmentation, 0, settings, cache, {}, 0, n);
     std::erase_if(all, [](const Ranked& r) { return r.normal_index == refined_index; });
@@ -75,6 +78,29 @@ TEST(ReachRank, TheBestPlanesAreThoseOfAllOfThem) {
             }
         }
     }
+}
+
+TEST(ReachRank, WithConnectorAndSeamTheBestPlaneIsThatOfAllOfThemToo) {
+    Segmentation segmentation = sampled(bone(Specimen::femur));
+    segmentation.scan = measure_scan(segmentation);
+    find_seam_costs(segmentation.pieces, {}, 2'000);
+    SearchSettings settings = carving();
+    settings.objectives.weights.connector = 0.5;
+    settings.objectives.weights.seam = 0.2;
+    settings.objectives.connector = {ConnectorForm::spread, 4, 6, 2, 3};
+    const std::vector<Ranked> all =
+        candidates_among(rank_all(segmentation, settings), segmentation.pieces[0], settings);
+    ASSERT_FALSE(all.empty());
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    std::vector<Ranked> best = rank_by_reach(segmentation, 0, settings, cache, {});
+    if (best.front().normal_index == refined_index) best.erase(best.begin());
+    EXPECT_EQ(best[0].plane, all[0].plane);
+    EXPECT_EQ(best[0].terms.connector, all[0].terms.connector);
+    EXPECT_NEAR(best[0].terms.total, all[0].terms.total, 1e-12);
+    EXPECT_GT(best[0].terms.seam, 0);
+    EXPECT_LT(cache.reach(segmentation.pieces[0]).evaluated.size(), 800U);
+    const auto held = std::find_if(all.begin(), all.end(), [](const Ranked& r) { return r.terms.connector < 1; });
+    EXPECT_NE(held, all.end());
 }
 
 TEST(ReachRank, FewPlanesAreEvaluated) {

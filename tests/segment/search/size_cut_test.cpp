@@ -17,6 +17,12 @@
 namespace qchopper {
 namespace {
 
+CandidateOptions offsets(int per_normal) {
+    CandidateOptions options;
+    options.offsets_per_normal = per_normal;
+    return options;
+}
+
 SearchSettings carving(Vec3 limit) {
     SearchSettings settings;
     settings.objectives.weights = {0.05, 1, 0.3, 0, 100};
@@ -93,8 +99,8 @@ TEST(SizeCut, CandidatesAreThePlanesThatLeaveTheFewestBlocks) {
     const BlocksNeeded blocks = [&](Vec3 size) { return boxes_needed(size, limit); };
     OrientedBox box{};
     box.max = {300, 40, 30};
-    EXPECT_TRUE(candidates_for_size(box, 24, {}).empty());
-    const auto planes = candidates_for_size(box, 24, blocks);
+    EXPECT_TRUE(candidates_for_size(box, offsets(24), {}).empty());
+    const auto planes = candidates_for_size(box, offsets(24), blocks);
     std::map<std::pair<std::size_t, std::size_t>, double> needed;
     double fewest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 24; ++k) {
@@ -113,14 +119,14 @@ TEST(SizeCut, CandidatesAreThePlanesThatLeaveTheFewestBlocks) {
 TEST(SizeCut, APieceThatDoesNotFitThoughItsBoxDoesIsCutAcrossItsLength) {
     OrientedBox box{};
     box.max = {300, 40, 30};
-    const auto planes = candidates_for_size(box, 80, [](Vec3) { return 1; });
+    const auto planes = candidates_for_size(box, offsets(80), [](Vec3) { return 1; });
     EXPECT_EQ(planes.size(), 40U);
     for (const auto& [normal, k] : planes) {
         EXPECT_EQ(normal, 0U);
         EXPECT_NEAR(static_cast<double>(k + 1) / 81, 0.5, 0.25);
     }
     const auto never = [](Vec3) { return std::numeric_limits<double>::infinity(); };
-    EXPECT_TRUE(candidates_for_size(box, 80, never).empty()) << "then it is cut as any other";
+    EXPECT_TRUE(candidates_for_size(box, offsets(80), never).empty()) << "then it is cut as any other";
 }
 
 // Of the planes for size, each with all its terms.
@@ -130,7 +136,7 @@ TEST(SizeCut, TheBestPlaneIsTheCheapestOfThoseForSize) {
         const Segmentation segmentation = sampled(s.scan);
         const BlocksNeeded blocks = [&](Vec3 size) { return boxes_needed(size, s.limit); };
         EvaluationCache cache(settings.objectives, settings.candidates);
-        const auto planes = candidates_for_size(cache.box(segmentation.pieces[0]), 24, blocks);
+        const auto planes = candidates_for_size(cache.box(segmentation.pieces[0]), settings.candidates, blocks);
         ASSERT_GE(planes.size(), least_best_planes);
         std::vector<Ranked> all;
         for (int n = 0; n < 3; ++n) all = rank_whole_normals_by_reach(segmentation, 0, settings, cache, {}, 0, n);

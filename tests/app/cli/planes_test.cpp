@@ -1,0 +1,180 @@
+// qchopper segment with the options that say which planes are tried.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "app/cli/exit_code.h"
+#include "segment/io/read_mesh.h"
+#include "segment/mesh/measure.h"
+#include "tests/app/cli/program.h"
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct PlaneOptions : ::testing::Test {
+    program::Folder folder;
+    void SetUp() override {
+        const program::Ended made = run({"sample", "vertebra", "--faces", "4000", "-o", "scan.ply"});
+        ASSERT_EQ(made.code, 0) << made.err;
+    }
+    program::Ended run(const program::Arguments& arguments) const { return program::run(arguments, {folder.path}); }
+    program::Ended segment(const program::Arguments& more) const {
+        program::Arguments arguments{"segment", "scan.ply", "--units", "mm", "--preset", "thesis", "-o", "p.qch"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments);
+    }
+    json document(program::Arguments arguments) const {
+        arguments.emplace_back("--json");
+        const program::Ended ended = run(arguments);
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        return json::parse(ended.out);
+    }
+    json settings() const { return json::parse(std::ifstream(folder.path / "p.qch" / "project.json"))["settings"]; }
+};
+
+TEST_F(PlaneOptions, OfTheSphereAreTriedAtEveryStep) {
+    const program::Ended made = segment({"--normals", "sphere", "--offset-step", "60", "--step"});
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_EQ(settings()["normals"], "sphere");
+    EXPECT_EQ(settings()["offset_step_mm"], 60);
+    const json proposal = document({"segment", "p.qch", "--step", "--top", "1000"})["proposal"];
+    std::set<int> normals;
+    for (const json& plane : proposal["planes"]) normals.insert(plane["normal_index"].get<int>());
+    EXPECT_GT(normals.size(), 100U);
+    EXPECT_LE(*normals.rbegin(), 131);
+}
+
+TEST_F(PlaneOptions, OffsetsAreSoMany) {
+    ASSERT_EQ(segment({"--offsets", "7", "--step"}).code, 0);
+    const json proposal = document({"segment", "p.qch", "--step", "--top", "1000"})["proposal"];
+    EXPECT_LE(proposal["planes"].size(), 21U);
+    EXPECT_GT(proposal["planes"].size(), 15U);
+    const json cut = document({"segment", "p.qch", "--accept", "1"});
+    EXPECT_EQ(cut["cuts"].size(), 1U);
+    EXPECT_EQ(run({"explain", "p.qch"}).code, 0);
+}
+
+TEST_F(PlaneOptions, GivenPlanesAreTriedForEveryPiece) {
+    program::put(folder.path / "planes.txt", "# through the middle\n1, 0, 0, 0.5\n\n 0,3,4,20 \r\n0,0,1,1e6\n");
+    const program::Ended made = segment({"--planes", "planes.txt", "--step"});
+    ASSERT_EQ(made.code, 0) << made.err;
+    ASSERT_EQ(settings()["planes"].size(), 3U);
+    EXPECT_EQ(settings()["planes"][1]["normal"], json({0, 0.6, 0.8}));
+    EXPECT_EQ(settings()["planes"][1]["offset_mm"], 20);
+    const auto given = [&] {
+        std::set<int> places;
+        for (const json& plane : document({"segment", "p.qch", "--step", "--top", "1000"})["proposal"]["planes"]) {
+            if (plane["normal_index"] == -4) places.insert(plane["offset_index"].get<int>());
+        }
+        return places;
+    };
+    EXPECT_EQ(given(), (std::set<int>{0, 1})) << "the third misses";
+    ASSERT_EQ(run({"segment", "p.qch", "--plane", "0,0,1,60"}).code, 0);
+    fs::remove(folder.path / "planes.txt");
+    EXPECT_FALSE(given().empty()) << "they are kept in the project";
+}
+
+TEST_F(PlaneOptions, TheSymmetryPlaneIsReportedAndTried) {
+    const program::Ended made = segment({"--symmetry", "--offsets", "5", "--step"});
+    ASSERT_EQ(made.code, 0) << made.err;
+    const program::Ended shown = run({"segment", "p.qch"});
+    EXPECT_NE(shown.out.find("\nsymmetry plane: normal "), std::string::npos) << shown.out;
+    EXPECT_NE(shown.out.find(": symmetric"), std::string::npos) << shown.out;
+    const json state = document({"segment", "p.qch", "--step", "--top", "1000"});
+    EXPECT_NEAR(std::abs(state["symmetry"]["normal"][0].get<double>()), 1, 1e-4);
+    EXPECT_NEAR(state["symmetry"]["ratio"].get<double>(), 0.45, 0.1);
+    EXPECT_EQ(state["symmetry"]["is_symmetric"], true);
+    std::size_t place = 0;
+    for (const json& plane : state["proposal"]["planes"]) {
+        if (plane["normal_index"] == -3) place = plane["k"].get<std::size_t>();
+    }
+    ASSERT_GT(place, 0U);
+    ASSERT_EQ(run({"segment", "p.qch", "--accept", std::to_string(place)}).code, 0);
+    const program::Ended explained = run({"explain", "p.qch"});
+    EXPECT_EQ(explained.code, 0) << explained.err;
+    EXPECT_NE(explained.out.find("symmetry plane"), std::string::npos) << explained.out;
+    // A plane across a half, and its mirror image for the other one.
+    ASSERT_EQ(run({"segment", "p.qch", "--plane", "1,0,2,-40", "--piece", "B"}).code, 0);
+    bool has_image = false;
+    for (const json& plane :
+         document({"segment", "p.qch", "--step", "--piece", "C", "--top", "1000"})["proposal"]["planes"]) {
+        if (plane["normal_index"] == -5 && plane["offset_index"] == 2) {
+            has_image = true;
+            EXPECT_LT(plane["normal"][0].get<double>() * plane["normal"][2].get<double>(), 0);
+        }
+    }
+    EXPECT_TRUE(has_image);
+}
+
+TEST_F(PlaneOptions, NoPlaneGoesThroughSurfaceThatMustNotBeCut) {
+    const TriangleMesh mesh = read_mesh(folder.path / "scan.ply").mesh;
+    const Box box = bounds(mesh);
+    std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(mesh.points.size()) +
+                       "\nproperty double x\nproperty double y\nproperty double z\nproperty uchar red\n" +
+                       "property uchar green\nproperty uchar blue\nelement face " +
+                       std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const Vec3& p : mesh.points) {
+        text += std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) +
+                (p.z > box.min.z + 0.5 * box.size().z ? " 255 0 0\n" : " 255 255 255\n");
+    }
+    for (const Triangle& t : mesh.triangles) {
+        text += "3 " + std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]) + "\n";
+    }
+    program::put(folder.path / "painted.ply", text);
+    const program::Ended made = segment({"--no-cut", "painted.ply", "--step"});
+    ASSERT_EQ(made.code, 0) << made.err;
+    fs::remove(folder.path / "painted.ply");
+    const json state = document({"segment", "p.qch", "--step", "--top", "1000"});
+    EXPECT_GT(state["no_cut"]["points"], 100);
+    EXPECT_GT(state["proposal"]["planes"].size(), 5U);
+    EXPECT_LT(state["proposal"]["planes"].size(), 100U);
+    EXPECT_NE(run({"segment", "p.qch"}).out.find("\nno cut: through "), std::string::npos);
+    // Along z only planes of the lower half are left.
+    for (const json& plane : state["proposal"]["planes"]) {
+        const double up = plane["normal"][2].get<double>();
+        if (std::abs(up) > 0.9) EXPECT_LT(plane["offset_mm"].get<double>() / up, 0.5 * box.size().z);
+    }
+}
+
+TEST_F(PlaneOptions, ThatAreWrongAreRefused) {
+    program::put(folder.path / "bad.txt", "1,0,0,5\n1,0,0\n");
+    program::put(folder.path / "none.txt", "# no plane\n");
+    program::put(folder.path / "flat.txt", "0,0,0,5\n");
+    struct Wrong {
+        program::Arguments options;
+        int code;
+        std::string says;
+    };
+    for (const Wrong& wrong :
+         {Wrong{{"--normals", "cube"}, exit_use, "box"}, Wrong{{"--offsets", "0"}, exit_use, "1 to 10000"},
+          Wrong{{"--offset-step", "-5"}, exit_use, "length"},
+          Wrong{{"--offsets", "5", "--offset-step", "5"}, exit_use, "--offset"},
+          Wrong{{"--planes", "bad.txt"}, exit_config, "bad.txt, line 2: not a plane"},
+          Wrong{{"--planes", "none.txt"}, exit_config, "holds no plane"},
+          Wrong{{"--planes", "flat.txt"}, exit_config, "line 1"},
+          Wrong{{"--planes", "missing.txt"}, exit_missing, "missing.txt"},
+          Wrong{{"--no-cut", "scan.ply"}, exit_mesh, "no_cut"},
+          Wrong{{"--no-cut", "missing.ply"}, exit_missing, "missing.ply"}}) {
+        const program::Ended ended = segment(wrong.options);
+        EXPECT_EQ(ended.code, wrong.code) << wrong.options[0] << " " << ended.err;
+        EXPECT_NE(ended.err.find(wrong.says), std::string::npos) << ended.err;
+        EXPECT_FALSE(fs::exists(folder.path / "p.qch"));
+    }
+    ASSERT_EQ(segment({}).code, 0);
+    for (const char* option : {"--normals", "--offsets", "--offset-step", "--planes", "--no-cut"}) {
+        const program::Ended ended =
+            run({"segment", "p.qch", "--step", option, option == std::string("--normals") ? "box" : "5"});
+        EXPECT_EQ(ended.code, exit_use) << option;
+        EXPECT_NE(ended.err.find("belongs to a new one"), std::string::npos) << ended.err;
+    }
+    EXPECT_EQ(run({"segment", "p.qch", "--step", "--symmetry"}).code, exit_use);
+}
+
+}  // namespace
+}  // namespace qchopper
