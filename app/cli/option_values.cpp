@@ -93,6 +93,11 @@ std::optional<Vec3> lengths_from(const std::string& text) {
     return v;
 }
 
+std::optional<Vec3> print_volume_from(const std::string& text) {
+    const std::optional<Vec3> v = lengths_from(text);
+    return v && std::min({v->x, v->y, v->z}) >= 1 ? v : std::nullopt;
+}
+
 namespace {
 
 // "+x", "-z", "0:0.1:1": a direction of length 1.

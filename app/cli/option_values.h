@@ -29,6 +29,9 @@ std::optional<Plane> plane_from(const std::string& text);
 // "X,Y,Z": three lengths in mm, greater than zero.
 std::optional<Vec3> lengths_from(const std::string& text);
 
+// The same, each at least 1.
+std::optional<Vec3> print_volume_from(const std::string& text);
+
 // "upright=+z,density=100,strength=0.5,load=weight": the load of the objective structure; any order, each at most once.
 // upright is +x, -x, +y, -y, +z, -z or X:Y:Z of any length but zero; density in kg/m3, strength in MPa; load is weight,
 // a force in N, or weight+FORCE. Also voxel, in mm, and poisson may be given, the others must.

@@ -41,18 +41,19 @@ void add_repair_choices(CLI::App* c, RepairChoiceArguments& a) {
 void add_candidate_options(CLI::App* c, ProjectArguments& a) {
     c->add_option("--normals", a.normals,
                   "planes are tried along the axes of the piece's box, or along 129 normals of the sphere too: box or "
-                  "sphere (sphere by carve, else box; docs/candidate-planes.md)")
+                  "sphere (sphere by carve and chopper, else box; docs/candidate-planes.md)")
         ->check(one_of({"box", "sphere"}));
-    CLI::Option* offsets = c->add_option("--offsets", a.offsets, "so many planes along each normal (80 by carve, 40)")
-                               ->check(number_between(1, 10'000, "a count from 1 to 10000"));
+    CLI::Option* offsets =
+        c->add_option("--offsets", a.offsets, "so many planes along each normal (80 by carve, else 40)")
+            ->check(number_between(1, 10'000, "a count from 1 to 10000"));
     c->add_option("--offset-step", a.offset_step_mm,
-                  "planes so many mm apart instead, but at most 199 along each normal")
+                  "planes so many mm apart instead, but at most 199 along each normal (5 by chopper)")
         ->check(number_between(1e-3, many, "a length in mm"))
         ->excludes(offsets);
     c->add_option("--planes", a.planes,
                   "a text file with a plane nx,ny,nz,d in each line; every piece is tried with them too");
     c->add_flag("--symmetry", a.symmetry,
-                "find the symmetry plane of the scan; it and the mirror images of cuts are tried too");
+                "find the symmetry plane of the scan; it and the mirror images of cuts are tried too (chopper does)");
     c->add_option("--no-cut", a.no_cut,
                   "a PLY of the scan in which surface that must not be cut is painted red or has the property no_cut");
 }
@@ -104,7 +105,7 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
          "--print-volume", a.print_volume,
          "box of X,Y,Z mm that parts, utilization and seam count by, in the best order of the axes (the largest "
          "block of the cell, else none)")
-        ->check(read_by(lengths_from, "not X,Y,Z in mm"));
+        ->check(read_by(print_volume_from, "not X,Y,Z in mm, each at least 1"));
     c->add_option("--utilization", a.utilization, "over which pieces: those of the newest cut, or the whole (cut)")
         ->check(one_of({"cut", "whole"}));
     c->add_option("--connector", a.connector, "form of that objective: spread or ratio (spread)")

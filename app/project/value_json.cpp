@@ -28,16 +28,13 @@ constexpr EnumName<VerdictOutcome> outcome_names[] = {{VerdictOutcome::replaced,
                                                       {VerdictOutcome::carries_cut, "carries_cut"},
                                                       {VerdictOutcome::decided, "decided"}};
 
-// Shorter ones would make grids that no memory holds.
-double length_from(double length) {
-    constexpr double least = 0.1;
-    constexpr double most = 1e6;
+double length_from(double length, double least) {
+    constexpr double most = 1e15;
     if (length >= least && length <= most) return length;
-    throw InputError(InputFault::config, "a length of its print volume or connectors is not from 0.1 to 1e6 mm");
+    throw InputError(InputFault::config, "a length of its print volume or of connectors is impossible");
 }
-double length_from(const Json& json) {
-    return length_from(json.get<double>());
-}
+constexpr double least_length = 1e-9;
+constexpr double least_spacing = 0.1;  // a finer grid would exceed any memory
 
 Json json_of(const CarvedSurface& s) {
     return {{"unreachable_mm2", s.unreachable_mm2}, {"area_mm2", s.area_mm2}};
@@ -219,13 +216,15 @@ SearchSettings settings_from(const Json& json) {
     if (json.value("utilization_over", "cut") == "whole") s.objectives.utilization_scope = TermScope::whole;
     if (json.contains("print_volume_mm")) {
         const Vec3 box = vec3_from(json.at("print_volume_mm"));
-        s.objectives.print_volume = Vec3{length_from(box.x), length_from(box.y), length_from(box.z)};
+        s.objectives.print_volume =
+            Vec3{length_from(box.x, least_length), length_from(box.y, least_length), length_from(box.z, least_length)};
     }
     if (json.contains("connector")) {
         const Json& c = json.at("connector");
-        s.objectives.connector = {value_of_name(connector_names, c.at("form")), length_from(c.at("diameter_mm")),
-                                  length_from(c.at("depth_mm")), length_from(c.at("wall_mm")),
-                                  length_from(c.at("spacing_mm"))};
+        s.objectives.connector = {
+            value_of_name(connector_names, c.at("form")), length_from(c.at("diameter_mm").get<double>(), least_length),
+            length_from(c.at("depth_mm").get<double>(), least_length), length_from(c.at("wall_mm").get<double>(), 0),
+            length_from(c.at("spacing_mm").get<double>(), least_spacing)};
     }
     if (json.contains("forbidden")) s.objectives.forbidden = json.at("forbidden").get<std::vector<std::string>>();
     s.objectives.tilt_deg = json.value("tilt_deg", default_tilt_deg);

@@ -70,7 +70,7 @@ TEST_F(ChopperOptions, ACutWithAForbiddenValueSaysThatNoOtherWasLeft) {
 
 TEST_F(ChopperOptions, WrongValuesAreRefusedInOneLine) {
     const std::vector<program::Arguments> wrong{{"--forbid", "parts"},         {"--forbid", "taste"},
-                                                {"--print-volume", "10,20"},   {"--print-volume", "10,0,20"},
+                                                {"--print-volume", "10,20"},   {"--print-volume", "10,0.5,20"},
                                                 {"--utilization", "some"},     {"--connector", "glue"},
                                                 {"--weights", "connector=-1"}, {"--weights", "parts=1,parts=2"},
                                                 {"--fragility", "breakable"},  {"--weights", "symmetry=nan"}};
