@@ -103,7 +103,7 @@ class ColumnFinder {
     }
 
     std::uint32_t column(std::int32_t i, std::int32_t j) const {
-        return static_cast<std::uint32_t>((j - out_.first_j) * out_.count_i + (i - out_.first_i));
+        return static_cast<std::uint32_t>(out_.index(i - out_.first_i, j - out_.first_j));
     }
 
     void pair_hits() {
@@ -129,7 +129,7 @@ class ColumnFinder {
 
 std::span<const HeightRange> solid_at(const SolidColumns& columns, std::int32_t i, std::int32_t j) {
     if (i < 0 || j < 0 || i >= columns.count_i || j >= columns.count_j) return {};
-    const auto c = static_cast<std::size_t>(j * columns.count_i + i);
+    const std::size_t c = columns.index(i, j);
     return std::span(columns.solid).subspan(columns.first[c], columns.first[c + 1] - columns.first[c]);
 }
 

@@ -30,6 +30,9 @@ struct SolidColumns {
     std::int32_t count_j = 0;
     std::vector<std::uint32_t> first;  // per column, row by row: in `solid`; and one more
     std::vector<HeightRange> solid;    // heights along the normal between which the column is in material, ascending
+    std::size_t index(std::int32_t i, std::int32_t j) const {
+        return static_cast<std::size_t>(j) * static_cast<std::size_t>(count_i) + static_cast<std::size_t>(i);
+    }
 };
 
 // Precondition: a closed mesh. O(points + triangles + crossings of lines and triangles).

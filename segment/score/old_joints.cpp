@@ -37,7 +37,7 @@ std::vector<OldJoint::Place> places_on(const SolidColumns& columns, const PlaneF
                 const std::int32_t ci = i + di;
                 const std::int32_t cj = j + dj;
                 if (ci < 0 || cj < 0 || ci >= columns.count_i || cj >= columns.count_j) return false;
-                if (is_deep[static_cast<std::size_t>(cj * columns.count_i + ci)] == 0) return false;
+                if (is_deep[columns.index(ci, cj)] == 0) return false;
             }
         }
         return true;
@@ -45,7 +45,7 @@ std::vector<OldJoint::Place> places_on(const SolidColumns& columns, const PlaneF
     std::vector<OldJoint::Place> places;
     for (std::int32_t j = 0; j < columns.count_j; ++j) {
         for (std::int32_t i = 0; i < columns.count_i; ++i) {
-            if (is_deep[static_cast<std::size_t>(j * columns.count_i + i)] == 0 || !fits(i, j)) continue;
+            if (is_deep[columns.index(i, j)] == 0 || !fits(i, j)) continue;
             const Point2 flat{(columns.first_i + i) * options.spacing, (columns.first_j + j) * options.spacing};
             places.push_back({flat, origin_on_cap + flat.x * frame.u + flat.y * frame.v});
         }

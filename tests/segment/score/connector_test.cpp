@@ -36,7 +36,7 @@ TEST(Connector, ColumnsOfABallAreItsChords) {
     double volume = 0;
     for (std::int32_t j = 0; j < columns.count_j; ++j) {
         for (std::int32_t i = 0; i < columns.count_i; ++i) {
-            const auto c = static_cast<std::size_t>(j * columns.count_i + i);
+            const std::size_t c = columns.index(i, j);
             const double square = 25.0 * (std::pow(i + columns.first_i, 2) + std::pow(j + columns.first_j, 2));
             ASSERT_LE(columns.first[c + 1] - columns.first[c], 1U);
             if (square > 45 * 45) continue;
@@ -68,7 +68,7 @@ TEST(Connector, ASiteIsWhereTheDiscOfLinesIsSolidOnBothSides) {
     const SolidColumns columns = solid_columns(mesh, n, mesh.points.front(), dowel.spacing);
     const auto is_solid = [&](std::int32_t i, std::int32_t j, double low, double high) {
         if (i < 0 || j < 0 || i >= columns.count_i || j >= columns.count_j) return false;
-        const auto c = static_cast<std::size_t>(j * columns.count_i + i);
+        const std::size_t c = columns.index(i, j);
         for (std::uint32_t k = columns.first[c]; k < columns.first[c + 1]; ++k) {
             if (columns.solid[k].low <= low && columns.solid[k].high >= high) return true;
         }
