@@ -69,13 +69,13 @@ std::string new_project_option(const ProjectArguments& a, bool is_replay_given =
                                                     {a.utilization.has_value(), "--utilization"},
                                                     {!a.forbidden.empty(), "--forbid"},
                                                     {a.connector.has_value(), "--connector"},
+                                                    {a.structure.has_value(), "--structure"},
                                                     {a.normals.has_value(), "--normals"},
                                                     {a.offsets.has_value(), "--offsets"},
                                                     {a.offset_step_mm.has_value(), "--offset-step"},
                                                     {a.planes.has_value(), "--planes"},
                                                     {a.symmetry, "--symmetry"},
-                                                    {a.no_cut.has_value(), "--no-cut"},
-                                                    {a.structure.has_value(), "--structure"}};
+                                                    {a.no_cut.has_value(), "--no-cut"}};
     for (const auto& [is_given, name] : options) {
         if (is_given) return name;
     }

@@ -81,10 +81,10 @@ enum class Stage {
 struct Project {
     ScanSource scan;
     std::optional<IgnoredSurface> ignored;
-    std::optional<NoCutSurface> no_cut;
     std::optional<StructureOptions> load;  // under which the scan is to stand; nothing: structure has no weight
-    std::string preset;                    // empty: none
-    SearchSettings settings;               // with the weights in force
+    std::optional<NoCutSurface> no_cut;
+    std::string preset;       // empty: none
+    SearchSettings settings;  // with the weights in force
     FragmentChoice fragments = FragmentChoice::keep;
     Stage stage = Stage::cutting;
     std::optional<EndReason> end_reason;  // of the search; nothing: it has not ended

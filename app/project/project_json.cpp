@@ -81,11 +81,6 @@ IgnoredSurface ignored_from(const Json& json) {
     return ignored;
 }
 
-NoCutSurface no_cut_from(const Json& json) {
-    return {json.at("painted").get<std::string>(), json.at("points").get<std::size_t>(),
-            sha256_from(json.at("sha256"))};
-}
-
 Json json_of(const StructureOptions& load) {
     return {{"upright", json_of(load.up)},       {"density_kg_per_m3", load.density_kg_per_m3},
             {"strength_mpa", load.strength_mpa}, {"own_weight", load.has_own_weight},
@@ -98,6 +93,11 @@ StructureOptions load_from(const Json& json) {
             json.at("strength_mpa").get<double>(), json.at("own_weight").get<bool>(),
             json.at("force_n").get<double>(),      json.at("poisson_ratio").get<double>(),
             json.at("voxel_mm").get<double>(),     json.at("unknowns").get<std::size_t>()};
+}
+
+NoCutSurface no_cut_from(const Json& json) {
+    return {json.at("painted").get<std::string>(), json.at("points").get<std::size_t>(),
+            sha256_from(json.at("sha256"))};
 }
 
 Json json_of(const WrittenJob& job) {
@@ -267,8 +267,8 @@ Project from_json(const Json& json) {
     Project project;
     project.scan = scan_from(json.at("scan"));
     if (json.contains("ignored")) project.ignored = ignored_from(json.at("ignored"));
-    if (json.contains("no_cut")) project.no_cut = no_cut_from(json.at("no_cut"));
     if (json.contains("load")) project.load = load_from(json.at("load"));
+    if (json.contains("no_cut")) project.no_cut = no_cut_from(json.at("no_cut"));
     project.preset = json.at("preset").get<std::string>();
     project.settings = settings_from(json.at("settings"));
     project.fragments = value_of_name(fragment_names, json.at("fragment_choice"));
@@ -310,8 +310,8 @@ std::string to_json(const Project& project) {
               {"programs", project.has_programs},
               {"jobs", list_of(project.jobs)}};
     if (project.ignored) json["ignored"] = json_of(*project.ignored);
-    if (project.no_cut) json["no_cut"] = json_of(*project.no_cut);
     if (project.load) json["load"] = json_of(*project.load);
+    if (project.no_cut) json["no_cut"] = json_of(*project.no_cut);
     if (project.beam) json["beam"] = json_of(*project.beam);
     if (project.verdict) json["verdict"] = json_of(*project.verdict);
     return text_of(json) + "\n";

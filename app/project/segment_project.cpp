@@ -29,12 +29,16 @@ void record_uncut(ProjectDraft& draft, const Context& context) {
     record(draft.project, uncut(draft.scan, draft.project.settings.objectives.fragment_volume_mm3));
 }
 
+bool is_scan_there(const Project& project) {
+    std::error_code error;
+    return std::filesystem::exists(project.scan.path, error);
+}
+
 // What of each piece is out of reach, where the project has samples of them and its scan is still there: without, the
 // other figures are shown all the same.
 std::vector<std::optional<double>> unreachable_shares(OpenProject& open, const Context& context) {
     const Project& project = open.project();
-    std::error_code error;
-    if (!project.settings.takes_samples() || !std::filesystem::exists(project.scan.path, error)) return {};
+    if (!project.settings.takes_samples() || !is_scan_there(project)) return {};
     const std::vector<Piece>& pieces = open.segmentation().pieces;
     const StageTimer stage(context, "surface out of reach");
     std::vector<std::optional<double>> shares(pieces.size());
@@ -48,7 +52,9 @@ std::vector<std::optional<double>> unreachable_shares(OpenProject& open, const C
 // Adds the state of the project to an answer.
 SegmentAnswer with_state(SegmentAnswer answer, OpenProject& open, const Context& context) {
     if (!answer.proposal && !answer.preview && !answer.plan) answer.unreachable = unreachable_shares(open, context);
-    if (open.project().settings.objectives.needs_structure()) answer.stress = open.stress();
+    if (open.project().settings.objectives.needs_structure() && is_scan_there(open.project())) {
+        answer.stress = open.stress();
+    }
     answer.folder = open.folder();
     answer.project = open.project();
     answer.pieces_written = open.are_pieces_written();
