@@ -23,8 +23,7 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double scored_share = 0.9;   // of the distances
 constexpr double matched_share = 0.8;  // of the pairs
-constexpr int most_turns = 15;         // of matching and fitting
-constexpr double enough_turn = 2e-5;   // of the normal, in radians: a smaller one ends the turns
+constexpr double enough_turn = 5e-5;   // of the normal, in radians: a smaller one ends matching and fitting
 
 // Points in a k-d tree without pointers: the middle one of a range divides it along the axis in which it is longest.
 class PointTree {
@@ -195,8 +194,8 @@ Plane fitted(const std::vector<Pair>& pairs) {
     return canonical({n, dot(n, centre)});
 }
 
-Plane refined(const PointTree& tree, Plane plane, std::size_t every) {
-    for (int turn = 0; turn < most_turns; ++turn) {
+Plane refined(const PointTree& tree, Plane plane, std::size_t every, int turns) {
+    for (int turn = 0; turn < turns; ++turn) {
         std::vector<Pair> pairs = matched(tree, plane, every);
         if (pairs.empty()) return plane;
         keep_closest(pairs, matched_share);
@@ -219,8 +218,9 @@ void keep_best(std::vector<Scored>& planes, const PointTree& tree, std::size_t e
     planes.resize(std::min(planes.size(), kept));
 }
 
-void refine(std::vector<Scored>& planes, const PointTree& tree, std::size_t every) {
-    parallel_for(0, planes.size(), [&](std::size_t i) { planes[i].plane = refined(tree, planes[i].plane, every); });
+void refine(std::vector<Scored>& planes, const PointTree& tree, std::size_t every, int turns) {
+    parallel_for(0, planes.size(),
+                 [&](std::size_t i) { planes[i].plane = refined(tree, planes[i].plane, every, turns); });
 }
 
 // The triangles of solids whose area is too small. Empty: none.
@@ -286,11 +286,11 @@ std::optional<SymmetryPlane> symmetry_plane(const TriangleMesh& scan, const Symm
     const auto every = [&](std::size_t of) { return std::max<std::size_t>(1, options.points / of); };
     keep_best(planes, tree, every(250), planes.size() / 5);
     keep_best(planes, tree, every(1'000), 6 * options.refined);
-    refine(planes, tree, every(400));
+    refine(planes, tree, every(400), 10);
     keep_best(planes, tree, every(1'000), options.refined);
-    refine(planes, tree, every(2'000));
-    keep_best(planes, tree, every(2'500), 2);
-    refine(planes, tree, 1);
+    refine(planes, tree, every(2'000), 6);
+    keep_best(planes, tree, every(2'500), 1);
+    refine(planes, tree, 1, 8);
     keep_best(planes, tree, 1, 1);
     if (planes.front().score == infinite) return std::nullopt;
     return SymmetryPlane{planes.front().plane, planes.front().score, std::sqrt(samples.area_each_mm2)};

@@ -163,6 +163,7 @@ TEST_F(NoCutSurfaceFiles, SettingsOfCandidatesAreReadAsTheyWereWritten) {
     // A project of before has none of the keys.
     Project plain = made;
     plain.settings.candidates = {};
+    plain.settings.objectives.symmetry_plane.reset();
     plain.no_cut.reset();
     const std::string text = to_json(plain);
     for (const char* key : {"\"normals\"", "\"offset_step_mm\"", "symmetry", "\"planes\"", "no_cut"}) {
