@@ -156,7 +156,7 @@ TEST_F(OpenedProject, OfAPieceThatIsTooLargeTheRankingHasThePlanesForSizeThatThe
     const Piece& target = project.segmentation().pieces[piece];
     const BlocksNeeded blocks = project.too_large_for(changed.settings, target);
     ASSERT_TRUE(blocks);
-    const auto planes = candidates_for_size(project.cache().box(target), 9, blocks);
+    const auto planes = candidates_for_size(project.cache().box(target), changed.settings.candidates, blocks);
     EXPECT_LT(planes.size(), 27U);
     for (const Ranked& r : ranked) {
         EXPECT_TRUE(
