@@ -33,8 +33,11 @@ std::string describe(const Decision& decision) {
 std::size_t most_judged_planes(const SearchSettings& settings) {
     constexpr std::size_t of_box = 3;
     constexpr std::size_t of_sphere = 129 + of_box;  // the octahedron's
-    if (settings.objectives.weights.unreachable <= 0) return 0;
-    const bool is_box = settings.candidates.normals == CandidateNormals::box;
+    const Objectives& objectives = settings.objectives;
+    const bool is_by_reach = objectives.weights.unreachable > 0;
+    if (!is_by_reach && !objectives.needs_connector() && !objectives.needs_symmetry()) return 0;
+    const CandidateNormals usual = is_by_reach ? CandidateNormals::sphere : CandidateNormals::box;
+    const bool is_box = settings.candidates.normals.value_or(usual) == CandidateNormals::box;
     return (is_box ? of_box : of_sphere) * static_cast<std::size_t>(most_offsets(settings.candidates));
 }
 

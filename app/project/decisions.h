@@ -71,8 +71,9 @@ struct History {
 // "change of weights", "reset".
 std::string describe(const Decision& decision);
 
-// So many planes of a piece at most are judged by what they leave out of reach, before those that can win are evaluated
-// by all terms (segment/search/reach_rank.h); 0 where that has no weight.
+// So many planes of a piece at most are judged by what they leave out of reach, or by the terms that are fast, before
+// those that can win are evaluated by all terms (segment/search/reach_rank.h, late_rank.h); 0 where all are evaluated
+// whole.
 std::size_t most_judged_planes(const SearchSettings& settings);
 
 // "up to 10,560 planes, 32 of them evaluated whole", or "120 planes": among which a plane was chosen.
