@@ -114,6 +114,10 @@ Segmentation segmented(const TriangleMesh& scan, SearchSettings settings, std::s
     settings.objectives.fragment_volume_mm3 = fragment_share * volume_mm3(scan);
     Segmentation segmentation = uncut(scan, settings.objectives.fragment_volume_mm3);
     if (settings.takes_samples()) sample_uncut(segmentation.pieces, {}, samples);
+    if (settings.candidates.takes_symmetry) {
+        settings.candidates.symmetry = symmetry_plane(scan);
+        if (settings.candidates.symmetry) settings.objectives.symmetry_plane = settings.candidates.symmetry->plane;
+    }
     if (settings.measures_scan()) segmentation.scan = measure_scan(segmentation);
     if (settings.objectives.needs_seam()) find_seam_costs(segmentation.pieces);
     EvaluationCache cache(settings.objectives, settings.candidates);
