@@ -35,7 +35,7 @@ void check(const StructureOptions& o) {
 }
 
 // What the solver is given, and which voxels it is for.
-struct Model {
+struct VoxelModel {
     VoxelGrid grid;
     std::vector<std::uint32_t> voxels;
     std::vector<std::uint32_t> part;       // per voxel
@@ -52,7 +52,7 @@ struct Layers {
     std::size_t voxels = 0;
 };
 
-std::vector<Layers> layers_of_parts(const Model& m) {
+std::vector<Layers> layers_of_parts(const VoxelModel& m) {
     std::vector<Layers> layers;
     for (std::size_t i = 0; i < m.voxels.size(); ++i) {
         if (m.part[i] >= layers.size()) layers.resize(m.part[i] + 1);
@@ -65,8 +65,8 @@ std::vector<Layers> layers_of_parts(const Model& m) {
     return layers;
 }
 
-Model model_of(const TriangleMesh& mesh, const VoxelGrid& grid) {
-    Model m;
+VoxelModel model_of(const TriangleMesh& mesh, const VoxelGrid& grid) {
+    VoxelModel m;
     m.grid = grid;
     m.voxels = voxels_inside(mesh, grid);
     if (m.voxels.empty()) return m;
@@ -90,15 +90,15 @@ Model model_of(const TriangleMesh& mesh, const VoxelGrid& grid) {
 }
 
 // The least voxels with which the unknowns are not exceeded, to a few percent.
-Model fitting_model(const TriangleMesh& mesh, const StructureOptions& o, const Context& context) {
+VoxelModel fitting_model(const TriangleMesh& mesh, const StructureOptions& o, const Context& context) {
     if (o.voxel_mm > 0) return model_of(mesh, voxel_grid(mesh, o.up, o.voxel_mm));
     const double wanted = static_cast<double>(o.unknowns);
     double size = std::cbrt(std::abs(volume_mm3(mesh)) * 3 / wanted);
     if (!(size > 0)) throw InputError(InputFault::mesh, "structure: the model has no volume");
-    Model best;
+    VoxelModel best;
     for (int attempt = 0; attempt < 12; ++attempt) {
         context.check_cancelled();
-        Model m = model_of(mesh, voxel_grid(mesh, o.up, size));
+        VoxelModel m = model_of(mesh, voxel_grid(mesh, o.up, size));
         const double unknowns = 3 * static_cast<double>(m.nodes.number.size());
         if (unknowns <= wanted && unknowns > 3 * static_cast<double>(best.nodes.number.size())) best = std::move(m);
         if (unknowns <= wanted && unknowns > 0.93 * wanted) break;
@@ -107,7 +107,7 @@ Model fitting_model(const TriangleMesh& mesh, const StructureOptions& o, const C
     return best;
 }
 
-BrickLoads loads_of(const Model& m, const StructureOptions& o) {
+BrickLoads loads_of(const VoxelModel& m, const StructureOptions& o) {
     BrickLoads loads;
     loads.load.resize(m.nodes.number.size());
     loads.is_held.assign(m.nodes.number.size(), 0);
@@ -158,7 +158,7 @@ double largest_tension(const Stress& s) {
 }
 
 // Fills in the stress of the voxels that stand; the others keep 0.
-void add_stress(StressedModel& result, const Model& m, const Brick& brick, const Displacements& displacements) {
+void add_stress(StressedModel& result, const VoxelModel& m, const Brick& brick, const Displacements& displacements) {
     result.stress.resize(m.voxels.size());
     std::size_t brick_index = 0;
     for (std::size_t i = 0; i < m.voxels.size(); ++i) {
@@ -193,7 +193,7 @@ bool is_hinge(std::uint8_t voxels) {
     return reached != voxels;
 }
 
-std::vector<FloatingSolid> floating_solids(const Model& m) {
+std::vector<FloatingSolid> floating_solids(const VoxelModel& m) {
     std::vector<FloatingSolid> of_part(m.does_stand.size());
     for (std::size_t i = 0; i < m.voxels.size(); ++i) {
         FloatingSolid& f = of_part[m.part[i]];
@@ -237,7 +237,7 @@ std::vector<std::uint32_t> parts_joined_by_faces(const std::vector<VoxelNeighbou
 StressedModel stress_of(const TriangleMesh& mesh, const StructureOptions& options, const Context& context) {
     check(options);
     context.progress("iterations of the stress analysis", 0, 0);
-    const Model m = fitting_model(mesh, options, context);
+    const VoxelModel m = fitting_model(mesh, options, context);
     if (m.standing.empty()) {
         throw InputError(InputFault::mesh, "structure: no voxel lies inside the model", "pass smaller voxels");
     }

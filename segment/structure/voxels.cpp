@@ -15,7 +15,7 @@
 namespace qchopper {
 namespace {
 
-struct Crossing {
+struct GridCrossing {
     std::uint32_t column = 0;  // row * count[0] + column
     double at = 0;             // in voxels from the corner
     int depth_change = 0;
@@ -34,7 +34,7 @@ std::array<std::uint32_t, 2> lines_within(double low, double high, std::uint32_t
     return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(std::max(first, end))};
 }
 
-void add_crossings(const std::array<Vec3, 3>& corner, const VoxelGrid& grid, std::vector<Crossing>& crossings) {
+void add_crossings(const std::array<Vec3, 3>& corner, const VoxelGrid& grid, std::vector<GridCrossing>& crossings) {
     const auto [low_x, high_x] = std::minmax({corner[0].x, corner[1].x, corner[2].x});
     const auto [low_y, high_y] = std::minmax({corner[0].y, corner[1].y, corner[2].y});
     const auto [first_x, end_x] = lines_within(low_x, high_x, grid.count[0]);
@@ -117,9 +117,9 @@ std::vector<std::uint32_t> voxels_inside(const TriangleMesh& mesh, const VoxelGr
     std::vector<Vec3> local;
     local.reserve(mesh.points.size());
     for (const Vec3 p : mesh.points) local.push_back(grid.local(p));
-    std::vector<Crossing> crossings;
+    std::vector<GridCrossing> crossings;
     for (const Triangle& t : mesh.triangles) add_crossings({local[t[0]], local[t[1]], local[t[2]]}, grid, crossings);
-    std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
+    std::sort(crossings.begin(), crossings.end(), [](const GridCrossing& a, const GridCrossing& b) {
         if (a.column != b.column) return a.column < b.column;
         return a.at != b.at ? a.at < b.at : a.depth_change < b.depth_change;
     });
@@ -127,8 +127,8 @@ std::vector<std::uint32_t> voxels_inside(const TriangleMesh& mesh, const VoxelGr
     int depth = 0;
     const std::uint32_t layer = grid.count[0] * grid.count[1];
     for (std::size_t i = 0; i + 1 < crossings.size(); ++i) {
-        const Crossing& from = crossings[i];
-        const Crossing& to = crossings[i + 1];
+        const GridCrossing& from = crossings[i];
+        const GridCrossing& to = crossings[i + 1];
         depth = (i > 0 && crossings[i - 1].column == from.column ? depth : 0) + from.depth_change;
         if (depth <= 0 || to.column != from.column) continue;
         const auto [first, end] = lines_within(from.at, std::nextafter(to.at, from.at), grid.count[2]);
