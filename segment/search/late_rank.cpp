@@ -44,14 +44,13 @@ class LateRanking {
         double most = limit();
         for (std::vector<std::size_t> open = can_win(most); !open.empty(); open = can_win(most)) {
             open.resize(std::min(open.size(), normals_at_once));
-            parallel_for(0, open.size(), [&](std::size_t i) { add_late(groups_[open[i]]); });
-            for (const std::size_t g : open) late_.is_whole[g] = 1;
+            parallel_for(0, open.size(), [&](std::size_t i) { advance(open[i]); });
             most = limit();
             context_.progress("planes evaluated", done(), late_.planes.candidates.size());
         }
         PieceEvaluations known;
         for (std::size_t g = 0; g < groups_.size(); ++g) {
-            if (late_.is_whole[g] == 0) continue;
+            if (!is_whole(g)) continue;
             for (std::size_t i = groups_[g].first; i < groups_[g].last; ++i) {
                 known.candidates.push_back(late_.planes.candidates[i]);
                 known.evaluations.push_back(late_.planes.evaluations[i]);
@@ -93,7 +92,7 @@ class LateRanking {
     }
 
     void sweep_all() {
-        if (late_.is_whole.size() == groups_.size()) return;
+        if (late_.of_normal.size() == groups_.size()) return;
         const PreparedPiece& piece = prepared();
         parallel_for(0, groups_.size(), [&](std::size_t g) {
             context_.check_cancelled();
@@ -102,20 +101,32 @@ class LateRanking {
             std::move(swept.begin(), swept.end(),
                       late_.planes.evaluations.begin() + static_cast<std::ptrdiff_t>(group.first));
         });
-        late_.is_whole.assign(groups_.size(), 0);
+        late_.of_normal.assign(groups_.size(), LateStage::fast);
     }
 
-    void add_late(const Group& group) {
+    bool is_whole(std::size_t g) const { return late_.of_normal[g] == LateStage::whole; }
+
+    // Fragility first: it takes a tenth of the time of the others and tells more planes apart.
+    void advance(std::size_t g) {
         context_.check_cancelled();
-        add_late_terms(*prepared_, late_.planes.candidates[group.first].plane.normal, offsets_of(group), objectives_,
-                       std::span(late_.planes.evaluations).subspan(group.first, group.last - group.first));
+        const Group& group = groups_[g];
+        const Vec3 normal = late_.planes.candidates[group.first].plane.normal;
+        const auto of_group = std::span(late_.planes.evaluations).subspan(group.first, group.last - group.first);
+        LateStage& stage = late_.of_normal[g];
+        if (stage == LateStage::fast) {
+            add_fragility(*prepared_, normal, offsets_of(group), objectives_, of_group);
+            stage = LateStage::fragility;
+        } else {
+            add_late_terms(*prepared_, normal, offsets_of(group), objectives_, of_group);
+            stage = LateStage::whole;
+        }
     }
 
     // The total of the last of the best planes that are known; infinite if there are too few.
     double limit() const {
         std::vector<double> totals;
         for (std::size_t g = 0; g < groups_.size(); ++g) {
-            if (late_.is_whole[g] == 0) continue;
+            if (!is_whole(g)) continue;
             for (std::size_t i = groups_[g].first; i < groups_[g].last; ++i) {
                 const std::optional<Terms> t = terms_of(i);
                 if (t && !is_forbidden(*t, objectives_)) totals.push_back(t->total);
@@ -131,7 +142,7 @@ class LateRanking {
     std::vector<std::size_t> can_win(double most) {
         std::vector<std::pair<double, std::size_t>> open;
         for (std::size_t g = 0; g < groups_.size(); ++g) {
-            if (late_.is_whole[g] != 0) continue;
+            if (is_whole(g)) continue;
             double least = infinite;
             for (std::size_t i = groups_[g].first; i < groups_[g].last; ++i) {
                 if (const std::optional<Terms> t = terms_of(i)) least = std::min(least, t->total);
@@ -154,7 +165,7 @@ class LateRanking {
     std::size_t done() const {
         std::size_t planes = 0;
         for (std::size_t g = 0; g < groups_.size(); ++g) {
-            if (late_.is_whole[g] != 0) planes += groups_[g].last - groups_[g].first;
+            if (is_whole(g)) planes += groups_[g].last - groups_[g].first;
         }
         return planes;
     }

@@ -2,8 +2,9 @@
 // connector, symmetry.
 //
 // No term is negative, so the cost without the slow terms is a bound. Normals are taken in the order of their least
-// bound, a few at a time, and the slow terms of their planes are evaluated until no other plane can be among the best:
-// these are the same as if all were evaluated (tests/segment/search/late_rank_test.cpp). docs/decisions/0027.
+// bound, a few at a time; of their planes fragility is evaluated first, and the other slow terms where the bound with
+// it is the least. It ends when no other plane can be among the best, which are the same as if all were evaluated
+// (tests/segment/search/late_rank_test.cpp). docs/decisions/0027.
 
 #pragma once
 
