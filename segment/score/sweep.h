@@ -21,7 +21,7 @@ namespace qchopper {
 std::vector<std::optional<CutEvaluation>> sweep(const PreparedPiece& prepared, Vec3 normal,
                                                 std::span<const double> offsets, const Objectives& objectives);
 
-// The same without fragility. Measured by itself in docs/performance.md. Faces, cap area and fragility of a plane are
+// The solids and their sizes alone. Measured by itself in docs/performance.md. Faces, cap area and fragility of a plane are
 // the same bits whatever other offsets are swept with it; volumes and base sums are not.
 std::vector<std::optional<CutEvaluation>> sweep_solids(const PreparedPiece& prepared, Vec3 normal,
                                                        std::span<const double> offsets);
@@ -31,7 +31,7 @@ std::vector<std::optional<CutEvaluation>> sweep_solids(const PreparedPiece& prep
 // with it (tests/segment/score/connector_test.cpp).
 void add_fragility(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
                    const Objectives& objectives, std::span<std::optional<CutEvaluation>> evaluations);
-// Structure, connector and symmetry where they have a weight.
+// Seam, structure, connector and symmetry where they have a weight.
 void add_section_terms(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
                        const Objectives& objectives, std::span<std::optional<CutEvaluation>> evaluations);
 // Both.

@@ -38,9 +38,14 @@ class PointTree {
         double distance2 = infinite;
         std::size_t point = 0;
     };
-    // The nearest of the points that lie above the plane, or of those that do not.
-    Found nearest(Vec3 p, const Plane& plane, bool above) const {
-        Found found;
+    // The nearest of the points that lie above the plane, or of those that do not. `near`: one of them, the match of a
+    // point nearby, which limits the search from the start; or none, of infinite distance.
+    Found nearest(Vec3 p, const Plane& plane, bool above, const Found& near) const {
+        Found found = near;
+        if (near.distance2 < infinite) {
+            const Vec3 away = points_[near.point] - p;
+            found.distance2 = dot(away, away);
+        }
         search({p, plane, above}, 0, points_.size(), found);
         return found;
     }
@@ -114,10 +119,12 @@ struct Pair {
 std::vector<Pair> matched(const PointTree& tree, const Plane& plane, std::size_t every) {
     std::vector<Pair> pairs;
     pairs.reserve(tree.points().size() / every + 1);
+    std::array<PointTree::Found, 2> last;  // below, above; points are near to those before them in the tree
     for (std::size_t i = 0; i < tree.points().size(); i += every) {
         const Vec3 p = tree.points()[i];
         const bool is_above = height(plane.normal, p) > plane.offset;
-        const PointTree::Found found = tree.nearest(reflected(p, plane), plane, !is_above);
+        PointTree::Found& found = last[is_above ? 0 : 1];
+        found = tree.nearest(reflected(p, plane), plane, !is_above, found);
         if (found.distance2 == infinite) return {};
         pairs.push_back({p, tree.points()[found.point], found.distance2});
     }

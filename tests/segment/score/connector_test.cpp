@@ -255,6 +255,7 @@ TEST(Connector, TheStagesGiveWhatOneSweepGives) {
     const Objectives o = [] {
         Objectives all = with_connector(ConnectorForm::spread);
         all.weights.symmetry = 1;
+        all.weights.seam = 1;
         all.symmetry_plane = Plane{{1, 0, 0}, 3};
         return all;
     }();
@@ -273,12 +274,15 @@ TEST(Connector, TheStagesGiveWhatOneSweepGives) {
         EXPECT_EQ(whole[k]->connector, staged[k]->connector);
         EXPECT_EQ(whole[k]->symmetry_mm, staged[k]->symmetry_mm);
         EXPECT_EQ(whole[k]->fragility, staged[k]->fragility);
+        EXPECT_EQ(whole[k]->seam_mm, staged[k]->seam_mm);
+        EXPECT_GT(staged[k]->seam_mm, 0);
     }
 }
 
 TEST(Connector, TheValuesOfAPlaneDoNotDependOnTheOthersThatAreAsked) {
     Objectives o = with_connector(ConnectorForm::spread);
     o.weights.symmetry = 1;
+    o.weights.seam = 1;
     o.symmetry_plane = Plane{{1, 0, 0}, 3};
     std::mt19937 random(52);
     std::size_t valued = 0;
@@ -311,6 +315,7 @@ TEST(Connector, TheValuesOfAPlaneDoNotDependOnTheOthersThatAreAsked) {
                     ASSERT_EQ(whole[of[i]].has_value(), asked[i].has_value()) << name;
                     if (!asked[i]) continue;
                     EXPECT_EQ(whole[of[i]]->fragility, asked[i]->fragility) << name;
+                    EXPECT_EQ(whole[of[i]]->seam_mm, asked[i]->seam_mm) << name;
                     EXPECT_EQ(whole[of[i]]->connector, asked[i]->connector) << name;
                     EXPECT_EQ(whole[of[i]]->symmetry_mm, asked[i]->symmetry_mm) << name;
                     valued += asked[i]->connector > 0 && asked[i]->connector < 1 ? 1 : 0;
