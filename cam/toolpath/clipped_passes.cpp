@@ -12,7 +12,7 @@ namespace qchopper {
 namespace {
 
 constexpr double least_free = 2;  // mm of a part of a pass that is worth a way there
-constexpr double touching = 1;    // mm
+constexpr double touching = 1.5;  // mm
 
 // Collects the points of a pass into parts that are free and parts that are blocked.
 class PassParts {

@@ -29,8 +29,10 @@ HolderGap finishing_gap(const Setup& setup, double foam_cell) {
 }
 
 HeightMap limit_over_finished(HeightMap piece, double foam_left, const ToolBody& body, const HolderGap& gap) {
-    for (float& z : piece.height) z += static_cast<float>(foam_left);
-    return holder_limit_over(piece, body, gap);
+    // The highest point of a cell may lie so much nearer than its middle, at which foam is known.
+    const double nearer = half_diagonal * piece.cell;
+    for (float& z : piece.height) z += static_cast<float>(foam_left + nearer);
+    return holder_limit_over(piece, body, {gap.clearance - nearer, gap.wide_cells});
 }
 
 HeightMap limit_over_foam(const HeightMap& middle_foam, const CarvingTool& tool, const ToolBody& body,

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "cam/setup/holder_limit.h"
 #include "cam/toolpath/clipped_passes.h"
+#include "cam/toolpath/disc_max.h"
 #include "cam/toolpath/finishing.h"
 #include "cam/toolpath/finishing_limit.h"
 #include "cam/toolpath/finishing_region.h"
@@ -28,6 +29,7 @@ namespace {
 constexpr double cells_per_radius = 6;  // of the finest tool, in the maps of foam
 constexpr double least_foam_cell = 0.5;
 constexpr double worth_a_round = 50;   // mm of passes that were blocked and are free now
+constexpr float closed = 1e6F;         // mm, of a tip
 constexpr int most_handed_over = 2;    // times, of each kind of finishing
 constexpr double long_blocked = 20;    // mm of a pass; shorter ones lie between free ones
 constexpr double worth_another = 200;  // mm of such passes that are worth another direction
@@ -135,6 +137,7 @@ class ToolpathMaker {
         const HeightMap piece = target(direction, foam_cell_, 0);
         HeightMap tip = tip_surface(piece, tool, {operation.allowance});
         raise_to_holder(tip, piece, body_of(tool_index), setup_.piece_in_setup);
+        if (settings_.beside_block) close_beside_block(tip, direction, *settings_.beside_block);
         CarvingSpace space = space_of(piece, operation);
         space.tip_limit = &tip;
         space.is_limit_between = false;
@@ -144,6 +147,14 @@ class ToolpathMaker {
         }
         std::vector<PathRun> runs = rough(space, tool, body_of(tool_index), operation, options, context_);
         add(std::move(operation), space, std::move(runs));
+    }
+
+    // No tip is allowed farther than that beside the projection of the block.
+    void close_beside_block(HeightMap& tip, std::size_t direction, double beside) const {
+        const HeightMap near = disc_max(InProcessStock(setup_, FoamCells::middles).highest(direction, tip), beside);
+        for (std::size_t i = 0; i < tip.height.size(); ++i) {
+            if (near.height[i] == HeightMap::nothing) tip.height[i] = closed;
+        }
     }
 
     // From all directions; then surface that stays blocked for one is left to the others.

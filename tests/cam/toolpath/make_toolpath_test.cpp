@@ -244,6 +244,33 @@ TEST(MakeToolpath, PassesThatFoamBlocksAreTakenUpAgainWhenAnotherDirectionHasRem
     EXPECT_GT(again, 50);
 }
 
+TEST(MakeToolpath, RoughingStaysBesideTheBlockAsNarrowAsItIsAsked) {
+    const TriangleMesh mesh = shapes::box({0, 0, 0}, {40, 30, 60});
+    const auto setup = setup_of(mesh, 5, 40);
+    const Cell cell = ready_cell();
+    const auto farthest = [&](const ToolpathSettings& settings) {
+        double most = 0;
+        PlainReplay replay(setup, cell, 2.5);
+        for (const Operation& operation : make_toolpath(setup, mesh, cell, settings).operations) {
+            replay.carve(operation);
+            if (operation.kind != OperationKind::roughing || operation.direction != 0) continue;
+            for (const PathRun& run : operation.runs) {
+                for (const PathMove& move : run.moves) {
+                    most = std::max({most, std::abs(move.tip.x) - 25, std::abs(move.tip.y) - 20});
+                }
+            }
+        }
+        expect_clean(replay, "box");
+        return most;
+    };
+    ToolpathSettings settings = coarse_settings();
+    EXPECT_GT(farthest(settings), 6);
+    settings.beside_block = 2;
+    const double narrow = farthest(settings);
+    EXPECT_LE(narrow, 2.5);
+    EXPECT_GT(narrow, 0.5);
+}
+
 TEST(MakeToolpath, NeverCutsFoamAboveTheFlute) {
     // The wall is nearly twice as high as the flute of the finishing tool (80 mm), and roughing leaves a skin on it.
     const TriangleMesh mesh = shapes::box({0, 0, 0}, {24, 24, 150});
