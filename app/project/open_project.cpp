@@ -127,6 +127,13 @@ PieceChecks OpenProject::checks() {
         return setups->fits(piece);
     };
     checks.blocks_needed = [blocks = usable_blocks(setups->cell())](Vec3 size) { return blocks_needed(blocks, size); };
+    checks.is_carvable = [setups, timings = context_.timings](const Piece& piece) {
+        const StageTimer stage(timings, "setups of pieces that fit");
+        return setups->is_carvable(piece);
+    };
+    checks.low_blocks_needed = [blocks = low_usable_blocks(setups->cell())](Vec3 size) {
+        return blocks_needed(blocks, size);
+    };
     return checks;
 }
 
