@@ -202,6 +202,7 @@ void OpenProject::adopt(const Segmentation& segmentation, std::optional<BeamStat
 bool OpenProject::decide_weights(const Weights& weights) {
     if (weights == project_.settings.objectives.weights) return false;
     check_load(project_.load, weights);
+    check_symmetry(project_.settings.candidates.symmetry, weights);
     decide(project_.history, WeightsChange{weights});
     set_weights(weights);
     project_.beam.reset();
