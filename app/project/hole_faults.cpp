@@ -17,15 +17,15 @@ constexpr double tolerance = 1e-3;   // mm, and of the axis; a manifest holds do
 constexpr double most_shifted = 10;  // mm; farther away it is another hole: dowels stand at least 12 mm apart
 
 // A hole with its joint.
-struct Listed {
+struct JointHole {
     std::int32_t cut = 0;
     std::string neighbour;
     JobHole hole;
     bool is_paired = false;
 };
 
-std::vector<Listed> listed(const std::vector<JobCap>& caps) {
-    std::vector<Listed> all;
+std::vector<JointHole> listed(const std::vector<JobCap>& caps) {
+    std::vector<JointHole> all;
     for (const JobCap& cap : caps) {
         for (const CapJoint& joint : cap.joints) {
             for (const JobHole& hole : joint.holes) all.push_back({cap.cut, joint.neighbour, hole});
@@ -34,7 +34,7 @@ std::vector<Listed> listed(const std::vector<JobCap>& caps) {
     return all;
 }
 
-std::string at_joint(const Listed& own) {
+std::string at_joint(const JointHole& own) {
     return "the joint with piece " + own.neighbour + " at cut " + std::to_string(own.cut);
 }
 
@@ -45,12 +45,12 @@ class HoleComparison {
         compare_joints(job, project);
         pair_within(tolerance);
         pair_within(most_shifted);
-        for (const Listed& due : project_) {
+        for (const JointHole& due : project_) {
             if (!due.is_paired)
                 add("other_hole", "hole " + std::to_string(due.hole.number) + " of the project, of " + at_joint(due) +
                                       ", is missing");
         }
-        for (const Listed& own : job_) {
+        for (const JointHole& own : job_) {
             if (!own.is_paired)
                 add("other_hole", name_of(own) + ", at " + at_joint(own) + ", is none of the project's");
         }
@@ -59,7 +59,7 @@ class HoleComparison {
     std::vector<VerdictFinding> take() { return std::move(faults_); }
 
  private:
-    static std::string name_of(const Listed& own) { return "hole " + std::to_string(own.hole.number); }
+    static std::string name_of(const JointHole& own) { return "hole " + std::to_string(own.hole.number); }
 
     void add(const char* kind, const std::string& text) { faults_.push_back({kind, "", 0, piece_ + ": " + text}); }
 
@@ -83,11 +83,11 @@ class HoleComparison {
     }
 
     void pair_within(double most) {
-        for (Listed& due : project_) {
+        for (JointHole& due : project_) {
             if (due.is_paired) continue;
-            Listed* nearest = nullptr;
+            JointHole* nearest = nullptr;
             double least = most;
-            for (Listed& own : job_) {
+            for (JointHole& own : job_) {
                 const double away = norm(own.hole.point - due.hole.point);
                 if (own.is_paired || own.cut != due.cut || !(away <= least)) continue;
                 if (nearest != nullptr && away == least) continue;
@@ -100,7 +100,7 @@ class HoleComparison {
         }
     }
 
-    void compare(const Listed& own, const Listed& due, double away) {
+    void compare(const JointHole& own, const JointHole& due, double away) {
         const std::string name = name_of(own);
         if (own.neighbour != due.neighbour)
             add("other_hole", name + " is listed for " + at_joint(own) + ", it belongs to " + at_joint(due));
@@ -112,15 +112,15 @@ class HoleComparison {
         compare_length(name, "deep", own.hole.depth, due.hole.depth, due);
     }
 
-    void compare_length(const std::string& name, const std::string& word, double own, double due, const Listed& of) {
+    void compare_length(const std::string& name, const std::string& word, double own, double due, const JointHole& of) {
         if (std::abs(own - due) <= tolerance) return;
         add("other_hole",
             name + " is " + fixed(own, 3) + " mm " + word + ", in " + at_joint(of) + " it is " + fixed(due, 3) + " mm");
     }
 
     std::string piece_;
-    std::vector<Listed> job_;
-    std::vector<Listed> project_;
+    std::vector<JointHole> job_;
+    std::vector<JointHole> project_;
     std::vector<VerdictFinding> faults_;
 };
 
