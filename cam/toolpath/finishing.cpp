@@ -232,7 +232,7 @@ std::vector<Pass> finishing_passes(const HeightMap& tip, const CarvingTool& tool
     const FinishingRegion wide_region = grown(region, tip.columns, tip.rows, by);
     report(2);
     const RasterOptions common{radius, options.scallop, options.path_tolerance, 0.5 * step, options.rounding};
-    CellMask steep = grown(masks.steep, tip.columns, tip.rows, by);
+    CellMask steep = SurfaceGrowth(masks.steep, tip, 0.5 * step + tip.cell).mask();
     LevelFloor foot;
     if (options.floor != nullptr) {
         foot = foot_of_walls(tip, *options.floor, radius);
