@@ -160,7 +160,10 @@ class ToolpathMaker {
         HeightMap tip;
         const FinishingRegion region = finishing_region(operation, floor_z, tip);
         const bool is_empty = std::all_of(region.begin(), region.end(), [](float low) { return low == not_finished; });
-        if (is_empty) return;
+        const bool has_floor = direction == 0 && kind == OperationKind::finishing;
+        if (is_empty && !has_floor) return;
+        const FinishingRegion floor = has_floor ? floor_band(direction, floor_z, tool.diameter) : FinishingRegion();
+        if (has_floor) options.floor = &floor;
         std::vector<Pass> passes = finishing_passes(tip, tool, region, options, context_);
         PassesLeft left{std::move(operation), std::move(tip), std::move(passes)};
         carve(left);
@@ -223,9 +226,15 @@ class ToolpathMaker {
         raise_to_holder(tip, piece, body_of(operation.tool), setup_.piece_in_setup);
         const bool is_fine = operation.kind == OperationKind::fine_finishing;
         const double near = operation.scallop + settings_.cell;
-        FinishingRegion region = left_.take(remaining_surface(tip, tool), near, operation.step, is_fine ? near : 0);
-        if (operation.direction == 0 && !is_fine) add_floor_band(region, piece, tool.diameter);
-        return region;
+        return left_.take(remaining_surface(tip, tool), near, operation.step, is_fine ? near : 0);
+    }
+
+    // The floor within a tool's width of the piece.
+    FinishingRegion floor_band(std::size_t direction, double floor_z, double width) const {
+        const HeightMap piece = target(direction, settings_.cell, floor_z);
+        FinishingRegion floor(piece.height.size(), not_finished);
+        add_floor_band(floor, piece, width);
+        return floor;
     }
 
     Operation new_operation(std::size_t direction, std::size_t tool, OperationKind kind) const {
