@@ -186,9 +186,12 @@ class ToolpathMaker {
         HeightMap own_tip;  // without holder and spindle
         HeightMap tip = finishing_tip(operation, floor_z, own_tip);
         if (over_foam) raise_to_limit(tip, limit_now(operation));
-        const FinishingRegion region = finishing_region(operation, tip, floor_z, over_foam);
+        const FinishingRegion region = finishing_region(operation, tip);
         const bool is_empty = std::all_of(region.begin(), region.end(), [](float low) { return low == not_finished; });
-        if (is_empty) return;
+        const bool has_floor = direction == 0 && kind == OperationKind::finishing && !over_foam;
+        if (is_empty && !has_floor) return;
+        const FinishingRegion floor = has_floor ? floor_band(direction, floor_z, tool.diameter) : FinishingRegion();
+        if (has_floor) options.floor = &floor;
         std::vector<Pass> passes = finishing_passes(tip, tool, region, options, context_);
         passes = near_surface(passes, own_tip);
         own_tip = {};
@@ -286,15 +289,19 @@ class ToolpathMaker {
         return tip;
     }
 
-    FinishingRegion finishing_region(const Operation& operation, const HeightMap& tip, double floor_z, bool is_again) {
+    // What the operation finishes over its tip surface.
+    FinishingRegion finishing_region(const Operation& operation, const HeightMap& tip) {
         const CarvingTool& tool = machine_.tools[operation.tool];
         const bool is_fine = operation.kind == OperationKind::fine_finishing;
-        const double good = near(operation);
-        FinishingRegion region = left_.take(remaining_surface(tip, tool), good, operation.step, is_fine ? good : 0);
-        if (operation.direction == 0 && !is_fine && !is_again) {
-            add_floor_band(region, target(operation.direction, settings_.cell, floor_z), tool.diameter);
-        }
-        return region;
+        return left_.take(remaining_surface(tip, tool), near(operation), operation.step, is_fine ? near(operation) : 0);
+    }
+
+    // The floor within a tool's width of the piece.
+    FinishingRegion floor_band(std::size_t direction, double floor_z, double width) const {
+        const HeightMap piece = target(direction, settings_.cell, floor_z);
+        FinishingRegion floor(piece.height.size(), not_finished);
+        add_floor_band(floor, piece, width);
+        return floor;
     }
 
     Operation new_operation(std::size_t direction, std::size_t tool, OperationKind kind) const {

@@ -2,19 +2,24 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <random>
 
 #include "segment/cut/cut.h"
+#include "segment/cut/cut_piece.h"
 #include "segment/cut/half_solids.h"
 #include "segment/cut/nudge.h"
 #include "segment/mesh/disjoint_sets.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
+#include "segment/score/candidates.h"
 #include "segment/score/dowel_columns.h"
+#include "segment/score/old_joints.h"
 #include "segment/score/sweep.h"
 #include "tests/pieces.h"
+#include "tests/segment/score/cut_samples.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
@@ -187,6 +192,15 @@ double by_cutting(const Piece& piece, const Plane& plane, const std::vector<Dowe
     double sum = 0;
     double areas = 0;
     double worst = 0;
+    // Joints of older cuts: held to cutting by old_joints_test.cpp.
+    for (const OldJoint& old : old_joints(piece, o.connector)) {
+        const auto sides = parted(old, plane.normal, std::array{plane.offset}, o.connector);
+        for (const JointMeasure& side : sides[0]) {
+            if (side.area_mm2 < least_joint_mm2) continue;
+            sum += side.area_mm2 * connector_of({&side, 1}, o.connector);
+            areas += side.area_mm2;
+        }
+    }
     for (const auto& [key, joint] : joints) {
         double s = 0;
         for (const Point2 a : joint.places) {
@@ -201,34 +215,55 @@ double by_cutting(const Piece& piece, const Plane& plane, const std::vector<Dowe
     return areas > 0 ? sum / areas : 0;
 }
 
+// Compares `count` planes along a normal. Returns of how many the objective is neither 0 nor 1.
+std::size_t expect_as_by_cutting(const Piece& piece, Vec3 n, const Objectives& o, int count, const std::string& what) {
+    const Extent range = extent(*piece.mesh, n);
+    std::vector<double> wanted;
+    for (int k = 1; k <= count; ++k) wanted.push_back(range.low + range.size() * k / (count + 1));
+    std::vector<double> offsets;
+    for (const auto& nudged : nudge(piece, n, wanted)) {
+        if (nudged) offsets.push_back(nudged->offset);
+    }
+    const PreparedPiece prepared = prepare(piece, o);
+    const auto evaluations = sweep(prepared, n, offsets, o);
+    const std::vector<DowelSite> sites =
+        dowel_sites(solid_columns(*piece.mesh, n, prepared.origin, o.connector.spacing), o.connector);
+    std::size_t held = 0;
+    for (std::size_t k = 0; k < offsets.size(); ++k) {
+        if (!evaluations[k]) continue;
+        const double plain = by_cutting(piece, {n, offsets[k]}, sites, o);
+        EXPECT_NEAR(evaluations[k]->connector, plain, 1e-9 * (1 + plain)) << what << " " << k;
+        if (plain > 0 && plain < 1) ++held;
+    }
+    return held;
+}
+
 TEST(Connector, EqualsCuttingOnEveryShape) {
     std::mt19937 random(41);
     std::size_t held = 0;
     for (const auto& [name, mesh, count] : shapes::all_closed()) {
-        const Piece piece = piece_of(mesh);
         for (int round = 0; round < 6; ++round) {
-            const Vec3 n = random_normal(random);
             const Objectives o = with_connector(round % 2 == 0 ? ConnectorForm::spread : ConnectorForm::ratio);
-            const Extent range = extent(mesh, n);
-            std::vector<double> wanted;
-            for (int k = 1; k < 24; ++k) wanted.push_back(range.low + range.size() * k / 24);
-            std::vector<double> offsets;
-            for (const auto& nudged : nudge(piece, n, wanted)) {
-                if (nudged) offsets.push_back(nudged->offset);
-            }
-            const PreparedPiece prepared = prepare(piece, o);
-            const auto evaluations = sweep(prepared, n, offsets, o);
-            const std::vector<DowelSite> sites =
-                dowel_sites(solid_columns(mesh, n, prepared.origin, o.connector.spacing), o.connector);
-            for (std::size_t k = 0; k < offsets.size(); ++k) {
-                if (!evaluations[k]) continue;
-                const double plain = by_cutting(piece, {n, offsets[k]}, sites, o);
-                EXPECT_NEAR(evaluations[k]->connector, plain, 1e-9 * (1 + plain)) << name << " " << round << " " << k;
-                if (plain > 0 && plain < 1) ++held;
-            }
+            held += expect_as_by_cutting(piece_of(mesh), random_normal(random), o, 23, name);
         }
     }
     EXPECT_GT(held, 20U);
+}
+
+TEST(Connector, EqualsCuttingOnSamplesAndOnTheirPieces) {
+    std::size_t held = 0;
+    std::size_t with_caps = 0;
+    for (const SampleCut& of : cut_samples({Specimen::vertebra, Specimen::femur})) {
+        Objectives o = with_connector(ConnectorForm::spread);
+        o.connector = {ConnectorForm::spread, 8, 22, 6, of.piece_size / 60};
+        held += expect_as_by_cutting(of.piece, of.normal, o, 6, of.name);
+        with_caps += of.piece.half_spaces.empty() ? 0 : 1;
+        if (!of.piece.half_spaces.empty()) continue;
+        o.connector.form = ConnectorForm::ratio;
+        held += expect_as_by_cutting(of.piece, of.normal, o, 6, of.name);
+    }
+    EXPECT_GT(held, 20U);
+    EXPECT_GE(with_caps, 6U);
 }
 
 TEST(Connector, ABeamIsHeldByDowelsAtItsEndsAndAThinPlateByNone) {
@@ -253,6 +288,7 @@ TEST(Connector, TheStagesGiveWhatOneSweepGives) {
     const Objectives o = [] {
         Objectives all = with_connector(ConnectorForm::spread);
         all.weights.symmetry = 1;
+        all.weights.seam = 1;
         all.symmetry_plane = Plane{{1, 0, 0}, 3};
         return all;
     }();
@@ -271,7 +307,56 @@ TEST(Connector, TheStagesGiveWhatOneSweepGives) {
         EXPECT_EQ(whole[k]->connector, staged[k]->connector);
         EXPECT_EQ(whole[k]->symmetry_mm, staged[k]->symmetry_mm);
         EXPECT_EQ(whole[k]->fragility, staged[k]->fragility);
+        EXPECT_EQ(whole[k]->seam_mm, staged[k]->seam_mm);
+        EXPECT_GT(staged[k]->seam_mm, 0);
     }
+}
+
+TEST(Connector, TheValuesOfAPlaneDoNotDependOnTheOthersThatAreAsked) {
+    Objectives o = with_connector(ConnectorForm::spread);
+    o.weights.symmetry = 1;
+    o.weights.seam = 1;
+    o.symmetry_plane = Plane{{1, 0, 0}, 3};
+    std::mt19937 random(52);
+    std::size_t valued = 0;
+    for (const FragilityForm form : {FragilityForm::thinness, FragilityForm::thesis, FragilityForm::binary}) {
+        o.fragility_form = form;
+        for (const auto& [name, mesh, count] : shapes::all_closed()) {
+            const Vec3 first = random_normal(random);
+            const Extent range = extent(mesh, first);
+            const auto at = nudge(piece_of(mesh), first, std::array{range.low + 0.45 * range.size()});
+            if (!at[0]) continue;
+            const auto made = cut_piece(piece_of(mesh), {first, at[0]->offset}, 1);
+            for (const Piece& piece : made ? made->pieces : std::vector<Piece>{}) {
+                const Vec3 n = random_normal(random);
+                const std::vector<Candidate> planes = candidates_along(piece, n, 0, 17);
+                std::vector<double> offsets;
+                for (const Candidate& c : planes) offsets.push_back(c.plane.offset);
+                const PreparedPiece prepared = prepare(piece, o);
+                const auto whole = sweep(prepared, n, offsets, o);
+                const auto quick = sweep_solids(prepared, n, offsets);
+                std::vector<double> some;
+                std::vector<std::size_t> of;
+                std::vector<std::optional<CutEvaluation>> asked;
+                for (std::size_t k = random() % 3; k < offsets.size(); k += 1 + random() % 6) {
+                    of.push_back(k);
+                    some.push_back(offsets[k]);
+                    asked.push_back(quick[k]);
+                }
+                add_late_terms(prepared, n, some, o, asked);
+                for (std::size_t i = 0; i < of.size(); ++i) {
+                    ASSERT_EQ(whole[of[i]].has_value(), asked[i].has_value()) << name;
+                    if (!asked[i]) continue;
+                    EXPECT_EQ(whole[of[i]]->fragility, asked[i]->fragility) << name;
+                    EXPECT_EQ(whole[of[i]]->seam_mm, asked[i]->seam_mm) << name;
+                    EXPECT_EQ(whole[of[i]]->connector, asked[i]->connector) << name;
+                    EXPECT_EQ(whole[of[i]]->symmetry_mm, asked[i]->symmetry_mm) << name;
+                    valued += asked[i]->connector > 0 && asked[i]->connector < 1 ? 1 : 0;
+                }
+            }
+        }
+    }
+    EXPECT_GT(valued, 20U);
 }
 
 }  // namespace
