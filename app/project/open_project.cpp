@@ -126,6 +126,13 @@ PieceChecks OpenProject::checks() {
         return setups->fits(piece);
     };
     checks.blocks_needed = [blocks = usable_blocks(setups->cell())](Vec3 size) { return blocks_needed(blocks, size); };
+    checks.is_carvable = [setups, timings = context_.timings](const Piece& piece) {
+        const StageTimer stage(timings, "setups of pieces that fit");
+        return setups->is_carvable(piece);
+    };
+    checks.low_blocks_needed = [blocks = low_usable_blocks(setups->cell())](Vec3 size) {
+        return blocks_needed(blocks, size);
+    };
     return checks;
 }
 
@@ -194,6 +201,7 @@ void OpenProject::adopt(const Segmentation& segmentation, std::optional<BeamStat
 bool OpenProject::decide_weights(const Weights& weights) {
     if (weights == project_.settings.objectives.weights) return false;
     check_load(project_.load, weights);
+    check_symmetry(project_.settings.candidates.symmetry, weights);
     decide(project_.history, WeightsChange{weights});
     set_weights(weights);
     project_.beam.reset();

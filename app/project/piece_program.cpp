@@ -21,6 +21,8 @@
 namespace qchopper {
 namespace {
 
+constexpr double narrowly_beside = 2;  // mm; the finishing tool then still roughs what stands beside the walls
+
 std::vector<Pose> frames_of(const Setup& setup, const Cell& cell) {
     std::vector<Pose> frames;
     const std::size_t angles = std::max<std::size_t>(1, setup.placement.table_angles.size());
@@ -44,10 +46,10 @@ double wall_of(const JobHole& hole, const Cell& cell) {
 }
 
 MadePath make_path(const Piece& piece, const Carving& carving, const Cell& cell, const std::vector<DrawnCap>& caps,
-                   const Context& context) {
+                   const ToolpathSettings& settings, const Context& context) {
     const Setup& setup = carving.setup();
     InProcessStock left(setup);
-    MadePath made{make_toolpath(setup, *piece.mesh, cell, {}, context, &left), {}};
+    MadePath made{make_toolpath(setup, *piece.mesh, cell, settings, context, &left), {}};
     std::vector<DrillHole> holes;
     for (const DrawnCap& drawn : caps) {
         for (const JobHole& hole : holes_of({drawn.cap})) {
@@ -61,39 +63,69 @@ MadePath make_path(const Piece& piece, const Carving& carving, const Cell& cell,
     return made;
 }
 
-std::vector<ProgramPart> post(const MadePath& made, const Carving& carving, std::uint16_t piece_no, const Cell& cell,
-                              const Context& context) {
-    Toolpath whole = made.toolpath;
-    const std::vector<Operation>& drilled = made.drilling.operations;
+std::vector<ProgramPart> post(const Toolpath& path, const Drilling& drilling, const Carving& carving,
+                              std::uint16_t piece_no, const Cell& cell, const Context& context) {
+    Toolpath whole = path;
+    const std::vector<Operation>& drilled = drilling.operations;
     whole.operations.insert(whole.operations.end(), drilled.begin(), drilled.end());
-    const Setup setup = with_drill_directions(carving.setup(), made.drilling.directions);
+    const Setup setup = with_drill_directions(carving.setup(), drilling.directions);
     return post_krl(make_program(whole, setup, carving.work_envelope, cell, context), cell, {piece_no});
 }
 
-// With the holes, or without them where the program cannot be made with them.
+std::vector<std::size_t> drilled_holes(const Drilling& drilling) {
+    std::vector<std::size_t> numbers;
+    for (const DrillHole& hole : drilling.holes) {
+        if (hole.by_hand.empty()) numbers.push_back(hole.number);
+    }
+    return numbers;
+}
+
+// What refuses a program that drills this hole and does nothing else; empty: nothing.
+std::string refusal_alone(std::size_t number, const Drilling& drilling, const Carving& carving, std::uint16_t piece_no,
+                          const Cell& cell, const Context& context) {
+    Drilling alone = drilling;
+    for (const std::size_t other : drilled_holes(drilling)) {
+        if (other != number) leave_to_hand(alone, other, "not asked", carving.setup());
+    }
+    try {
+        post({}, alone, carving, piece_no, cell, context);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+// With the holes. Where the program cannot be made with them, without those with which alone none can be made; and
+// where that does not help, without any.
 std::vector<ProgramPart> make_parts(MadePath& made, const Carving& carving, std::uint16_t piece_no, const Cell& cell,
                                     const Context& context) {
-    if (made.drilling.operations.empty()) return post(made, carving, piece_no, cell, context);
-    try {
-        return post(made, carving, piece_no, cell, context);
-    } catch (const InputError& error) {
-        made.drilling.operations.clear();
-        made.drilling.directions.clear();
-        for (DrillHole& hole : made.drilling.holes) {
-            if (hole.by_hand.empty()) hole.by_hand = std::string("the program cannot drill: ") + error.what();
+    const auto posted = [&] { return post(made.toolpath, made.drilling, carving, piece_no, cell, context); };
+    const auto leave = [&](std::size_t number, const std::string& why) {
+        leave_to_hand(made.drilling, number, "the program cannot drill: " + why, carving.setup());
+    };
+    while (!made.drilling.operations.empty()) {
+        std::string why;
+        try {
+            return posted();
+        } catch (const InputError& error) {
+            why = error.what();
         }
+        const std::vector<std::size_t> before = drilled_holes(made.drilling);
+        const Drilling all = made.drilling;
+        for (const std::size_t number : before) {
+            const std::string alone = refusal_alone(number, all, carving, piece_no, cell, context);
+            if (!alone.empty()) leave(number, alone);
+        }
+        if (drilled_holes(made.drilling).size() < before.size()) continue;
+        for (const std::size_t number : before) leave(number, why);
     }
-    return post(made, carving, piece_no, cell, context);
+    return posted();
 }
 
 std::vector<DrawnCap> decided(std::vector<DrawnCap> caps, const Drilling& drilling) {
-    std::vector<std::size_t> drilled;
     std::map<std::size_t, std::string> reasons;
-    for (const DrillHole& hole : drilling.holes) {
-        if (hole.by_hand.empty()) drilled.push_back(hole.number);
-        reasons[hole.number] = hole.by_hand;
-    }
-    decide_holes(caps, drilled, reasons, {});
+    for (const DrillHole& hole : drilling.holes) reasons[hole.number] = hole.by_hand;
+    decide_holes(caps, drilled_holes(drilling), reasons, {});
     return caps;
 }
 
@@ -152,9 +184,19 @@ PiecePrograms make_programs(const Piece& piece, const Carving& carving, std::uin
     const Setup& setup = carving.setup();
     std::vector<ProgramPart> parts;
     MadePath made;
-    try {
-        made = make_path(piece, carving, cell, caps, context);
+    const auto make = [&](const ToolpathSettings& settings) {
+        made = make_path(piece, carving, cell, caps, settings, context);
         parts = make_parts(made, carving, piece_no, cell, context);
+    };
+    try {
+        try {
+            make({});
+        } catch (const ProgramRefused&) {
+            // The work envelope was asked for tips on the block, not for all that roughing takes beside it.
+            ToolpathSettings narrow;
+            narrow.beside_block = narrowly_beside;
+            make(narrow);
+        }
     } catch (const InputError& error) {
         return {{}, error.what(), caps_by_hand(std::move(caps), error.what())};
     }

@@ -32,7 +32,7 @@ struct PiecePrograms {
 std::string no_programs_for(const Cell& cell);
 
 // The caps are those of the piece (caps_of()): of their holes those that the robot can drill are drilled after
-// finishing. Where the machine can carve the piece but not drill, all holes are left to the hand. Preconditions: the
+// finishing. Where a program cannot be made with a hole, this hole is left to the hand. Preconditions: the
 // carving is that of the piece and fits, piece_no >= 1, no_programs_for(cell) is empty. Where the machine cannot follow
 // the toolpath there is no program, and none_because says why. Throws Cancelled.
 PiecePrograms make_programs(const Piece& piece, const Carving& carving, std::uint16_t piece_no, const Cell& cell,

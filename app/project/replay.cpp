@@ -126,6 +126,12 @@ void check_load(const std::optional<StructureOptions>& load, const Weights& weig
                      "leave its weight out, or make a new project with --structure");
 }
 
+void check_symmetry(const std::optional<SymmetryPlane>& plane, const Weights& weights) {
+    if (weights.symmetry <= 0 || plane) return;
+    throw InputError(InputFault::use, "the objective symmetry needs the symmetry plane of the scan",
+                     "leave its weight out, or make a new project with --symmetry");
+}
+
 BeamProgress beam_progress(const Project& project, const Segmentation& committed,
                            const std::function<const TriangleMesh&()>& scan, const std::filesystem::path& cache) {
     BeamProgress progress;

@@ -51,6 +51,9 @@ void set_stress(std::span<Piece> pieces, const std::shared_ptr<const StressedMod
 // Throws InputError (use) if structure has a weight without a load.
 void check_load(const std::optional<StructureOptions>& load, const Weights& weights);
 
+// Throws InputError (use) if symmetry has a weight without the symmetry plane of the scan.
+void check_symmetry(const std::optional<SymmetryPlane>& plane, const Weights& weights);
+
 // Where the search of a project goes on: at its beam if it has one and is wider than 1. `committed` is the segmentation
 // of its cuts; `scan` is called only if the root of the beam has fewer.
 BeamProgress beam_progress(const Project& project, const Segmentation& committed,

@@ -6,16 +6,25 @@
 #include <mutex>
 
 #include "base/parallel.h"
+#include "cam/setup/blocks_needed.h"
 #include "cam/setup/held_setup.h"
+#include "segment/mesh/oriented_box.h"
 #include "segment/score/piece_reach.h"
 
 namespace qchopper {
+namespace {
+
+// Of a piece's surface; what more of it holder and spindle keep out of reach is a reason to cut the piece.
+constexpr double most_by_holder = 0.02;
+
+}  // namespace
 
 void Setups::set_orders(std::vector<SetupOrder> orders) {
     if (orders == orders_) return;
     orders_ = std::move(orders);
     carvings_.clear();
     held_.clear();
+    carvable_.clear();
 }
 
 void Setups::set_count_narrow(bool count_narrow) {
@@ -23,6 +32,7 @@ void Setups::set_count_narrow(bool count_narrow) {
     count_narrow_ = count_narrow;
     carvings_.clear();
     held_.clear();
+    carvable_.clear();
 }
 
 void Setups::compute(std::span<const Piece> pieces, const Context& context) {
@@ -84,9 +94,33 @@ void Setups::keep_only(std::span<const Piece> pieces) {
 }
 
 bool Setups::fits(const Piece& piece) {
-    Fit& known = fits_[piece.mesh.get()];
+    Answer& known = fits_[piece.mesh.get()];
     if (known.mesh.expired()) known = {piece.mesh, fits_cell_and_machine(piece, cell_)};
-    return known.fits;
+    return known.is_yes;
+}
+
+bool Setups::is_carvable(const Piece& piece) {
+    Answer& known = carvable_[piece.mesh.get()];
+    if (known.mesh.expired()) known = {piece.mesh, find_whether_carvable(piece)};
+    return known.is_yes;
+}
+
+// The setup is kept only of a piece that is not cut further.
+bool Setups::find_whether_carvable(const Piece& piece) {
+    if (!cell_.machine) return true;
+    const double low = low_piece_height(cell_);
+    const Vec3 size = oriented_box(piece.mesh->points).size();
+    if (std::max({size.x, size.y, size.z}) <= low) return true;
+    const auto is_low_enough = [&](const Carving& carving) {
+        const SurfaceReach& reach = carving.setup().reach;
+        return carving.setup().box.max.z <= low || reach.holder_mm2 <= most_by_holder * reach.area_mm2;
+    };
+    Carving best = carving_of(piece);
+    Carving held = is_low_enough(best) ? held_of(piece, best, {}) : Carving{};
+    if (!held.mesh || !held.fits() || !is_low_enough(held)) return false;
+    carvings_[piece.mesh.get()] = std::move(best);
+    held_[piece.mesh.get()] = std::move(held);
+    return true;
 }
 
 UnreachableSurface Setups::unreachable(const Piece& piece) {

@@ -56,16 +56,22 @@ class Setups {
     // For the stop rules, cheaper than held() and of(): whether block and extreme poses of carving from above are
     // possible, kept per mesh; and on samples of the surface from the best base.
     bool fits(const Piece& piece);
+    // For the stop rules as well, by held(): whether the machine holds every pose of the setup, and the block is no
+    // higher than the longest tool, or the holder keeps hardly any of the surface out of reach. A piece that is shorter
+    // than that tool always is, because cutting it further is no cure. True in a cell of version 1.
+    bool is_carvable(const Piece& piece);
     UnreachableSurface unreachable(const Piece& piece);
 
  private:
     using Carvings = std::map<const TriangleMesh*, Carving>;
-    struct Fit {
+    struct Answer {
         std::weak_ptr<const TriangleMesh> mesh;  // expired: the address may be that of another mesh
-        bool fits = false;
+        bool is_yes = false;
     };
+    using Answers = std::map<const TriangleMesh*, Answer>;
     SetupOptions options_for(const Piece& piece) const;
     Carving carving_of(const Piece& piece) const;
+    bool find_whether_carvable(const Piece& piece);
     Carving held_of(const Piece& piece, const Carving& best, const Context& context) const;
 
     Cell cell_;
@@ -73,7 +79,8 @@ class Setups {
     bool count_narrow_ = false;
     Carvings carvings_;
     Carvings held_;
-    std::map<const TriangleMesh*, Fit> fits_;
+    Answers fits_;
+    Answers carvable_;
 };
 
 }  // namespace qchopper

@@ -36,6 +36,10 @@ RulesHeld rules_held(std::span<const Piece> pieces, const StopRules& rules, Setu
     return held;
 }
 
+bool are_carvable(std::span<const Piece> pieces, Setups& setups) {
+    return std::all_of(pieces.begin(), pieces.end(), [&](const Piece& piece) { return setups.is_carvable(piece); });
+}
+
 CarvedSurface carved(std::span<const Piece> pieces, Setups& setups) {
     CarvedSurface sum;
     for (const Piece& piece : pieces) {
@@ -129,6 +133,7 @@ RecutTrial try_other_planes(const Segmentation& segmentation, const Piece& divid
         const CarvedSurface surface = carved(alone.pieces, setups);
         ++trial.verdict.planes;
         if (best != nullptr && surface.unreachable_mm2 >= trial.verdict.best.unreachable_mm2) continue;
+        if (settings.stop.fits_cell && are_carvable(pieces, setups) && !are_carvable(alone.pieces, setups)) continue;
         best = &alone;
         trial.verdict.best = surface;
     }

@@ -1,19 +1,22 @@
-// The proof is that of job_proof.h; the pieces of a project are made again from scan and decisions. The cost is that of
-// the replay.
+// The proof is that of job_proof.h; pieces and joints of a project are made again from scan and decisions. The cost is
+// that of the replay.
 
 #include "app/project/verify_jobs.h"
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "app/project/hand_over.h"
+#include "app/project/hole_faults.h"
 #include "app/project/job_proof.h"
 #include "app/project/open_project.h"
-#include "app/project/replay.h"
+#include "app/project/project_joints.h"
 #include "app/project/shell_word.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/timings.h"
+#include "cam/job/job_caps.h"
 #include "cam/job/read_job.h"
 #include "cam/setup/block_placement.h"
 #include "segment/mesh/transform.h"
@@ -118,6 +121,19 @@ std::optional<VerdictFinding> fault_against_piece(const ReadJob& job, const std:
     return std::nullopt;
 }
 
+// What of the job contradicts the project: no such piece, another mesh, other holes.
+std::vector<VerdictFinding> faults_against_project(const ReadJob& job, const std::string& job_file,
+                                                   std::span<const Piece> pieces, std::span<const PieceJoint> joints,
+                                                   const Cell& cell) {
+    const auto piece = std::find_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return p.name == job.piece; });
+    if (piece == pieces.end()) return {finding("other_piece", "the project has no piece " + job.piece)};
+    if (auto fault = fault_against_piece(job, job_file, *piece)) return {*fault};
+    std::vector<JobCap> caps;
+    const auto index = static_cast<std::size_t>(piece - pieces.begin());
+    for (DrawnCap& drawn : caps_of(pieces, index, joints, job.setup, cell)) caps.push_back(std::move(drawn.cap));
+    return hole_faults(job.piece, job.caps, caps);
+}
+
 // The part of a piece that was verified last.
 struct PartBefore {
     std::string piece;
@@ -187,7 +203,9 @@ VerifyAnswer verify_project(const fs::path& folder, const std::optional<std::str
     const CellFile cell = read_cell_file(folder / "cell.toml");
     OpenProject project(folder, context);
     const Segmentation& segmentation = project.segmentation();
-    const StageTimer stage(context, "jobs verified");
+    StageTimer stage(context, "dowels placed");
+    const std::vector<PieceJoint> joints = piece_joints(segmentation.pieces, joint_settings(&cell.cell), context);
+    stage.next("jobs verified");
     VerifyAnswer verified;
     PartBefore before;
     for (const PieceJob& job : ordered.jobs) {
@@ -201,10 +219,8 @@ VerifyAnswer verify_project(const fs::path& folder, const std::optional<std::str
         }
         before = {read.piece, read.program ? read.program->part.number : std::uint16_t{1}, read.file_sha256,
                   std::move(stock_left)};
-        const auto index = piece_named(segmentation, job.piece);
-        const auto fault = index ? fault_against_piece(read, file.string(), segmentation.pieces[*index])
-                                 : finding("other_piece", "the project has no piece " + job.piece);
-        if (fault) verdict.findings.insert(verdict.findings.begin(), *fault);
+        const auto faults = faults_against_project(read, file.string(), segmentation.pieces, joints, cell.cell);
+        verdict.findings.insert(verdict.findings.begin(), faults.begin(), faults.end());
         shorten(verdict);
         verified.push_back(written(file, std::move(verdict)));
     }

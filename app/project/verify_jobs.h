@@ -1,7 +1,7 @@
 // Verifies job files: reads them whole, reads their programs back, replays them, and writes the verdict beside each.
 //
 // Of a job nothing is needed but its file and the cell file. Of a project its jobs are also compared with its pieces
-// (tests/app/project/verify_jobs_test.cpp).
+// and joints (tests/app/project/verify_jobs_test.cpp).
 
 #pragma once
 

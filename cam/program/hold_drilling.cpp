@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cam/program/hold_search.h"
@@ -107,13 +108,21 @@ void hold_drilling(Drilling& drilling, const Setup& setup, const WorkEnvelope& e
         }
     }
     const Setup with_all = with_drill_directions(setup, drilling.directions);
-    for (Operation& operation : drilling.operations) {
+    std::vector<std::pair<std::size_t, std::string>> refused;
+    for (const Operation& operation : drilling.operations) {
         context.check_cancelled();
-        std::erase_if(operation.runs, [&](const PathRun& run) {
+        for (const PathRun& run : operation.runs) {
             const std::string refusal = refusal_of(run, operation, with_all, envelope, cell);
-            if (!refusal.empty()) hole_of(drilling, run.hole).by_hand = "the arm does not hold it: " + refusal;
-            return !refusal.empty();
-        });
+            if (!refusal.empty()) refused.emplace_back(run.hole, "the arm does not hold it: " + refusal);
+        }
+    }
+    for (const auto& [number, reason] : refused) leave_to_hand(drilling, number, reason, setup);
+}
+
+void leave_to_hand(Drilling& drilling, std::size_t number, const std::string& reason, const Setup& setup) {
+    hole_of(drilling, number).by_hand = reason;
+    for (Operation& operation : drilling.operations) {
+        std::erase_if(operation.runs, [&](const PathRun& run) { return run.hole == number; });
     }
     std::erase_if(drilling.operations, [](const Operation& operation) { return operation.runs.empty(); });
     drop_unused(drilling, setup.reach.directions.size());

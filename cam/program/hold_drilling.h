@@ -5,6 +5,9 @@
 
 #pragma once
 
+#include <cstddef>
+#include <string>
+
 #include "base/context.h"
 #include "cam/cell/cell.h"
 #include "cam/setup/setup.h"
@@ -19,5 +22,9 @@ namespace qchopper {
 // the drilling is of this setup, the cell has a machine. O(angles * holes * poses) answers of the arm.
 void hold_drilling(Drilling& drilling, const Setup& setup, const WorkEnvelope& envelope, const Cell& cell,
                    const Context& context = {});
+
+// Leaves a hole to the hand for this reason; its operation and its direction go with it if no other hole needs them.
+// Precondition: the drilling has this hole and is of this setup.
+void leave_to_hand(Drilling& drilling, std::size_t number, const std::string& reason, const Setup& setup);
 
 }  // namespace qchopper

@@ -9,6 +9,7 @@
 
 #include "cam/setup/block.h"
 #include "cam/setup/envelope.h"
+#include "cam/setup/holder_limit.h"
 #include "segment/mesh/boxes_needed.h"
 
 namespace qchopper {
@@ -40,12 +41,10 @@ std::vector<Vec3> standing(const Stock& stock, Vec3 most) {
     return all;
 }
 
-}  // namespace
-
-std::vector<Vec3> usable_blocks(const Cell& cell) {
+// Those of usable_blocks() that are no larger than `most`.
+std::vector<Vec3> usable_blocks(const Cell& cell, Vec3 most) {
     const Margins margins = margins_of(cell);
     const Vec3 foam{2 * margins.sides, 2 * margins.sides, margins.top + margins.spoil};
-    const Vec3 most = largest_block(cell);
     std::vector<Vec3> usable;
     for (const Stock& stock : cell.stock) {
         for (const Vec3 block : standing(stock, most)) {
@@ -58,6 +57,24 @@ std::vector<Vec3> usable_blocks(const Cell& cell) {
         }
     }
     return usable;
+}
+
+}  // namespace
+
+std::vector<Vec3> usable_blocks(const Cell& cell) {
+    return usable_blocks(cell, largest_block(cell));
+}
+
+double low_piece_height(const Cell& cell) {
+    if (!cell.machine) return std::numeric_limits<double>::infinity();
+    const Margins margins = margins_of(cell);
+    return longest_tool(cell.machine->tools).stick_out - margins.top - margins.spoil;
+}
+
+std::vector<Vec3> low_usable_blocks(const Cell& cell) {
+    Vec3 most = largest_block(cell);
+    if (cell.machine) most.z = std::min(most.z, longest_tool(cell.machine->tools).stick_out);
+    return usable_blocks(cell, most);
 }
 
 double blocks_needed(std::span<const Vec3> usable, Vec3 size) {

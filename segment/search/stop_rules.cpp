@@ -58,12 +58,27 @@ StopJudge::StopJudge(StopRules rules, PieceChecks checks, std::function<Vec3(con
              [limit = *rules.max_obb, size = std::move(box_size)](const Piece& p) {
                  return "a box of " + lengths(size(p)) + " mm (" + lengths(limit) + " mm may be)";
              },
-             [limit = *rules.max_obb](Vec3 size) { return boxes_needed(size, limit); }});
+             [limit = *rules.max_obb](const Piece&) {
+                 return [limit](Vec3 size) { return boxes_needed(size, limit); };
+             }});
     }
     if (rules.fits_cell && checks_.fits_cell) {
-        piece_rules_.push_back(
-            {checks_.fits_cell, [](const Piece&) { return "it does not fit the cell"; }, checks_.blocks_needed});
+        piece_rules_.push_back(cell_rule());
     }
+}
+
+StopJudge::PieceRule StopJudge::cell_rule() const {
+    const PieceChecks& checks = checks_;
+    if (!is_size_first_ || !checks.is_carvable) {
+        return {checks.fits_cell, [](const Piece&) { return "it does not fit the cell"; },
+                [blocks = checks.blocks_needed](const Piece&) { return blocks; }};
+    }
+    return {[checks](const Piece& p) { return checks.fits_cell(p) && checks.is_carvable(p); },
+            [checks](const Piece& p) {
+                return checks.fits_cell(p) ? "arm and tools of the cell cannot carve it in one piece"
+                                           : "it does not fit the cell";
+            },
+            [checks](const Piece& p) { return checks.fits_cell(p) ? checks.low_blocks_needed : checks.blocks_needed; }};
 }
 
 StopJudge::Verdict& StopJudge::verdict(const Piece& piece) {
@@ -87,8 +102,9 @@ BlocksNeeded StopJudge::too_large_for(const Piece& piece) {
     const std::vector<bool>& holds = verdict(piece).holds;
     BlocksNeeded all;
     for (std::size_t r = 0; r < holds.size(); ++r) {
-        const BlocksNeeded& blocks = piece_rules_[r].blocks;
-        if (holds[r] || !blocks) continue;
+        if (holds[r] || !piece_rules_[r].blocks) continue;
+        const BlocksNeeded blocks = piece_rules_[r].blocks(piece);
+        if (!blocks) continue;
         all = all ? [all, blocks](Vec3 size) { return std::max(all(size), blocks(size)); } : blocks;
     }
     return all;

@@ -54,6 +54,11 @@ struct PieceChecks {
     FitsCell fits_cell;
     UnreachableOf unreachable;
     BlocksNeeded blocks_needed = {};  // allowed is what some block of the cell holds
+    // Whether arm, tools and holder of the cell can carve the piece: a part of the rule fits_cell where a priority is
+    // given, asked of pieces that fit the cell (docs/decisions/0034). One that they cannot carve is cut for the sizes
+    // of low_blocks_needed.
+    FitsCell is_carvable = {};
+    BlocksNeeded low_blocks_needed = {};
 };
 
 // Whether the segmentation is finished, and if not, the piece that is cut next: of those that do not satisfy the rules
@@ -98,8 +103,10 @@ class StopJudge {
     struct PieceRule {
         std::function<bool(const Piece&)> holds;
         std::function<std::string(const Piece&)> fault;  // of a piece that breaks it
-        BlocksNeeded blocks = {};                        // empty: it is no rule of size
+        // What a piece that breaks it is to be cut into; empty: it is no rule of size.
+        std::function<BlocksNeeded(const Piece&)> blocks = {};
     };
+    PieceRule cell_rule() const;
     Verdict& verdict(const Piece& piece);
     bool is_reach_limited() const { return rules_.max_unreachable && checks_.unreachable; }
     bool is_out_of_reach(const Piece& piece) { return unreachable(piece).share > *rules_.max_unreachable; }

@@ -80,7 +80,7 @@ void FoamCarver::take_line(const TipLine& line, const std::vector<Vec3>& way) {
         });
     }
     if (all.touches) check_cut(line, tool, all);
-    if (all.touches && is_drill(tool)) holes_.take_cut(line);
+    if (is_drill(tool)) holes_.take_line(line, all.touches);
     check_holder(line, tool);
 }
 

@@ -47,10 +47,11 @@ enum class FindingKind : std::uint8_t {
     shifted_hole,
     hole_depth,     // too deep, or not deep enough
     hole_diameter,  // drilled with another drill
+    repeated_hole,  // drilled again after the drill left it, or no deeper than before
     extra_hole,     // a drill in foam where the program is to drill no hole
     no_cut          // the program removes nothing
 };
-constexpr std::size_t finding_kinds = 33;
+constexpr std::size_t finding_kinds = 34;
 
 // "chunk_order", "rapid_in_foam"
 const char* to_word(FindingKind kind);

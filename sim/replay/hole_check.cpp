@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/text.h"
 
@@ -59,6 +60,7 @@ bool HoleSpace::has(Vec3 point) const {
 
 HoleCheck::HoleCheck(const ReplayScene& scene, FindingLog& log)
     : scene_(scene), log_(log), states_(scene.holes.size()) {
+    stroke_.hole = scene.holes.size();
     figures_.due = static_cast<std::size_t>(
         std::count_if(scene.holes.begin(), scene.holes.end(), [](const SceneHole& hole) { return hole.is_due; }));
 }
@@ -67,26 +69,66 @@ void HoleCheck::extra(const TipLine& line, const std::string& why) {
     log_.add(FindingKind::extra_hole, line.place, 0, 0, [&] { return "the drill goes into foam " + why; });
 }
 
-void HoleCheck::take_cut(const TipLine& line) {
-    std::size_t found = scene_.holes.size();
+std::optional<std::size_t> HoleCheck::hole_of(const TipLine& line) const {
+    std::optional<std::size_t> found;
     double nearest = beside;
     for (std::size_t i = 0; i < scene_.holes.size(); ++i) {
         const SceneHole& hole = scene_.holes[i];
         if (!is_parallel(hole, line, scene_)) continue;
+        if (line.hole > 0 && hole.number == line.hole && hole.is_due) return i;
         const double offset = offset_of(hole, line);
         if (offset > nearest) continue;
         nearest = offset;
         found = i;
     }
-    for (std::size_t i = 0; i < scene_.holes.size() && line.hole > 0; ++i) {
-        const SceneHole& hole = scene_.holes[i];
-        if (hole.number == line.hole && hole.is_due && is_parallel(hole, line, scene_)) found = i;
-    }
-    if (found == scene_.holes.size()) return extra(line, "where the job has no hole");
-    const SceneHole& hole = scene_.holes[found];
+    return found;
+}
+
+void HoleCheck::take_line(const TipLine& line, bool removes_foam) {
+    const std::optional<std::size_t> hole = hole_of(line);
+    if (removes_foam) take_cut(line, hole);
+    follow(line, hole);
+}
+
+void HoleCheck::take_cut(const TipLine& line, std::optional<std::size_t> index) {
+    if (!index) return extra(line, "where the job has no hole");
+    const SceneHole& hole = scene_.holes[*index];
     if (!hole.is_robots) return extra(line, "at " + name_of(hole) + ", which is to be drilled by hand");
     if (!hole.is_due) return extra(line, "at " + name_of(hole) + ", which another part drills");
-    take_hole(found, line, scene_.cell->machine->tools[line.tool]);
+    take_hole(*index, line, scene_.cell->machine->tools[line.tool]);
+}
+
+void HoleCheck::follow(const TipLine& line, std::optional<std::size_t> index) {
+    const bool is_on_axis = index && offset_of(scene_.holes[*index], line) <= beside;
+    const std::size_t hole = is_on_axis ? *index : scene_.holes.size();
+    if (!line.follows_line || run_ == 0 || hole != stroke_.hole) {
+        end_stroke();
+        ++run_;
+        stroke_.hole = hole;
+    }
+    if (!is_on_axis) return;
+    const auto depth_of = [&](Vec3 tip) { return dot(tip - scene_.holes[hole].mouth, scene_.holes[hole].axis); };
+    const double depth = depth_of(line.to);
+    if (depth <= depth_of(line.from)) return end_stroke();
+    if (depth > hole_tolerance) stroke_.depth = depth, stroke_.place = line.place;
+}
+
+void HoleCheck::end_stroke() {
+    const double depth = std::exchange(stroke_.depth, 0);
+    if (depth == 0) return;
+    const SceneHole& hole = scene_.holes[stroke_.hole];
+    State& state = states_[stroke_.hole];
+    const bool is_deeper_peck = state.run == run_ && depth > state.deepest + hole_tolerance;
+    if (hole.is_due && state.run > 0 && !is_deeper_peck) {
+        state.is_refused = true;
+        log_.add(FindingKind::repeated_hole, stroke_.place, depth, depth, [&] {
+            return name_of(hole) + " is drilled again: the tip goes " + fixed(depth, 2) +
+                   " mm below the cap, it has been " + fixed(state.deepest, 2) + " mm below it" +
+                   (state.run == run_ ? "" : " and has left the hole");
+        });
+    }
+    state.run = run_;
+    state.deepest = std::max(state.deepest, depth);
 }
 
 void HoleCheck::take_hole(std::size_t index, const TipLine& line, const CarvingTool& tool) {
@@ -121,6 +163,7 @@ void HoleCheck::take_hole(std::size_t index, const TipLine& line, const CarvingT
 }
 
 HoleFigures HoleCheck::finish() {
+    end_stroke();
     for (std::size_t i = 0; i < states_.size(); ++i) {
         const SceneHole& hole = scene_.holes[i];
         const State& state = states_[i];

@@ -2,8 +2,9 @@
 //
 // mm, setup coordinates. A hole is judged by the lines of the tip along which a drill removes foam: both ends of a line
 // lie on the axis of the hole that it drills, and the deepest end is as deep as the hole and the point of the drill. A
-// line belongs to the hole that its program names in a comment, else to the nearest one. Foam inside a hole of the
-// robot is neither gouge nor leftover (gouge.h, volumes.h). tests/sim/replay/hole_check_test.cpp.
+// line belongs to the hole that its program names in a comment, else to the nearest one. A hole is drilled in one run,
+// in strokes that go deeper each time: once the drill has left the axis it may not go into that hole again. Foam inside
+// a hole of the robot is neither gouge nor leftover (gouge.h, volumes.h). tests/sim/replay/hole_check_test.cpp.
 
 #pragma once
 
@@ -50,8 +51,8 @@ class HoleCheck {
     // Both outlive this object.
     HoleCheck(const ReplayScene& scene, FindingLog& log);
 
-    // A line of a drill that removes foam.
-    void take_cut(const TipLine& line);
+    // A line of a drill, in their order.
+    void take_line(const TipLine& line, bool removes_foam);
 
     // After the last line.
     HoleFigures finish();
@@ -61,13 +62,27 @@ class HoleCheck {
         double reached = 0;  // of the full diameter
         SourcePlace place;
         bool is_refused = false;
+        std::size_t run = 0;  // in which the last stroke was; 0: there was none
+        double deepest = 0;   // of the tip in all strokes
     };
+    // The way of the drill down into a hole, until it comes up again or leaves the axis.
+    struct Stroke {
+        std::size_t hole = 0;  // index; that of no hole: the drill is on no axis
+        double depth = 0;      // of the tip; 0: it is not below the cap
+        SourcePlace place;
+    };
+    std::optional<std::size_t> hole_of(const TipLine& line) const;
+    void take_cut(const TipLine& line, std::optional<std::size_t> index);
+    void follow(const TipLine& line, std::optional<std::size_t> index);
+    void end_stroke();
     void take_hole(std::size_t index, const TipLine& line, const CarvingTool& tool);
     void extra(const TipLine& line, const std::string& why);
 
     const ReplayScene& scene_;
     FindingLog& log_;
     std::vector<State> states_;  // per hole of the scene
+    Stroke stroke_;
+    std::size_t run_ = 0;  // changes whenever the drill leaves an axis
     HoleFigures figures_;
 };
 

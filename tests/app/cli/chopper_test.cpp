@@ -59,6 +59,20 @@ TEST_F(ChopperOptions, StepShowsTheTermsThatHaveAWeightAndAcceptTakesThem) {
     EXPECT_EQ(project()["pieces"].size(), 3U);
 }
 
+TEST_F(ChopperOptions, AWeightOfSymmetryNeedsTheSymmetryPlane) {
+    ASSERT_EQ(made({"--preset", "thesis"}).code, 0);
+    const json before = project();
+    const program::Ended refused = run({"segment", "p.qch", "--weights", "symmetry=1", "--step"});
+    EXPECT_EQ(refused.code, 64) << refused.err;
+    EXPECT_NE(refused.err.find("make a new project with --symmetry"), std::string::npos) << refused.err;
+    EXPECT_EQ(project(), before);
+    fs::remove_all(folder.path / "p.qch");
+    ASSERT_EQ(made({"--preset", "thesis", "--symmetry"}).code, 0);
+    const program::Ended fine = run({"segment", "p.qch", "--weights", "symmetry=1", "--step", "--json"});
+    EXPECT_EQ(fine.code, 0) << fine.err;
+    EXPECT_TRUE(json::parse(fine.out)["proposal"]["planes"][0]["terms"].contains("symmetry")) << fine.out;
+}
+
 TEST_F(ChopperOptions, ACutWithAForbiddenValueSaysThatNoOtherWasLeft) {
     write_file(folder.path / "bar.ply", to_ply(shapes::box({0, 0, 0}, {15, 14, 13}, 2)));
     ASSERT_EQ(made({"--preset", "chopper", "--print-volume", "10,20,20", "--forbid", "fragility"}).code, 0);

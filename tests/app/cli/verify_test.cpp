@@ -16,6 +16,7 @@
 #include "segment/io/write_ply.h"
 #include "tests/app/ball_cap.h"
 #include "tests/app/cli/program.h"
+#include "tests/shapes.h"
 
 namespace qchopper {
 namespace {
@@ -87,6 +88,22 @@ struct VerifyCommand : ::testing::Test {
         write_file(job, after);
         const fs::path project = folder.path / "p.qch" / "project.json";
         program::put(project, replaced(program::bytes_in(project), to_hex(sha256(before)), to_hex(sha256(after))));
+    }
+    // The same of the manifest: once, at `from` behind the first `after`.
+    void change_manifest(const fs::path& job_file, const std::string& after, const std::string& from,
+                         const std::string& to) const {
+        const Bytes before = read_file(job_file);
+        std::map<std::string, Bytes> files = unzip(before, "job");
+        const Bytes& manifest = files.at("manifest.json");
+        const std::string text{manifest.begin(), manifest.end()};
+        const std::size_t at = text.find(after);
+        ASSERT_NE(at, std::string::npos) << after;
+        const std::string changed = text.substr(0, at) + replaced(text.substr(at), from, to);
+        files.at("manifest.json") = {changed.begin(), changed.end()};
+        const Bytes written = zip(files);
+        write_file(job_file, written);
+        const fs::path project = folder.path / "p.qch" / "project.json";
+        program::put(project, replaced(program::bytes_in(project), to_hex(sha256(before)), to_hex(sha256(written))));
     }
     // The verdict of verify, whose bytes are then those of prepare; in another folder too.
     void expect_verdict_repeats(const std::string& cell) const {
@@ -175,6 +192,21 @@ TEST_F(VerifyCommand, AJobWithAnotherPieceThanTheProjectIsNamed) {
     const Ended ended = run({"verify", "p.qch"});
     EXPECT_EQ(ended.code, exit_demand_broken) << ended.err;
     EXPECT_TRUE(has(ended.out, "the mesh of the job is not that of piece A")) << ended.out;
+}
+
+TEST_F(VerifyCommand, HolesOtherThanThoseOfTheProjectAreNamed) {
+    write_file(folder.path / "bar.ply", to_ply(shapes::box({0, 0, 0}, {150, 60, 50}, 3)));
+    const Ended made = run({"prepare", "bar.ply", "--units", "mm", "--cell", cell_file(arm_alone).string(), "--preset",
+                            "thesis", "--min-cuts", "1", "--no-programs", "-o", "p.qch"});
+    ASSERT_EQ(made.code, 0) << made.err;
+    const fs::path cut = folder.path / "p.qch" / "jobs" / "B.qjob";
+    const Ended as_made = run({"verify", "p.qch"});
+    EXPECT_FALSE(has(as_made.out, "hole")) << as_made.out;
+    change_manifest(cut, "\"caps\"", "\"depth\": 22", "\"depth\": 20");
+    const Ended ended = run({"verify", "p.qch"});
+    EXPECT_EQ(ended.code, exit_demand_broken) << ended.err;
+    EXPECT_TRUE(has(ended.out, "piece B: hole 1 is 20.000 mm deep, in the joint with piece C at cut 1 it is 22.000 mm"))
+        << ended.out;
 }
 
 TEST_F(VerifyCommand, ATruncatedProgramIsNamedAndNotSent) {

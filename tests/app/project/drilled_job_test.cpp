@@ -186,6 +186,26 @@ void drill_again(ReadJob& job, std::size_t hole, double beside) {
     put(job, run.file, run.lines);
 }
 
+// The whole run of a hole once more.
+void drill_twice(ReadJob& job, std::size_t hole) {
+    Run run = run_of(job, hole);
+    Lines more;
+    for (const std::size_t line : run.moves) more.push_back(run.lines[line]);
+    const auto behind = run.lines.begin() + static_cast<std::ptrdiff_t>(run.moves.back()) + 1;
+    run.lines.insert(behind, more.begin(), more.end());
+    put(job, run.file, run.lines);
+}
+
+// The last stroke of a hole once more, `deeper` than it was.
+void repeat_last_stroke(ReadJob& job, std::size_t hole, double deeper) {
+    Run run = run_of(job, hole);
+    const std::size_t last = run.moves[run.moves.size() - 3];
+    ASSERT_LT(height_of(run.lines[last]), height_of(run.lines[last - 1]));
+    const Lines more{run.lines[last - 1], moved(run.lines[last], 'Z', -deeper)};
+    run.lines.insert(run.lines.begin() + static_cast<std::ptrdiff_t>(last) + 1, more.begin(), more.end());
+    put(job, run.file, run.lines);
+}
+
 // The chunk of a hole with another drill, which the operator is asked for.
 void take_drill(ReadJob& job, std::size_t hole, const std::string& from, const std::string& to) {
     const std::string file = run_of(job, hole).file;
@@ -227,6 +247,11 @@ std::vector<Fault> faults() {
         {"3 mm too shallow", [](ReadJob& job) { deepen(job, 1, -3); }, "hole_depth", "hole 1 is drilled only 13.00"},
         {"wrong drill", [](ReadJob& job) { take_drill(job, 1, "6", "5"); }, "hole_diameter", "with tool 5 of 8.00 mm"},
         {"a hole too many", [](ReadJob& job) { drill_again(job, 1, -16); }, "extra_hole", "where the job has no hole"},
+        {"drilled twice", [](ReadJob& job) { drill_twice(job, 3); }, "repeated_hole", "hole 3 is drilled again"},
+        {"the last stroke twice", [](ReadJob& job) { repeat_last_stroke(job, 1, 0); }, "repeated_hole",
+         "hole 1 is drilled again"},
+        {"a further stroke, deeper", [](ReadJob& job) { repeat_last_stroke(job, 1, 0.5); }, "hole_depth",
+         "hole 1 is drilled 16.50 mm deep"},
         {"a hole for the hand", [](ReadJob& job) { give_to_the_hand(job, 2); }, "extra_hole", "drilled by hand"},
         {"a hole through the base", [](ReadJob& job) { deepen(job, 2, 10); }, "hole_depth", "hole 2"},
     };
@@ -319,6 +344,22 @@ TEST(DrilledJobs, AProgramThatCannotBeMadeWithTheHolesIsMadeWithoutThem) {
         EXPECT_FALSE(hole.by_robot);
         EXPECT_EQ(hole.by_hand.find("the program cannot drill: "), 0U) << hole.by_hand;
     }
+}
+
+TEST(DrilledJobs, OnlyTheHolesThatTheProgramCannotDrillAreForTheHand) {
+    Slab slab;
+    for (CarvingTool& tool : slab.cell.machine->tools) {
+        if (is_drill(tool) && tool.diameter == 6) tool.mass_kg = 20'000;
+    }
+    const PiecePrograms programs = slab.programs();
+    ASSERT_EQ(programs.parts.size(), 1U) << programs.none_because;
+    for (const VerdictFinding& finding : programs.parts[0].proof.findings) ADD_FAILURE() << describe(finding);
+    EXPECT_EQ(programs.parts[0].input.program.holes, (std::vector<std::size_t>{2, 3}));
+    const std::vector<JobHole> holes = holes_in(programs);
+    ASSERT_EQ(holes.size(), 3U);
+    EXPECT_EQ(holes[0].by_hand.find("the program cannot drill: "), 0U) << holes[0].by_hand;
+    EXPECT_NE(holes[0].by_hand.find("M = 20015"), std::string::npos) << holes[0].by_hand;
+    EXPECT_TRUE(holes[1].by_robot && holes[2].by_robot);
 }
 
 TEST(DrilledJobs, WithoutDrillsAllHolesAreForTheHand) {

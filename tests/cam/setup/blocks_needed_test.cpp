@@ -80,5 +80,31 @@ TEST(BlocksNeeded, ASawnBlockServesInEveryOrderThatTheCellHolds) {
     EXPECT_EQ(blocks_needed(usable, {590 * 2, 890, 500 - 3 - spoil}), 2);
 }
 
+// The holder is above the block when the tip stands on the table: so high may a piece be.
+TEST(BlocksNeeded, LowBlocksAreNoHigherThanTheLongestToolIsLong) {
+    for (const Cell& in : cells()) {
+        const std::vector<Vec3> low = low_usable_blocks(in);
+        ASSERT_FALSE(low.empty()) << in.name;
+        if (!in.machine) {
+            EXPECT_EQ(low, usable_blocks(in)) << in.name;
+            EXPECT_TRUE(std::isinf(low_piece_height(in)));
+            continue;
+        }
+        double longest = 0;
+        for (const CarvingTool& tool : in.machine->tools) {
+            if (tool.shape != ToolShape::drill) longest = std::max(longest, tool.stick_out);
+        }
+        const Margins margins = margins_of(in);
+        EXPECT_DOUBLE_EQ(low_piece_height(in), longest - margins.top - margins.spoil) << in.name;
+        for (const Vec3 size : low) {
+            EXPECT_LE(size.z, low_piece_height(in) + 1e-6) << in.name;
+            EXPECT_EQ(blocks_needed(usable_blocks(in), size), 1) << in.name;
+        }
+        const Vec3 large = low.front();
+        EXPECT_EQ(blocks_needed(low, large), 1) << in.name;
+        EXPECT_EQ(blocks_needed(low, {large.x, large.y, 2 * low_piece_height(in)}), 2) << in.name;
+    }
+}
+
 }  // namespace
 }  // namespace qchopper

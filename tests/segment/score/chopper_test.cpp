@@ -12,6 +12,7 @@
 #include "segment/score/binary_fragility.h"
 #include "segment/score/seam_cost.h"
 #include "tests/pieces.h"
+#include "tests/segment/score/cut_samples.h"
 #include "tests/segment/score/same_evaluation.h"
 #include "tests/shapes.h"
 
@@ -88,6 +89,30 @@ TEST(Chopper, TheyDoOnPiecesThatOwnCaps) {
             }
         }
     }
+}
+
+TEST(Chopper, AllButTheConnectorEqualCuttingOnSamplesAndOnTheirPieces) {
+    std::size_t planes = 0;
+    std::size_t of_many_solids = 0;
+    std::size_t k = 0;
+    constexpr std::array forms{FragilityForm::binary, FragilityForm::thinness, FragilityForm::thesis};
+    for (const SampleCut& of : cut_samples({Specimen::vertebra, Specimen::skull})) {
+        Piece piece = of.piece;
+        piece.seam_cost = with_costs(*piece.mesh).seam_cost;
+        Objectives o = all_of_chopper();
+        o.fragility_form = forms[k++ % forms.size()];
+        o.fragility_distance = 20;
+        o.print_volume = Vec3{400, 300, 250};
+        planes += expect_same(piece, of.normal, even(piece, of.normal, 8), o, of.name);
+        for (const double offset : even(piece, of.normal, 6)) {
+            const auto nudged = nudge(piece, of.normal, std::array{offset});
+            if (!nudged[0]) continue;
+            const auto made = evaluate_by_cutting(piece, {of.normal, nudged[0]->offset}, {});
+            if (made && made->solids.size() > 2) ++of_many_solids;
+        }
+    }
+    EXPECT_GE(planes, 60U);
+    EXPECT_GT(of_many_solids, 10U);
 }
 
 double parts_of_first_cut(const Piece& box, double wanted, Vec3 axis, const Objectives& o) {

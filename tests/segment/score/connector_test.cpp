@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <random>
@@ -15,8 +16,10 @@
 #include "segment/mesh/measure.h"
 #include "segment/score/candidates.h"
 #include "segment/score/dowel_columns.h"
+#include "segment/score/old_joints.h"
 #include "segment/score/sweep.h"
 #include "tests/pieces.h"
+#include "tests/segment/score/cut_samples.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
@@ -189,6 +192,15 @@ double by_cutting(const Piece& piece, const Plane& plane, const std::vector<Dowe
     double sum = 0;
     double areas = 0;
     double worst = 0;
+    // Joints of older cuts: held to cutting by old_joints_test.cpp.
+    for (const OldJoint& old : old_joints(piece, o.connector)) {
+        const auto sides = parted(old, plane.normal, std::array{plane.offset}, o.connector);
+        for (const JointMeasure& side : sides[0]) {
+            if (side.area_mm2 < least_joint_mm2) continue;
+            sum += side.area_mm2 * connector_of({&side, 1}, o.connector);
+            areas += side.area_mm2;
+        }
+    }
     for (const auto& [key, joint] : joints) {
         double s = 0;
         for (const Point2 a : joint.places) {
@@ -203,34 +215,55 @@ double by_cutting(const Piece& piece, const Plane& plane, const std::vector<Dowe
     return areas > 0 ? sum / areas : 0;
 }
 
+// Compares `count` planes along a normal. Returns of how many the objective is neither 0 nor 1.
+std::size_t expect_as_by_cutting(const Piece& piece, Vec3 n, const Objectives& o, int count, const std::string& what) {
+    const Extent range = extent(*piece.mesh, n);
+    std::vector<double> wanted;
+    for (int k = 1; k <= count; ++k) wanted.push_back(range.low + range.size() * k / (count + 1));
+    std::vector<double> offsets;
+    for (const auto& nudged : nudge(piece, n, wanted)) {
+        if (nudged) offsets.push_back(nudged->offset);
+    }
+    const PreparedPiece prepared = prepare(piece, o);
+    const auto evaluations = sweep(prepared, n, offsets, o);
+    const std::vector<DowelSite> sites =
+        dowel_sites(solid_columns(*piece.mesh, n, prepared.origin, o.connector.spacing), o.connector);
+    std::size_t held = 0;
+    for (std::size_t k = 0; k < offsets.size(); ++k) {
+        if (!evaluations[k]) continue;
+        const double plain = by_cutting(piece, {n, offsets[k]}, sites, o);
+        EXPECT_NEAR(evaluations[k]->connector, plain, 1e-9 * (1 + plain)) << what << " " << k;
+        if (plain > 0 && plain < 1) ++held;
+    }
+    return held;
+}
+
 TEST(Connector, EqualsCuttingOnEveryShape) {
     std::mt19937 random(41);
     std::size_t held = 0;
     for (const auto& [name, mesh, count] : shapes::all_closed()) {
-        const Piece piece = piece_of(mesh);
         for (int round = 0; round < 6; ++round) {
-            const Vec3 n = random_normal(random);
             const Objectives o = with_connector(round % 2 == 0 ? ConnectorForm::spread : ConnectorForm::ratio);
-            const Extent range = extent(mesh, n);
-            std::vector<double> wanted;
-            for (int k = 1; k < 24; ++k) wanted.push_back(range.low + range.size() * k / 24);
-            std::vector<double> offsets;
-            for (const auto& nudged : nudge(piece, n, wanted)) {
-                if (nudged) offsets.push_back(nudged->offset);
-            }
-            const PreparedPiece prepared = prepare(piece, o);
-            const auto evaluations = sweep(prepared, n, offsets, o);
-            const std::vector<DowelSite> sites =
-                dowel_sites(solid_columns(mesh, n, prepared.origin, o.connector.spacing), o.connector);
-            for (std::size_t k = 0; k < offsets.size(); ++k) {
-                if (!evaluations[k]) continue;
-                const double plain = by_cutting(piece, {n, offsets[k]}, sites, o);
-                EXPECT_NEAR(evaluations[k]->connector, plain, 1e-9 * (1 + plain)) << name << " " << round << " " << k;
-                if (plain > 0 && plain < 1) ++held;
-            }
+            held += expect_as_by_cutting(piece_of(mesh), random_normal(random), o, 23, name);
         }
     }
     EXPECT_GT(held, 20U);
+}
+
+TEST(Connector, EqualsCuttingOnSamplesAndOnTheirPieces) {
+    std::size_t held = 0;
+    std::size_t with_caps = 0;
+    for (const SampleCut& of : cut_samples({Specimen::vertebra, Specimen::femur})) {
+        Objectives o = with_connector(ConnectorForm::spread);
+        o.connector = {ConnectorForm::spread, 8, 22, 6, of.piece_size / 60};
+        held += expect_as_by_cutting(of.piece, of.normal, o, 6, of.name);
+        with_caps += of.piece.half_spaces.empty() ? 0 : 1;
+        if (!of.piece.half_spaces.empty()) continue;
+        o.connector.form = ConnectorForm::ratio;
+        held += expect_as_by_cutting(of.piece, of.normal, o, 6, of.name);
+    }
+    EXPECT_GT(held, 20U);
+    EXPECT_GE(with_caps, 6U);
 }
 
 TEST(Connector, ABeamIsHeldByDowelsAtItsEndsAndAThinPlateByNone) {

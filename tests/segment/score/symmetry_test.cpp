@@ -8,6 +8,7 @@
 #include "segment/mesh/measure.h"
 #include "segment/score/sweep.h"
 #include "tests/pieces.h"
+#include "tests/segment/score/cut_samples.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
@@ -52,13 +53,8 @@ TEST(Symmetry, ItIsZeroForThePlaneItselfAndForSymmetricSectionsAcrossIt) {
     EXPECT_GT(asymmetry(box, {canonical({normalized({1, 0, 1}), 3}).normal, 3.0}, middle), 2 * spacing);
 }
 
-TEST(Symmetry, ItIsTheMeanSquareOfTheDistancesToTheNearestReflectedPoint) {
-    const Piece tori = piece_of(shapes::linked_tori());
-    const Vec3 n = canonical({normalized({1, 2, 2}), 0}).normal;
-    const Extent range = extent(*tori.mesh, n);
-    const Plane plane{n, range.low + 0.4 * range.size()};
-    const Plane symmetry{canonical({normalized({3, -1, 1}), 0}).normal, 4.5};
-    const std::vector<Vec3> points = points_of(tori, plane);
+void expect_mean_square(const Piece& piece, const Plane& plane, const Plane& symmetry, const std::string& what) {
+    const std::vector<Vec3> points = points_of(piece, plane);
     double sum = 0;
     for (const Vec3& p : points) {
         double least = 1e300;
@@ -69,7 +65,22 @@ TEST(Symmetry, ItIsTheMeanSquareOfTheDistancesToTheNearestReflectedPoint) {
         sum += least * least;
     }
     const double plain = std::sqrt(sum / static_cast<double>(points.size()));
-    EXPECT_NEAR(asymmetry(tori, plane, symmetry), plain, 1e-9 * plain);
+    EXPECT_NEAR(asymmetry(piece, plane, symmetry), plain, 1e-9 * plain) << what;
+}
+
+TEST(Symmetry, ItIsTheMeanSquareOfTheDistancesToTheNearestReflectedPoint) {
+    const Piece tori = piece_of(shapes::linked_tori());
+    const Vec3 n = canonical({normalized({1, 2, 2}), 0}).normal;
+    const Extent range = extent(*tori.mesh, n);
+    const Plane symmetry{canonical({normalized({3, -1, 1}), 0}).normal, 4.5};
+    expect_mean_square(tori, {n, range.low + 0.4 * range.size()}, symmetry, "tori");
+    for (const SampleCut& of : cut_samples({Specimen::femur})) {
+        const Extent extent_of = extent(*of.piece.mesh, of.normal);
+        for (const double share : {0.3, 0.6}) {
+            const auto at = nudge(of.piece, of.normal, std::array{extent_of.low + share * extent_of.size()});
+            if (at[0]) expect_mean_square(of.piece, {of.normal, at[0]->offset}, {{1, 0, 0}, 3}, of.name);
+        }
+    }
 }
 
 TEST(Symmetry, WithoutAPlaneItCostsNothing) {

@@ -94,6 +94,33 @@ TEST(StopRules, AJudgeChecksEveryPieceOnce) {
     EXPECT_EQ(boxes, 4) << "only the new pieces are checked";
 }
 
+TEST(StopRules, WhatArmAndToolsCannotCarveIsCutForLowBlocksWherePiecesAreCutForSize) {
+    const Segmentation s = two_boxes();
+    StopRules rules;
+    rules.fits_cell = true;
+    std::string asked;
+    PieceChecks checks;
+    checks.fits_cell = [](const Piece& p) { return p.name == "A"; };
+    checks.blocks_needed = [](Vec3) { return 2.0; };
+    checks.is_carvable = [&](const Piece& p) {
+        asked += p.name;
+        return false;
+    };
+    checks.low_blocks_needed = [](Vec3) { return 3.0; };
+    const auto size = [](const Piece&) { return Vec3{}; };
+    StopJudge by_size(rules, checks, size, [](const Piece&) { return 1.0; });
+    EXPECT_FALSE(by_size.next(s, {}).is_finished);
+    EXPECT_EQ(asked, "A") << "B does not even fit";
+    EXPECT_EQ(by_size.too_large_for(s.pieces[0])({}), 3);
+    EXPECT_EQ(by_size.too_large_for(s.pieces[1])({}), 2);
+    EXPECT_NE(by_size.why(s.pieces[0]), by_size.why(s.pieces[1]));
+    rules.combine = Stop::any;
+    StopJudge any(rules, checks, size, [](const Piece&) { return 1.0; });
+    EXPECT_FALSE(any.next(s, {}).is_finished);
+    StopJudge by_faces(rules, checks, size);
+    EXPECT_TRUE(by_faces.why(s.pieces[0]).empty()) << "the presets of the thesis cut as before";
+}
+
 TEST(StopRules, WhatIsOutOfReachIsAskedOncePerPieceAndOnlyWhereItDecides) {
     const Segmentation s = two_boxes();  // A: 48 faces, B: 192 faces
     StopRules rules;

@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
+#include "base/parallel.h"
 #include "segment/score/evaluate.h"
+#include "segment/score/sampled_piece.h"
 #include "segment/search/rank_piece.h"
 #include "segment/search/search.h"
 #include "segment/structure/section_stress.h"
@@ -83,6 +87,69 @@ TEST_F(StructureTerm, AHeavyWeightTurnsTheCutAwayFromWhereTheModelIsStressed) {
     const std::vector<Ranked> ranked = ranking(0);
     for (const Ranked& r : ranked) EXPECT_GE(r.terms.structure, ranked.front().terms.structure - 1e-9);
     EXPECT_GT(ranked.back().terms.structure, 2 * ranked.front().terms.structure);
+}
+
+// Makes the cuts again: each term is that of its plane on the piece that it parts, evaluated alone.
+void expect_terms_of_their_planes(Segmentation s, const std::vector<Cut>& cuts,
+                                  const std::shared_ptr<const StressedModel>& stress, const std::string& what) {
+    for (const Cut& cut : cuts) {
+        const auto piece =
+            std::find_if(s.pieces.begin(), s.pieces.end(), [&](const Piece& p) { return p.name == cut.piece; });
+        ASSERT_NE(piece, s.pieces.end()) << what;
+        const StressedPart part = stressed_part(stress, *piece->mesh);
+        const Plane& plane = cut.chosen.plane;
+        const SectionStress alone = section_stress(part, plane.normal, std::vector<double>{plane.offset})[0];
+        EXPECT_GT(alone.value, 0) << what;
+        EXPECT_NEAR(cut.chosen.terms.structure, alone.value, 1e-12 * alone.value) << what << " cut " << cut.number;
+        EXPECT_EQ(cut.chosen.coarse_sections, alone.too_coarse) << what << " cut " << cut.number;
+        ASSERT_TRUE(apply(s, cut, 0));
+    }
+}
+
+struct Found {
+    std::vector<Cut> cuts;
+    double cost = 0;
+    bool operator==(const Found&) const = default;
+};
+
+Found found_by(Segmentation s, const SearchSettings& settings, unsigned threads) {
+    const ThreadLimit limit(threads);
+    EvaluationCache cache(settings.objectives, settings.candidates);
+    const SearchEnd end = search(s, settings, cache, {}, [](const Segmentation&) {}, {});
+    return {s.cuts, end.cost};
+}
+
+// The three rankings: of all planes along the box, by reach, and with late terms.
+std::vector<std::pair<std::string, SearchSettings>> rankings(SearchSettings settings) {
+    settings.stop.min_cuts = 3;
+    settings.objectives.scope = TermScope::cut;
+    std::vector<std::pair<std::string, SearchSettings>> all{{"box", settings}, {"reach", settings}, {"late", settings}};
+    all[1].second.objectives.weights.unreachable = 100;
+    all[1].second.candidates.normals = CandidateNormals::sphere;
+    all[2].second.objectives.weights.connector = 1;
+    all[2].second.objectives.weights.symmetry = 0.25;
+    all[2].second.objectives.connector = {ConnectorForm::spread, 3, 3, 1, 2};
+    all[2].second.objectives.symmetry_plane = Plane{{1, 0, 0}, 2};
+    return all;
+}
+
+TEST_F(StructureTerm, InEveryRankingAndBeamIsThatOfThePlaneAloneForAnyNumberOfThreads) {
+    for (const auto& [name, of] : rankings(settings)) {
+        for (const std::size_t beam : {std::size_t{1}, std::size_t{3}}) {
+            SearchSettings own = of;
+            own.beam = beam;
+            Segmentation start = segmentation;
+            if (own.takes_samples()) sample_uncut(start.pieces, {}, 800);
+            if (own.measures_scan()) start.scan = measure_scan(start);
+            const std::string what = name + ", beam " + std::to_string(beam);
+            const Found found = found_by(start, own, 1);
+            EXPECT_GE(found.cuts.size(), 3U) << what;
+            EXPECT_TRUE(found_by(start, own, 4) == found) << what;
+            expect_terms_of_their_planes(start, found.cuts, stress, what);
+            own.objectives.weights.structure = 0;
+            EXPECT_FALSE(found_by(start, own, 4) == found) << what << ": the term changes the search or its cost";
+        }
+    }
 }
 
 TEST_F(StructureTerm, WithoutStressIsZero) {

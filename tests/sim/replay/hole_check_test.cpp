@@ -40,11 +40,26 @@ struct Holes {
         return line;
     }
 
+    // The way back up from a line's end, and a line down from there.
+    static TipLine up(const TipLine& down) {
+        TipLine line = down;
+        std::swap(line.from, line.to);
+        line.place.line = 18;
+        line.follows_line = true;
+        return line;
+    }
+    static TipLine following(TipLine line, std::uint32_t place) {
+        line.follows_line = true;
+        line.place.line = place;
+        return line;
+    }
+
     // Kinds of the findings, "hole_depth:17 missing_hole:0"
-    std::string kinds(const std::vector<TipLine>& lines, HoleFigures* figures = nullptr) const {
+    std::string kinds(const std::vector<TipLine>& lines, HoleFigures* figures = nullptr,
+                      bool removes_foam = true) const {
         FindingLog log(program);
         HoleCheck check(scene, log);
-        for (const TipLine& line : lines) check.take_cut(line);
+        for (const TipLine& line : lines) check.take_line(line, removes_foam);
         const HoleFigures found = check.finish();
         if (figures != nullptr) *figures = found;
         std::string kinds;
@@ -59,7 +74,9 @@ struct Holes {
 TEST(HoleCheck, HolesAsOrderedAreFoundNothingAgainst) {
     const Holes of;
     HoleFigures figures;
-    EXPECT_EQ(of.kinds({of.down(4, 0, 0, 10), of.down(4, 0, 0, 22), of.down(5, 30.15, 0, 16.1)}, &figures), "");
+    const TipLine peck = of.down(4, 0, 0, 10);
+    const TipLine last = Holes::following(of.down(4, 0, 0, 22), 19);
+    EXPECT_EQ(of.kinds({peck, Holes::up(peck), last, Holes::up(last), of.down(5, 30.15, 0, 16.1)}, &figures), "");
     EXPECT_EQ(figures.due, 2U);
     EXPECT_EQ(figures.drilled, 2U);
     EXPECT_NEAR(figures.largest_offset, 0.15, 1e-9);
@@ -84,6 +101,27 @@ TEST(HoleCheck, EachFaultHasItsKind) {
     TipLine leaning = second;
     leaning.direction = 1;
     EXPECT_EQ(of.kinds({first, leaning}), "missing_hole:0 extra_hole:17");
+}
+
+TEST(HoleCheck, AHoleIsDrilledInOneRunAndDeeperByEachStroke) {
+    const Holes of;
+    const TipLine first = of.down(4, 0, 0, 22);
+    const TipLine second = of.down(5, 30, 0, 16);
+    const TipLine half = of.down(5, 30, 0, 8);
+    const TipLine rest = Holes::following(second, 19);
+    EXPECT_EQ(of.kinds({first, second, second}), "repeated_hole:17");
+    EXPECT_EQ(of.kinds({second, first, second}), "repeated_hole:17") << "another hole in between";
+    EXPECT_EQ(of.kinds({first, half, Holes::up(half), second}), "repeated_hole:17") << "it went away at half depth";
+    EXPECT_EQ(of.kinds({first, half, Holes::up(half), rest}), "") << "a peck";
+    EXPECT_EQ(of.kinds({first, second, Holes::up(second), rest}), "repeated_hole:19") << "no deeper";
+    EXPECT_EQ(of.kinds({first, second, Holes::up(second), rest, second}), "repeated_hole:19 repeated_hole:17");
+    TipLine aside = Holes::up(half);
+    aside.to.x += 8;
+    EXPECT_EQ(of.kinds({first, half, aside, rest}), "repeated_hole:19 extra_hole:18") << "it left the axis by a line";
+    HoleFigures figures;
+    EXPECT_EQ(of.kinds({first, second, second}, &figures, false), "missing_hole:0 missing_hole:0 repeated_hole:17");
+    of.kinds({first, second, second}, &figures);
+    EXPECT_EQ(figures.drilled, 1U) << "a hole that is drilled twice is not as the job says";
 }
 
 TEST(HoleCheck, ALineBelongsToTheHoleThatItsCommentNames) {
