@@ -1,5 +1,5 @@
 // Height maps, tip surfaces and finishing passes of one direction: CPU time, points, length, and what a replay of the
-// passes leaves. bench_toolpath [SCAN|ball [SIZE_MM [ROUNDING_MM]]]
+// passes leaves. bench_toolpath [SCAN|ball [SIZE_MM [ROUNDING_MM [CELL_MM]]]]
 
 #include <algorithm>
 #include <cstdio>
@@ -52,16 +52,22 @@ void measure_tips(const Setup& setup, const TriangleMesh& mesh, double cell) {
                 millions, mapped - begin, end - mapped, millions / (end - mapped));
 }
 
-void print_passes(const std::vector<Pass>& passes, double carved_m2) {
+void print_passes(const char* name, const std::vector<Pass>& passes, double carved_m2) {
     std::size_t rounded = 0;
     for (const Pass& pass : passes) {
         for (const PassPoint& point : pass.points) rounded += point.is_rounded ? 1 : 0;
     }
     const auto points = static_cast<double>(test_pieces::points_of(passes));
     const double metres = 1e-3 * test_pieces::length_of(passes);
-    std::printf("  %zu passes, %.0f m, %.0f points, %.0f %% rounded; of %.3f m2: %.0f m, %.0f points, %.2f MB per m2\n",
-                passes.size(), metres, points, 100 * static_cast<double>(rounded) / points, carved_m2,
-                metres / carved_m2, points / carved_m2, 46e-6 * points / carved_m2);
+    std::printf(
+        "  %s: %zu passes, %.0f m, %.0f points, %.0f %% rounded; of %.3f m2: %.0f m, %.0f points, %.2f MB per m2\n",
+        name, passes.size(), metres, points, 100 * static_cast<double>(rounded) / points, carved_m2, metres / carved_m2,
+        points / carved_m2, 46e-6 * points / carved_m2);
+}
+
+bool is_level(const Pass& pass) {
+    return std::all_of(pass.points.begin(), pass.points.end(),
+                       [&](const PassPoint& p) { return p.tip.z == pass.points.front().tip.z; });
 }
 
 // What is left over the points that the tool reaches to within `reach`.
@@ -95,13 +101,16 @@ void measure_finishing(const Setup& setup, const TriangleMesh& mesh, double cell
     const FinishingRegion region =
         SurfaceLeft(mesh, std::nullopt).take(closing, 0.5 * options.scallop + 0.75 * cell, 2);
     const double ready = process_cpu_s();
-    const std::vector<Pass> passes = finishing_passes(tip, tool, region, options);
+    std::vector<Pass> passes = finishing_passes(tip, tool, region, options);
     const double end = process_cpu_s();
     std::printf("cell %.2f mm: maps and region %.2f s, passes %.2f s\n", cell, ready - begin, end - ready);
     const auto points = test_pieces::surface_points(mesh, map, 1);
     double carved = 0;
     for (const auto& p : points) carved += 1e-6 * p.area;
-    print_passes(passes, carved);
+    const auto rows = std::stable_partition(passes.begin(), passes.end(), is_level);
+    print_passes("levels", {passes.begin(), rows}, carved);
+    print_passes("rows", {rows, passes.end()}, carved);
+    print_passes("all", passes, carved);
     if (map.height.size() > most_replayed_cells) return;
     HeightMap stock = map;
     std::fill(stock.height.begin(), stock.height.end(), 1e6F);
@@ -133,7 +142,10 @@ int main(int argc, char** argv) {
     const Vec3 box = bounds(mesh).size();
     for (Vec3& p : mesh.points) p = (size / std::max({box.x, box.y, box.z})) * p;
     const auto setup = standing(mesh);
-    for (const double cell : {0.5, 0.25, 0.2}) measure_tips(setup, mesh, cell);
-    measure_finishing(setup, mesh, 0.25, rounding);
+    const double cell = argc > 4 ? std::atof(argv[4]) : 0.25;
+    if (argc <= 4) {
+        for (const double each : {0.5, 0.25, 0.2}) measure_tips(setup, mesh, each);
+    }
+    measure_finishing(setup, mesh, cell, rounding);
     return 0;
 }

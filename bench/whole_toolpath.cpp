@@ -5,12 +5,14 @@
 #include <fstream>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/choice.h"
 #include "bench/clock.h"
 #include "bench/figures.h"
 #include "bench/other_readers.h"
+#include "cam/post/krl_text.h"
 #include "cam/setup/choose_setup.h"
 #include "cam/toolpath/make_toolpath.h"
 #include "cam/toolpath/time_estimate.h"
@@ -27,8 +29,6 @@ constexpr const char* usage = R"(bench_whole_toolpath [--small] [--data FOLDER] 
   --data   where ct_head_1912k.ply, bunny_bun_zipper.ply and igea_268k.ply lie
   --only   head, bunny or igea; all if none is named
 )";
-
-constexpr double bytes_per_point = 46;  // of a line of a KRL program that states the position alone
 
 // Large enough for everything, a gantry, with tools as long as the piece is high.
 Cell large_cell(double length) {
@@ -57,7 +57,28 @@ struct Totals {
     std::size_t cuts = 0;  // points that end one
     std::size_t runs = 0;
     double cut_mm = 0;
+    std::size_t bytes = 0;  // of the lines of a KRL program, which state the position alone
 };
+
+double feed_of(const Operation& operation, MoveKind kind) {
+    if (kind == MoveKind::cut) return operation.feed;
+    return kind == MoveKind::approach ? operation.approach_feed : operation.link_feed;
+}
+
+// Lines of one run as cam/post writes them: speeds where they change, and the positions.
+std::size_t krl_bytes(const Operation& operation, const PathRun& run) {
+    constexpr std::size_t around = std::string_view("LIN {}\r\n").size();
+    constexpr std::size_t rounded = std::string_view(" C_DIS").size();
+    constexpr std::size_t speed = std::string_view("$VEL.CP = 0.1000\r\n").size();
+    std::size_t bytes = around + krl::position(run.start, 2).size();
+    double feed = operation.link_feed;
+    for (const PathMove& move : run.moves) {
+        bytes += around + krl::position(move.tip, 2).size() + (move.is_rounded ? rounded : 0);
+        if (feed_of(operation, move.kind) != feed) bytes += speed;
+        feed = feed_of(operation, move.kind);
+    }
+    return bytes;
+}
 
 std::map<OperationKind, Totals> totals_of(const Toolpath& path) {
     std::map<OperationKind, Totals> totals;
@@ -66,6 +87,7 @@ std::map<OperationKind, Totals> totals_of(const Toolpath& path) {
         for (const PathRun& run : operation.runs) {
             own.points += run.moves.size() + 1;
             ++own.runs;
+            own.bytes += krl_bytes(operation, run);
             Vec3 at = run.start;
             for (const PathMove& move : run.moves) {
                 if (move.kind == MoveKind::cut) {
@@ -100,7 +122,7 @@ void record(const std::string& name, const Setup& setup, const Toolpath& path, F
                        number_text(1e-3 * totals.cut_mm) + " m, " + number_text(points) + ", " +
                            number_text(static_cast<double>(totals.cuts)) + ", " + std::to_string(totals.runs));
         const std::string what = std::string(word_of(kind)) + ": megabytes of KRL per m2";
-        const double megabytes = 1e-6 * bytes_per_point * points / area;
+        const double megabytes = 1e-6 * static_cast<double>(totals.bytes) / area;
         if (kind == OperationKind::finishing) {
             figures.at_most(name, what, megabytes, 4);
         } else {

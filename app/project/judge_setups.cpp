@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <map>
 
-#include "app/project/distance_store.h"
 #include "app/project/open_project.h"
 #include "app/project/project_folder.h"
 #include "app/project/replay.h"
@@ -78,8 +77,7 @@ std::map<std::int32_t, Piece> OpenProject::pieces_to_recut(std::vector<std::int3
         return settled(project_, segmentation(), segmentation().cuts[static_cast<std::size_t>(number - 1)]).has_value();
     });
     if (numbers.empty()) return {};
-    std::map<std::int32_t, Piece> divided =
-        divided_pieces(project_, scan(), numbers, context, distance_store(folder_ / "cache"));
+    std::map<std::int32_t, Piece> divided = divided_pieces(project_, scan(), numbers, context, folder_ / "cache");
     for (auto& [number, piece] : divided) {
         if (project_.settings.objectives.needs_structure()) piece.stress = stress();
     }

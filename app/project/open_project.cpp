@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "app/project/distance_store.h"
 #include "app/project/evaluation_store.h"
 #include "app/project/ignored_surface.h"
 #include "app/project/piece_program.h"
@@ -75,7 +74,7 @@ const Segmentation& OpenProject::segmentation() {
     if (segmentation_) return *segmentation_;
     const TriangleMesh& imported = scan();
     const StageTimer stage(context_, "cuts replayed");
-    segmentation_ = replay(project_, imported, context_, distance_store(folder_ / "cache"));
+    segmentation_ = replay(project_, imported, context_, folder_ / "cache");
     if (project_.settings.objectives.needs_structure()) set_stress(segmentation_->pieces, stress());
     return *segmentation_;
 }
@@ -321,7 +320,7 @@ SearchEnd OpenProject::search(const PieceChecks& checks, const std::function<voi
     Segmentation working = segmentation();
     const StageTimer stage(context, "search");
     BeamProgress progress = beam_progress(
-        project_, working, [this]() -> const TriangleMesh& { return scan(); }, distance_store(folder_ / "cache"));
+        project_, working, [this]() -> const TriangleMesh& { return scan(); }, folder_ / "cache");
     if (project_.settings.objectives.needs_structure()) set_stress(progress.root.pieces, stress());
     release_scan();
     const auto keep = [&](const Segmentation& best) {

@@ -21,6 +21,8 @@
 namespace qchopper {
 namespace {
 
+constexpr double narrowly_beside = 2;  // mm; the finishing tool then still roughs what stands beside the walls
+
 std::vector<Pose> frames_of(const Setup& setup, const Cell& cell) {
     std::vector<Pose> frames;
     const std::size_t angles = std::max<std::size_t>(1, setup.placement.table_angles.size());
@@ -44,10 +46,10 @@ double wall_of(const JobHole& hole, const Cell& cell) {
 }
 
 MadePath make_path(const Piece& piece, const Carving& carving, const Cell& cell, const std::vector<DrawnCap>& caps,
-                   const Context& context) {
+                   const ToolpathSettings& settings, const Context& context) {
     const Setup& setup = carving.setup();
     InProcessStock left(setup);
-    MadePath made{make_toolpath(setup, *piece.mesh, cell, {}, context, &left), {}};
+    MadePath made{make_toolpath(setup, *piece.mesh, cell, settings, context, &left), {}};
     std::vector<DrillHole> holes;
     for (const DrawnCap& drawn : caps) {
         for (const JobHole& hole : holes_of({drawn.cap})) {
@@ -182,9 +184,19 @@ PiecePrograms make_programs(const Piece& piece, const Carving& carving, std::uin
     const Setup& setup = carving.setup();
     std::vector<ProgramPart> parts;
     MadePath made;
-    try {
-        made = make_path(piece, carving, cell, caps, context);
+    const auto make = [&](const ToolpathSettings& settings) {
+        made = make_path(piece, carving, cell, caps, settings, context);
         parts = make_parts(made, carving, piece_no, cell, context);
+    };
+    try {
+        try {
+            make({});
+        } catch (const ProgramRefused&) {
+            // The work envelope was asked for tips on the block, not for all that roughing takes beside it.
+            ToolpathSettings narrow;
+            narrow.beside_block = narrowly_beside;
+            make(narrow);
+        }
     } catch (const InputError& error) {
         return {{}, error.what(), caps_by_hand(std::move(caps), error.what())};
     }

@@ -6,10 +6,12 @@
 #include <cassert>
 #include <span>
 
+#include "app/project/distance_store.h"
+#include "app/project/seam_cost_store.h"
 #include "base/error.h"
 #include "base/timings.h"
 #include "segment/mesh/measure.h"
-#include "segment/score/seam_cost.h"
+#include "segment/score/sampled_piece.h"
 
 namespace qchopper {
 namespace {
@@ -31,7 +33,7 @@ void discard_now(Segmentation& segmentation, const std::vector<Discard>& discard
 
 // `before` is called with the segmentation before each cut.
 Segmentation replay_cuts(const Project& project, const TriangleMesh& scan, std::size_t cuts, const Context& context,
-                         const DistanceStore& store,
+                         const std::filesystem::path& cache,
                          const std::function<void(const Segmentation&, const Cut&)>& before) {
     context.progress("cuts made on the scan", 0, cuts);
     const double fragment_volume = project.settings.objectives.fragment_volume_mm3;
@@ -39,12 +41,12 @@ Segmentation replay_cuts(const Project& project, const TriangleMesh& scan, std::
     if (project.settings.takes_samples()) {
         const StageTimer stage(context, "rays cast");
         context.progress("samples asked", 0, default_surface_samples);
-        sample_uncut(segmentation.pieces, store);
+        sample_uncut(segmentation.pieces, cache.empty() ? DistanceStore{} : distance_store(cache));
     }
     if (project.settings.measures_scan()) segmentation.scan = measure_scan(segmentation);
     if (project.settings.objectives.needs_seam()) {
         const StageTimer stage(context, "rays cast");
-        find_seam_costs(segmentation.pieces, context);
+        find_kept_seam_costs(cache, segmentation.pieces, context);
     }
     discard_now(segmentation, project.discards);
     for (const Cut& cut : std::span(project.cuts).first(cuts)) {
@@ -85,22 +87,22 @@ void record(Project& project, const Segmentation& segmentation) {
 }
 
 Segmentation replay(const Project& project, const TriangleMesh& scan, const Context& context,
-                    const DistanceStore& store) {
-    return replay(project, scan, project.cuts.size(), context, store);
+                    const std::filesystem::path& cache) {
+    return replay(project, scan, project.cuts.size(), context, cache);
 }
 
 Segmentation replay(const Project& project, const TriangleMesh& scan, std::size_t cuts, const Context& context,
-                    const DistanceStore& store) {
-    return replay_cuts(project, scan, cuts, context, store, {});
+                    const std::filesystem::path& cache) {
+    return replay_cuts(project, scan, cuts, context, cache, {});
 }
 
 std::map<std::int32_t, Piece> divided_pieces(const Project& project, const TriangleMesh& scan,
                                              const std::vector<std::int32_t>& numbers, const Context& context,
-                                             const DistanceStore& store) {
+                                             const std::filesystem::path& cache) {
     std::map<std::int32_t, Piece> divided;
     if (numbers.empty()) return divided;
     const auto last = static_cast<std::size_t>(*std::max_element(numbers.begin(), numbers.end()));
-    replay_cuts(project, scan, last, context, store, [&](const Segmentation& before, const Cut& cut) {
+    replay_cuts(project, scan, last, context, cache, [&](const Segmentation& before, const Cut& cut) {
         if (std::find(numbers.begin(), numbers.end(), cut.number) == numbers.end()) return;
         if (const auto piece = piece_named(before, cut.piece)) divided[cut.number] = before.pieces[*piece];
     });
@@ -131,12 +133,12 @@ void check_symmetry(const std::optional<SymmetryPlane>& plane, const Weights& we
 }
 
 BeamProgress beam_progress(const Project& project, const Segmentation& committed,
-                           const std::function<const TriangleMesh&()>& scan, const DistanceStore& store) {
+                           const std::function<const TriangleMesh&()>& scan, const std::filesystem::path& cache) {
     BeamProgress progress;
     if (!project.beam || !project.settings.has_state()) return progress;
     progress.state = *project.beam;
     const bool has_root = progress.state.from == committed.cuts.size();
-    progress.root = has_root ? committed : replay(project, scan(), progress.state.from, {}, store);
+    progress.root = has_root ? committed : replay(project, scan(), progress.state.from, {}, cache);
     return progress;
 }
 

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -17,7 +18,6 @@
 
 #include "app/project/project.h"
 #include "base/context.h"
-#include "segment/score/sampled_piece.h"
 
 namespace qchopper {
 
@@ -29,17 +29,18 @@ void record(Project& project, const Segmentation& segmentation);
 // Applies the first `cuts` of the cuts in force to the scan exactly as they were made, and discards what was discarded
 // before the next cut. Reports progress in cuts. Throws Cancelled. Precondition: cuts <= project.cuts.size(). Throws
 // InputError (config) if a cut misses or a piece does not exist. O(cuts) times the cost of a cut.
-// The pieces have samples if the settings want them; `store` keeps their distances, and changes nothing but the time.
+// The pieces have samples if the settings want them. What rays find on the uncut scan is kept in the folder `cache`,
+// which changes nothing but the time; empty: it is not kept.
 Segmentation replay(const Project& project, const TriangleMesh& scan, std::size_t cuts, const Context& context = {},
-                    const DistanceStore& store = {});
+                    const std::filesystem::path& cache = {});
 // All of them.
 Segmentation replay(const Project& project, const TriangleMesh& scan, const Context& context = {},
-                    const DistanceStore& store = {});
+                    const std::filesystem::path& cache = {});
 
 // The pieces that the cuts of these numbers divide, as they were before, by the number. Costs as replay().
 std::map<std::int32_t, Piece> divided_pieces(const Project& project, const TriangleMesh& scan,
                                              const std::vector<std::int32_t>& numbers, const Context& context = {},
-                                             const DistanceStore& store = {});
+                                             const std::filesystem::path& cache = {});
 
 // The index of a piece in segmentation.pieces; nothing if no piece has that name. O(pieces).
 std::optional<std::size_t> piece_named(const Segmentation& segmentation, const std::string& name);
@@ -56,6 +57,6 @@ void check_symmetry(const std::optional<SymmetryPlane>& plane, const Weights& we
 // Where the search of a project goes on: at its beam if it has one and is wider than 1. `committed` is the segmentation
 // of its cuts; `scan` is called only if the root of the beam has fewer.
 BeamProgress beam_progress(const Project& project, const Segmentation& committed,
-                           const std::function<const TriangleMesh&()>& scan, const DistanceStore& store = {});
+                           const std::function<const TriangleMesh&()>& scan, const std::filesystem::path& cache = {});
 
 }  // namespace qchopper

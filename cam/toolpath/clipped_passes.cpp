@@ -12,6 +12,7 @@ namespace qchopper {
 namespace {
 
 constexpr double least_free = 2;  // mm of a part of a pass that is worth a way there
+constexpr double touching = 1.5;  // mm
 
 // Collects the points of a pass into parts that are free and parts that are blocked.
 class PassParts {
@@ -53,20 +54,9 @@ class PassParts {
     bool is_closed_ = false;
 };
 
-}  // namespace
-
-double length_of(const std::vector<Pass>& passes) {
-    double length = 0;
-    for (const Pass& pass : passes) length += length_of(pass);
-    return length;
-}
-
-ClippedPasses clipped(const std::vector<Pass>& passes, const CarvingSpace& space, const CarvingTool& tool) {
-    const double inner = std::max(0.0, 0.5 * tool.diameter - flute_rim);
-    const auto is_free = [&](Vec3 p) {
-        return least_height(space.holder_limit, p.x, p.y) <= p.z &&
-               static_cast<double>(disc_max_at(space.middle_foam, p.x, p.y, inner)) <= p.z + tool.flute_length;
-    };
+// By whether the tip may be at a point, asked at most so far apart.
+template <class IsFree>
+ClippedPasses divided(const std::vector<Pass>& passes, double apart, const IsFree& is_free) {
     ClippedPasses parts;
     for (const Pass& pass : passes) {
         PassParts own(parts);
@@ -75,7 +65,7 @@ ClippedPasses clipped(const std::vector<Pass>& passes, const CarvingSpace& space
         for (std::size_t i = 1; i < pass.points.size(); ++i) {
             const Vec3 from = pass.points[i - 1].tip;
             const PassPoint& point = pass.points[i];
-            const auto samples = static_cast<std::size_t>(norm(point.tip - from) / (0.5 * space.foam.cell)) + 1;
+            const auto samples = static_cast<std::size_t>(norm(point.tip - from) / apart) + 1;
             Vec3 before = from;
             for (std::size_t k = 1; k <= samples; ++k) {
                 const Vec3 p = from + (static_cast<double>(k) / static_cast<double>(samples)) * (point.tip - from);
@@ -93,6 +83,28 @@ ClippedPasses clipped(const std::vector<Pass>& passes, const CarvingSpace& space
         own.end_pass(pass.is_closed);
     }
     return parts;
+}
+
+}  // namespace
+
+double length_of(const std::vector<Pass>& passes) {
+    double length = 0;
+    for (const Pass& pass : passes) length += length_of(pass);
+    return length;
+}
+
+ClippedPasses clipped(const std::vector<Pass>& passes, const CarvingSpace& space, const CarvingTool& tool) {
+    const double inner = std::max(0.0, 0.5 * tool.diameter - flute_rim);
+    return divided(passes, 0.5 * space.foam.cell, [&](Vec3 p) {
+        return least_height(space.holder_limit, p.x, p.y) <= p.z &&
+               static_cast<double>(disc_max_at(space.middle_foam, p.x, p.y, inner)) <= p.z + tool.flute_length;
+    });
+}
+
+std::vector<Pass> near_surface(const std::vector<Pass>& passes, const HeightMap& tip) {
+    return divided(passes, touching,
+                   [&](Vec3 p) { return static_cast<double>(disc_max_at(tip, p.x, p.y, touching)) >= p.z - touching; })
+        .free;
 }
 
 }  // namespace qchopper

@@ -24,4 +24,8 @@ ClippedPasses clipped(const std::vector<Pass>& passes, const CarvingSpace& space
 
 double length_of(const std::vector<Pass>& passes);
 
+// The parts of passes along which a tool is about 1.5 mm at most from touching, where `tip` is the tip surface of the
+// tool alone: where holder or spindle keep it farther away it finishes nothing. O(length / cell).
+std::vector<Pass> near_surface(const std::vector<Pass>& passes, const HeightMap& tip);
+
 }  // namespace qchopper

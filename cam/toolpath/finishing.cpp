@@ -8,10 +8,12 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -98,15 +100,66 @@ FinishingMasks masks_of(const HeightMap& tip, const FinishingRegion& region, dou
     return masks;
 }
 
-CellMask both(CellMask a, const CellMask& b) {
-    for (std::size_t i = 0; i < a.size(); ++i) a[i] = a[i] != 0 && b[i] != 0 ? 1 : 0;
-    return a;
+// The cells of the floor over which the tip is less than its radius above it, and those beside them.
+LevelFloor foot_of_walls(const HeightMap& tip, const FinishingRegion& floor, double radius) {
+    assert(floor.size() == tip.height.size());
+    LevelFloor foot;
+    foot.top = static_cast<double>(*std::min_element(floor.begin(), floor.end())) + radius;
+    foot.cells.assign(floor.size(), 0);
+    for (std::size_t i = 0; i < floor.size(); ++i) {
+        if (floor[i] < not_finished && static_cast<double>(tip.height[i]) < foot.top) foot.cells[i] = 1;
+    }
+    foot.cells = grown(foot.cells, tip.columns, tip.rows, 1);
+    return foot;
 }
 
-CellMask either(CellMask a, const CellMask& b) {
-    for (std::size_t i = 0; i < a.size(); ++i) a[i] = a[i] != 0 || b[i] != 0 ? 1 : 0;
-    return a;
-}
+// The cells that are at most so far from one of the mask, measured along the tip surface from cell to cell: sweeps in
+// both orders, until one changes nothing.
+class SurfaceGrowth {
+ public:
+    SurfaceGrowth(const CellMask& mask, const HeightMap& tip, double by)
+        : tip_(tip), by_(static_cast<float>(by)), distance_(mask.size(), std::numeric_limits<float>::infinity()) {
+        for (std::size_t i = 0; i < mask.size(); ++i) {
+            if (mask[i] != 0) distance_[i] = 0;
+        }
+        for (bool goes_on = true; goes_on;) {
+            const bool has_changed = sweep(true);
+            goes_on = sweep(false) || has_changed;
+        }
+    }
+    CellMask mask() const {
+        CellMask result(distance_.size());
+        for (std::size_t i = 0; i < result.size(); ++i) result[i] = distance_[i] <= by_ ? 1 : 0;
+        return result;
+    }
+
+ private:
+    bool sweep(bool is_forward) {
+        bool has_changed = false;
+        for (std::size_t k = 0; k < distance_.size(); ++k) {
+            const std::size_t i = is_forward ? k : distance_.size() - 1 - k;
+            if (distance_[i] == 0) continue;
+            const std::size_t column = i % tip_.columns;
+            float least = distance_[i];
+            if (column > 0) least = std::min(least, from(i, i - 1));
+            if (column + 1 < tip_.columns) least = std::min(least, from(i, i + 1));
+            if (i >= tip_.columns) least = std::min(least, from(i, i - tip_.columns));
+            if (i + tip_.columns < distance_.size()) least = std::min(least, from(i, i + tip_.columns));
+            if (least >= distance_[i] || least > by_) continue;
+            distance_[i] = least;
+            has_changed = true;
+        }
+        return has_changed;
+    }
+    float from(std::size_t to, std::size_t cell) const {
+        if (!(distance_[cell] < by_)) return std::numeric_limits<float>::infinity();
+        return distance_[cell] + std::hypot(static_cast<float>(tip_.cell), tip_.height[to] - tip_.height[cell]);
+    }
+
+    const HeightMap& tip_;
+    float by_;
+    std::vector<float> distance_;
+};
 
 // Cells that hang together, and how far apart their heights are.
 class SteepPatches {
@@ -175,20 +228,20 @@ std::vector<Pass> finishing_passes(const HeightMap& tip, const CarvingTool& tool
     FinishingMasks masks = masks_of(tip, region, radius, least_slope);
     report(1);
     SteepPatches(tip, masks).give_low_ones_to_flat(0.5 * step);
-    // Passes go on beyond the cells, but not over an edge down to where there is nothing to finish.
     const auto by = static_cast<std::size_t>(std::ceil(0.5 * step / tip.cell));
     const FinishingRegion wide_region = grown(region, tip.columns, tip.rows, by);
-    CellMask visited;
-    {
-        const FinishingMasks wide = masks_of(tip, wide_region, radius, least_slope);
-        visited = either(wide.flat, wide.steep);
-    }
     report(2);
     const RasterOptions common{radius, options.scallop, options.path_tolerance, 0.5 * step, options.rounding};
-    const CellMask steep = grown(masks.steep, tip.columns, tip.rows, by);
-    std::vector<Pass> passes = level_passes(tip, {masks.steep, steep}, wide_region, least_slope, common, context);
+    CellMask steep = SurfaceGrowth(masks.steep, tip, 0.5 * step + tip.cell).mask();
+    LevelFloor foot;
+    if (options.floor != nullptr) {
+        foot = foot_of_walls(tip, *options.floor, radius);
+        std::transform(steep.begin(), steep.end(), foot.cells.begin(), steep.begin(), std::bit_or<>());
+    }
+    std::vector<Pass> passes = level_passes(tip, {std::move(masks.steep), std::move(steep)}, {wide_region, foot},
+                                            least_slope, common, context);
     report(3);
-    const CellMask flat = both(grown(masks.flat, tip.columns, tip.rows, 2 * by), visited);
+    const CellMask flat = SurfaceGrowth(masks.flat, tip, step).mask();
     std::vector<Pass> rows = raster_passes(tip, {masks.flat, flat}, common, context);
     std::move(rows.begin(), rows.end(), std::back_inserter(passes));
     report(4);

@@ -24,6 +24,9 @@ struct FinishingOptions {
     double rounding = 0;  // distance from a corner at which the controller begins to round it; 0: it does not
     // Steeper ground (degrees) is carved along levels, the rest along rows.
     double steep_deg = 50;
+    // The floor around the piece, in the cells of the map: levels go round whatever stands on it, up to the radius
+    // of the tool above it. Nothing: there is none.
+    const FinishingRegion* floor = nullptr;
 };
 
 // The largest distance between neighbouring passes. Throws InputError (use) as finishing_passes does.

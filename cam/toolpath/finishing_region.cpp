@@ -109,6 +109,8 @@ SurfaceLeft::SurfaceLeft(const TriangleMesh& mesh, std::optional<std::int32_t> b
         first_point_[t + 1] = first_point_[t] + points;
     }
     left_.assign(first_point_.back(), all);
+    before_ = left_;
+    taken_by_.assign(left_.size(), 0);
 }
 
 template <class Visit>
@@ -130,6 +132,7 @@ void SurfaceLeft::for_each_point(std::size_t triangle, const Visit& visit) const
 FinishingRegion SurfaceLeft::take(const HeightMap& remaining, double near, double overlap, double worth) {
     assert(near > 0 && overlap >= 0);
     FinishingRegion region(remaining.height.size(), not_finished);
+    ++takes_;
     const std::uint8_t least_before = worth > 0 ? class_of(worth, near) : 0;
     parallel_ranges(0, mesh_->triangles.size(), triangles_at_once, [&](std::size_t first, std::size_t end) {
         for (std::size_t t = first; t < end; ++t) {
@@ -140,7 +143,9 @@ FinishingRegion SurfaceLeft::take(const HeightMap& remaining, double near, doubl
                 const Vec3 at = apply(remaining.piece_in_map, p);
                 const std::uint8_t k = foam_class(remaining, at, normal, near);
                 if (k >= left_[index]) return;
+                before_[index] = left_[index];
                 left_[index] = k;
+                taken_by_[index] = static_cast<std::uint16_t>(takes_);
                 const auto cell = cell_under(remaining, at);
                 if (cell) lower_cell(region[*cell], static_cast<float>(at.z));
             });
@@ -149,6 +154,26 @@ FinishingRegion SurfaceLeft::take(const HeightMap& remaining, double near, doubl
     const double beside = std::max(overlap, spacing_);
     return grown(region, remaining.columns, remaining.rows,
                  static_cast<std::size_t>(std::ceil(beside / remaining.cell)));
+}
+
+bool SurfaceLeft::give_back(std::size_t take, const HeightMap& remaining, double near) {
+    assert(take > 0 && take <= takes_ && near > 0);
+    std::atomic<bool> is_any = false;
+    parallel_ranges(0, mesh_->triangles.size(), triangles_at_once, [&](std::size_t first, std::size_t end) {
+        for (std::size_t t = first; t < end; ++t) {
+            const Vec3 normal = normalized(rotate(remaining.piece_in_map, area_vector(*mesh_, t)));
+            for_each_point(t, [&](std::size_t index, Vec3 p) {
+                if (taken_by_[index] != take) return;
+                const Vec3 at = apply(remaining.piece_in_map, p);
+                const std::uint8_t k = foam_class(remaining, at, normal, near);
+                if (k <= left_[index]) return;
+                left_[index] = std::min(k, before_[index]);
+                taken_by_[index] = 0;
+                is_any.store(true, std::memory_order_relaxed);
+            });
+        }
+    });
+    return is_any;
 }
 
 double SurfaceLeft::share_within(std::size_t k) const {

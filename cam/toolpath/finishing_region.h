@@ -37,6 +37,14 @@ class SurfaceLeft {
     // depend on the number of threads. O(points + cells).
     FinishingRegion take(const HeightMap& remaining, double near, double overlap, double worth = 0);
 
+    // The number of calls of take().
+    std::size_t takes() const { return takes_; }
+
+    // Corrects what the take of that number, the first is 1, has supposed to remain: points that it had, over which
+    // more is left, are left to other takes, as far as these find less foam than it or what was before it. Whether
+    // there are any. O(points + cells).
+    bool give_back(std::size_t take, const HeightMap& remaining, double near);
+
     // Share of the area over which at most `near` times 2^k is left, of the last `near`.
     double share_within(std::size_t k) const;
 
@@ -48,6 +56,9 @@ class SurfaceLeft {
     double spacing_;
     std::vector<std::size_t> first_point_;  // per triangle, and the end
     std::vector<std::uint8_t> left_;        // per point: k, or `all`
+    std::vector<std::uint8_t> before_;      // the same before the last take that had the point
+    std::vector<std::uint16_t> taken_by_;   // the number of that take; 0: none
+    std::size_t takes_ = 0;
 };
 
 // Adds the floor within a distance of the projection of the piece: of a map along the base's up, in which the floor is

@@ -245,26 +245,28 @@ double lowest_of(const HeightMap& tip, const CellMask& mask) {
 // much higher.
 class LevelContact {
  public:
-    LevelContact(const HeightMap& tip, const FinishingRegion& region, double radius, double slack)
-        : smooth_(tip), region_(region), radius_(radius), slack_(slack) {}
+    LevelContact(const HeightMap& tip, const LevelGround& ground, double radius, double slack)
+        : smooth_(tip), ground_(ground), radius_(radius), slack_(slack) {}
 
     bool holds(Point2 p, double z) const {
+        const LevelFloor& floor = ground_.floor;
+        if (z < floor.top && !floor.cells.empty() && floor.cells[smooth_.cell(p)] != 0) return true;
         const Point2 slope = smooth_.gradient(p);
         const double upright = 1 / std::sqrt(1 + slope.x * slope.x + slope.y * slope.y);
         const Point2 contact{p.x + radius_ * upright * slope.x, p.y + radius_ * upright * slope.y};
-        return z + radius_ * (1 - upright) + slack_ >= static_cast<double>(region_[smooth_.cell(contact)]);
+        return z + radius_ * (1 - upright) + slack_ >= static_cast<double>(ground_.region[smooth_.cell(contact)]);
     }
 
  private:
     SmoothTip smooth_;
-    const FinishingRegion& region_;
+    const LevelGround& ground_;
     double radius_;
     double slack_;
 };
 
 }  // namespace
 
-std::vector<Pass> level_passes(const HeightMap& tip, const PassCells& cells, const FinishingRegion& region,
+std::vector<Pass> level_passes(const HeightMap& tip, const PassCells& cells, const LevelGround& ground,
                                double least_slope, const RasterOptions& options, const Context& context) {
     assert(cells.wanted.size() == tip.height.size() && cells.allowed.size() == tip.height.size());
     assert(options.scallop > 0 && options.path_tolerance > 0 && least_slope > 0);
@@ -275,7 +277,7 @@ std::vector<Pass> level_passes(const HeightMap& tip, const PassCells& cells, con
     // A little above the lowest cell, where single precision may leave the floor uneven.
     const Levels levels{lowest + 1e-3, step / halvings};
     const double jump = std::sqrt(options.radius * tip.cell);
-    const LevelContact contact(tip, region, options.radius, step);
+    const LevelContact contact(tip, ground, options.radius, step);
     std::vector<LevelLine> lines =
         parts_where(level_lines(tip, cells.allowed, levels, halvings, 0, jump), options.overlap,
                     [&](Point2 p, std::size_t level) { return contact.holds(p, levels.height(level)); });

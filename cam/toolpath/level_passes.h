@@ -12,11 +12,23 @@
 
 namespace qchopper {
 
-// Levels over the cells that are allowed, where the tool touches the region. Their distance keeps the scallop height
-// wherever the surface is steeper than `least_slope` (rise over run); between two levels further ones are laid where it
-// curves inwards or is flatter over wanted cells. The lowest level is that of the lowest cell. Preconditions as of
-// raster_passes; the region has the size of the map too.
-std::vector<Pass> level_passes(const HeightMap& tip, const PassCells& cells, const FinishingRegion& region,
+// Cells over which all levels below a height are laid, whatever the tool touches.
+struct LevelFloor {
+    CellMask cells;  // empty: there are none
+    double top = 0;
+};
+
+// What levels are for; both must outlive it.
+struct LevelGround {
+    const FinishingRegion& region;
+    const LevelFloor& floor;
+};
+
+// Levels over the cells that are allowed, where the tool touches the region, and at the floor. Their distance keeps the
+// scallop height wherever the surface is steeper than `least_slope` (rise over run); between two levels further ones
+// are laid where it curves inwards or is flatter over wanted cells. The lowest level is that of the lowest cell.
+// Preconditions as of raster_passes; the region has the size of the map too.
+std::vector<Pass> level_passes(const HeightMap& tip, const PassCells& cells, const LevelGround& ground,
                                double least_slope, const RasterOptions& options, const Context& context = {});
 
 }  // namespace qchopper

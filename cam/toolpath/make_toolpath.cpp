@@ -1,5 +1,6 @@
 // One operation at a time: maps of its direction, passes, runs; then the stock learns what the runs removed. Of
-// finishing only the tip surface is kept, where foam blocks passes that may become free.
+// finishing only the tip surface is kept, where foam blocks passes that may become free. Where many stay blocked, the
+// surface under them is taken from the direction again.
 
 #include "cam/toolpath/make_toolpath.h"
 
@@ -13,7 +14,9 @@
 #include "base/error.h"
 #include "cam/setup/holder_limit.h"
 #include "cam/toolpath/clipped_passes.h"
+#include "cam/toolpath/disc_max.h"
 #include "cam/toolpath/finishing.h"
+#include "cam/toolpath/finishing_limit.h"
 #include "cam/toolpath/finishing_region.h"
 #include "cam/toolpath/in_process_stock.h"
 #include "cam/toolpath/links.h"
@@ -25,10 +28,11 @@ namespace {
 
 constexpr double cells_per_radius = 6;  // of the finest tool, in the maps of foam
 constexpr double least_foam_cell = 0.5;
-// Of holder and spindle from foam at the middles of cells: foam stands up to 0.71 cells beside where another direction
-// says so (holder_limit_over allows for the cell of this one).
-constexpr double clearance_cells = 1.2;
-constexpr double worth_a_round = 50;  // mm of passes that were blocked and are free now
+constexpr double worth_a_round = 50;   // mm of passes that were blocked and are free now
+constexpr float closed = 1e6F;         // mm, of a tip
+constexpr int most_handed_over = 2;    // times, of each kind of finishing
+constexpr double long_blocked = 20;    // mm of a pass; shorter ones lie between free ones
+constexpr double worth_another = 200;  // mm of such passes that are worth another direction
 constexpr double border_cells = 6;
 constexpr double surface_spacing = 1;       // mm, between points that are asked what is left over them
 constexpr double clear_of_table = 2;        // mm, of all points of a tool
@@ -64,12 +68,11 @@ class ToolpathMaker {
         total_ = (tools_.fine ? 5 : 3) * directions;
         for (std::size_t d = 0; d < directions; ++d) rough_along(d, tools_.roughing);
         for (std::size_t d = 0; d < directions; ++d) rough_along(d, tools_.finishing);
-        for (std::size_t d = 0; d < directions; ++d) finish_along(d, tools_.finishing, OperationKind::finishing);
-        retry(tools_.finishing);
+        finish(tools_.finishing, OperationKind::finishing);
         if (tools_.fine) {
             for (std::size_t d = 0; d < directions; ++d) rough_along(d, *tools_.fine);
-            for (std::size_t d = 0; d < directions; ++d) finish_along(d, *tools_.fine, OperationKind::fine_finishing);
-            while (retry(*tools_.fine) && retry(tools_.finishing)) {
+            finish(*tools_.fine, OperationKind::fine_finishing);
+            while (retry(tools_.finishing) && retry(*tools_.fine)) {
             }
         }
         report();
@@ -134,6 +137,7 @@ class ToolpathMaker {
         const HeightMap piece = target(direction, foam_cell_, 0);
         HeightMap tip = tip_surface(piece, tool, {operation.allowance});
         raise_to_holder(tip, piece, body_of(tool_index), setup_.piece_in_setup);
+        if (settings_.beside_block) close_beside_block(tip, direction, *settings_.beside_block);
         CarvingSpace space = space_of(piece, operation);
         space.tip_limit = &tip;
         space.is_limit_between = false;
@@ -145,8 +149,30 @@ class ToolpathMaker {
         add(std::move(operation), space, std::move(runs));
     }
 
-    void finish_along(std::size_t direction, std::size_t tool_index, OperationKind kind) {
-        report();
+    // No tip is allowed farther than that beside the projection of the block.
+    void close_beside_block(HeightMap& tip, std::size_t direction, double beside) const {
+        const HeightMap near = disc_max(InProcessStock(setup_, FoamCells::middles).highest(direction, tip), beside);
+        for (std::size_t i = 0; i < tip.height.size(); ++i) {
+            if (near.height[i] == HeightMap::nothing) tip.height[i] = closed;
+        }
+    }
+
+    // From all directions; then surface that stays blocked for one is left to the others.
+    void finish(std::size_t tool, OperationKind kind) {
+        const std::size_t directions = setup_.reach.directions.size();
+        for (std::size_t d = 0; d < directions; ++d) {
+            report();
+            finish_along(d, tool, kind, false);
+        }
+        retry(tool);
+        for (int k = 0; k < most_handed_over && directions > 1 && give_back(tool); ++k) {
+            for (std::size_t d = 0; d < directions; ++d) finish_along(d, tool, kind, true);
+            retry(tool);
+        }
+    }
+
+    // With `over_foam` it goes no deeper than the foam that stands lets it.
+    void finish_along(std::size_t direction, std::size_t tool_index, OperationKind kind, bool over_foam) {
         const CarvingTool& tool = machine_.tools[tool_index];
         FinishingOptions options;
         options.scallop = kind == OperationKind::finishing ? settings_.scallop : settings_.fine_scallop;
@@ -157,12 +183,19 @@ class ToolpathMaker {
         operation.scallop = options.scallop;
         operation.rounding = settings_.rounding;
         const double floor_z = finishing_floor(out_of(direction), 0.5 * tool.diameter);
-        HeightMap tip;
-        const FinishingRegion region = finishing_region(operation, floor_z, tip);
+        HeightMap own_tip;  // without holder and spindle
+        HeightMap tip = finishing_tip(operation, floor_z, own_tip);
+        if (over_foam) raise_to_limit(tip, limit_now(operation));
+        const FinishingRegion region = finishing_region(operation, tip);
         const bool is_empty = std::all_of(region.begin(), region.end(), [](float low) { return low == not_finished; });
-        if (is_empty) return;
+        const bool has_floor = direction == 0 && kind == OperationKind::finishing && !over_foam;
+        if (is_empty && !has_floor) return;
+        const FinishingRegion floor = has_floor ? floor_band(direction, floor_z, tool.diameter) : FinishingRegion();
+        if (has_floor) options.floor = &floor;
         std::vector<Pass> passes = finishing_passes(tip, tool, region, options, context_);
-        PassesLeft left{std::move(operation), std::move(tip), std::move(passes)};
+        passes = near_surface(passes, own_tip);
+        own_tip = {};
+        PassesLeft left{std::move(operation), std::move(tip), std::move(passes), left_.takes()};
         carve(left);
         if (!left.passes.empty()) blocked_.push_back(std::move(left));
     }
@@ -172,6 +205,7 @@ class ToolpathMaker {
         Operation operation;  // without runs
         HeightMap tip;
         std::vector<Pass> passes;
+        std::size_t take = 0;  // of SurfaceLeft; 0: the surface was given back
     };
 
     // Carves what foam does not block, again and again, because passes free others; the rest is left. The length in mm
@@ -187,7 +221,7 @@ class ToolpathMaker {
         double carved = 0;
         while (!left.passes.empty()) {
             context_.check_cancelled();
-            space.holder_limit = holder_limit_over(space.middle_foam, body, {clearance_cells * foam_cell_, 1});
+            space.holder_limit = holder_limit_over(space.middle_foam, body, finishing_gap(setup_, foam_cell_));
             ClippedPasses parts = clipped(left.passes, space, tool);
             left.passes = std::move(parts.blocked);
             const double length = length_of(parts.free);
@@ -214,18 +248,60 @@ class ToolpathMaker {
         return has_carved;
     }
 
-    // What the operation finishes; leaves the tip surface in `tip`.
-    FinishingRegion finishing_region(const Operation& operation, double floor_z, HeightMap& tip) {
+    // Marks surface under passes that stay blocked as left again. Whether there is any.
+    bool give_back(std::size_t tool) {
+        bool is_any = false;
+        for (PassesLeft& left : blocked_) {
+            if (left.operation.tool != tool || left.take == 0) continue;
+            double length = 0;
+            for (const Pass& pass : left.passes) length += length_of(pass) < long_blocked ? 0 : length_of(pass);
+            if (length < worth_another) continue;
+            context_.check_cancelled();
+            HeightMap tip = left.tip;
+            raise_to_limit(tip, limit_now(left.operation));
+            const HeightMap remaining = remaining_surface(tip, machine_.tools[tool]);
+            if (left_.give_back(left.take, remaining, near(left.operation))) is_any = true;
+            left.take = 0;
+        }
+        return is_any;
+    }
+
+    HeightMap limit_now(const Operation& operation) const {
+        const HeightMap foam = middle_stock_.highest(operation.direction, target(operation.direction, foam_cell_, 0));
+        return limit_over_foam(foam, machine_.tools[operation.tool], body_of(operation.tool),
+                               finishing_gap(setup_, foam_cell_));
+    }
+
+    // Foam up to so much is as good as none.
+    double near(const Operation& operation) const { return operation.scallop + settings_.cell; }
+
+    HeightMap finishing_tip(const Operation& operation, double floor_z, HeightMap& own_tip) const {
         const CarvingTool& tool = machine_.tools[operation.tool];
+        const ToolBody body = body_of(operation.tool);
         const HeightMap piece = target(operation.direction, settings_.cell, floor_z);
         // Edges are cut into by at most 0.11 mm by that, which with what paths between cells cut is below 0.25 mm.
-        tip = tip_surface(piece, tool, {0, finishing_border});
-        raise_to_holder(tip, piece, body_of(operation.tool), setup_.piece_in_setup);
+        own_tip = tip_surface(piece, tool, {0, finishing_border});
+        HeightMap tip = own_tip;
+        raise_to_holder(tip, piece, body, setup_.piece_in_setup);
+        const double foam_left = operation.scallop + settings_.path_tolerance;
+        raise_to_limit(tip, limit_over_finished(target(operation.direction, foam_cell_, 0), foam_left, body,
+                                                finishing_gap(setup_, foam_cell_)));
+        return tip;
+    }
+
+    // What the operation finishes over its tip surface.
+    FinishingRegion finishing_region(const Operation& operation, const HeightMap& tip) {
+        const CarvingTool& tool = machine_.tools[operation.tool];
         const bool is_fine = operation.kind == OperationKind::fine_finishing;
-        const double near = operation.scallop + settings_.cell;
-        FinishingRegion region = left_.take(remaining_surface(tip, tool), near, operation.step, is_fine ? near : 0);
-        if (operation.direction == 0 && !is_fine) add_floor_band(region, piece, tool.diameter);
-        return region;
+        return left_.take(remaining_surface(tip, tool), near(operation), operation.step, is_fine ? near(operation) : 0);
+    }
+
+    // The floor within a tool's width of the piece.
+    FinishingRegion floor_band(std::size_t direction, double floor_z, double width) const {
+        const HeightMap piece = target(direction, settings_.cell, floor_z);
+        FinishingRegion floor(piece.height.size(), not_finished);
+        add_floor_band(floor, piece, width);
+        return floor;
     }
 
     Operation new_operation(std::size_t direction, std::size_t tool, OperationKind kind) const {

@@ -4,8 +4,8 @@
 // once; within a tool directions come in the order of the setup. Before finishing, its tool clears where the tool of
 // the roughing was too thick, and so does that of the fine finishing. All is judged against the foam that stands at
 // that time (in_process_stock.h): passes of finishing that foam blocks are taken up again in rounds over the
-// directions, until a round carves nothing. The result does not depend on the number of threads
-// (tests/cam/toolpath/make_toolpath_test.cpp).
+// directions, until a round carves nothing. Surface under passes that stay blocked is then left to the other
+// directions. The result does not depend on the number of threads (tests/cam/toolpath/make_toolpath_test.cpp).
 
 #pragma once
 

@@ -1,4 +1,4 @@
-// Shortest path over the ends and middles of the gates. From each of them the directions that pass all gates up to the
+// Shortest path over places on the gates. From each of them the directions that pass all gates up to the
 // next one form a wedge, which narrows from gate to gate (H. Imai and M. Iri, "Polygonal approximations of a curve",
 // 1988, for the graph; the wedge after J. Sklansky and V. Gonzalez, "Fast polygonal approximation of digitized curves",
 // 1980). A corner that is rounded is compared with the gates at points of its parabola.
@@ -14,7 +14,7 @@
 namespace qchopper {
 namespace {
 
-constexpr std::size_t places = 3;  // on a gate: right end, middle, left end
+constexpr std::size_t places = 5;  // on a gate, from its right end to its left end
 constexpr double widest = 1.3;     // how far from the right end rounded corners may be, in widths
 
 Point2 minus(Point2 a, Point2 b) {
@@ -93,7 +93,7 @@ class FewestCorners {
     FewestCorners(const std::vector<Gate>& gates, bool is_closed, std::size_t reach)
         : gates_(gates), reach_(reach), cost_(gates.size()), before_(gates.size()) {
         for (std::size_t k = 0; k < places; ++k) {
-            if (!is_closed || k == 1) cost_[0][k] = {0, 0};
+            if (!is_closed || k == places / 2) cost_[0][k] = {0, 0};
         }
         for (std::size_t i = 0; i + 1 < gates.size(); ++i) {
             for (std::size_t k = 0; k < places; ++k) {
@@ -102,8 +102,8 @@ class FewestCorners {
         }
         const auto& last = cost_.back();
         end_.gate = gates.size() - 1;
-        end_.place =
-            is_closed ? 1 : static_cast<std::size_t>(std::min_element(last.begin(), last.end()) - last.begin());
+        end_.place = is_closed ? places / 2
+                               : static_cast<std::size_t>(std::min_element(last.begin(), last.end()) - last.begin());
     }
 
     std::vector<GatePlace> corners() const {

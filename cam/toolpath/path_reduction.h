@@ -28,10 +28,10 @@ struct ReductionOptions {
 };
 
 // A path from the first gate to the last that passes all of them in their order: of those whose corners lie on gates at
-// their right end, middle or left end one with the fewest corners, and of these one near the right ends. A corner may
-// be rounded where the parabola that begins min(rounding, half the shorter side) before it is nowhere right of the
-// exact line, to a fiftieth of the gates' width, and at most one and a half widths left of it; where that helps, a
-// corner to be rounded lies 0.3 widths beyond its gate. Of a closed line the last gate is the first again, and so is
+// five places from their right to their left end one with the fewest corners, and of these one near the right ends. A
+// corner may be rounded where the parabola that begins min(rounding, half the shorter side) before it is nowhere right
+// of the exact line, to a fiftieth of the gates' width, and at most one and a half widths left of it; where that helps,
+// a corner to be rounded lies 0.3 widths beyond its gate. Of a closed line the last gate is the first again, and so is
 // the last point of the path. Precondition: at least two gates, no width is 0. O(gates * gates passed by a straight
 // line).
 std::vector<ReducedPoint> reduced_path(const std::vector<Gate>& gates, bool is_closed, const ReductionOptions& options);

@@ -15,6 +15,41 @@
 namespace qchopper {
 namespace {
 
+constexpr std::size_t fine = 4;  // rows per cell that may be chosen
+
+// Rows of a tip surface that are a fraction of a cell apart: linear between middles, but the higher of both where an
+// edge may lie between them. That is never deeper below the surface than a line along a row (tip_surface.h).
+class FineRows {
+ public:
+    FineRows(const TipView& view, double radius) : view_(view), jump_(std::sqrt(radius * view.cell())) {}
+
+    double cell() const { return view_.cell(); }
+    std::size_t columns() const { return view_.columns(); }
+    std::size_t rows() const { return fine * (view_.rows() - 1) + 1; }
+    // Of the cell of a mask that is nearest.
+    std::size_t index(std::size_t column, std::size_t row) const {
+        return view_.index(column, (row + fine / 2) / fine);
+    }
+    double at(std::size_t column, std::size_t row) const {
+        const double part = static_cast<double>(row % fine) / fine;
+        const double low = view_.at(column, row / fine);
+        if (part == 0) return low;
+        const double high = view_.at(column, row / fine + 1);
+        return is_edge(low, high) ? std::max(low, high) : (1 - part) * low + part * high;
+    }
+    bool is_edge(double a, double b) const { return std::abs(a - b) > jump_; }
+    double slope_along(std::size_t column, std::size_t row) const {
+        return view_.slope_along(column, (row + fine / 2) / fine);
+    }
+    Vec3 point(double column, std::size_t row, double z) const {
+        return view_.point(column, static_cast<double>(row) / fine, z);
+    }
+
+ private:
+    const TipView& view_;
+    double jump_;
+};
+
 struct RowPart {
     std::size_t row = 0;
     std::size_t first = 0;
@@ -72,10 +107,9 @@ void add_parts(RowParts& parts, const RowPart& range, std::size_t gap, const IsM
 
 class Raster {
  public:
-    Raster(const TipView& view, const PassCells& cells, const RasterOptions& options, std::size_t pitch)
-        : view_(view), cells_(cells), options_(options), pitch_(pitch) {
+    Raster(const FineRows& view, const PassCells& cells, const RasterOptions& options, std::size_t pitch)
+        : view_(view), cells_(cells), options_(options), pitch_(pitch), gap_(2 * pitch / fine) {
         overlap_ = static_cast<std::size_t>(std::ceil(options.overlap / view.cell()));
-        jump_ = std::sqrt(options.radius * view.cell());
     }
 
     RowParts parts() const {
@@ -85,7 +119,7 @@ class Raster {
             const std::size_t row = std::min(i * pitch_ + pitch_ / 2, view_.rows() - 1);
             const RowPart whole{row, 0, view_.columns()};
             add_parts(
-                by_row[i], whole, 2 * pitch_, [&](std::size_t c) { return is_allowed(c, row); },
+                by_row[i], whole, gap_, [&](std::size_t c) { return is_allowed(c, row); },
                 [&](std::size_t from, std::size_t to) { return is_smooth(row, from, to); });
             lay_between(by_row[i], row, std::min(row + pitch_, view_.rows() - 1), {whole});
         });
@@ -100,7 +134,7 @@ class Raster {
     // Whether the tip surface has no edge between two columns.
     bool is_smooth(std::size_t row, std::size_t from, std::size_t to) const {
         for (std::size_t c = from; c < to; ++c) {
-            if (std::abs(view_.at(c + 1, row) - view_.at(c, row)) > jump_) return false;
+            if (view_.is_edge(view_.at(c + 1, row), view_.at(c, row))) return false;
         }
         return true;
     }
@@ -109,7 +143,7 @@ class Raster {
         if (cells_.wanted[view_.index(column, middle)] == 0) return false;
         const double z_low = view_.at(column, low);
         const double z_high = view_.at(column, high);
-        const double step = view_.cell() * static_cast<double>(high - low);
+        const double step = view_.cell() * static_cast<double>(high - low) / fine;
         const double along = view_.slope_along(column, middle);
         const double across = (z_high - z_low) / step;
         const double share = static_cast<double>(middle - low) / static_cast<double>(high - low);
@@ -128,13 +162,13 @@ class Raster {
     }
 
     void lay_between(RowParts& found, std::size_t low, std::size_t high, const RowParts& where) const {
-        if (high < low + 2) return;
+        if (high < low + 2 * fine) return;
         const std::size_t middle = (low + high) / 2;
         RowParts needed;
         for (RowPart part : where) {
             part.row = middle;
             add_parts(
-                needed, part, 2 * pitch_, [&](std::size_t c) { return is_needed(c, low, middle, high); },
+                needed, part, gap_, [&](std::size_t c) { return is_needed(c, low, middle, high); },
                 [&](std::size_t from, std::size_t to) { return is_smooth(middle, from, to); });
         }
         if (needed.empty()) return;
@@ -150,35 +184,34 @@ class Raster {
         lay_between(found, middle, high, needed);
     }
 
-    const TipView& view_;
+    const FineRows& view_;
     const PassCells& cells_;
     const RasterOptions& options_;
     std::size_t pitch_;
+    std::size_t gap_;  // in columns, over which parts of a row are joined
     std::size_t overlap_ = 0;
-    double jump_ = 0;
 };
 
 // Where the tip surface falls so far from one middle to the next that the tool would cut into an edge between them, the
 // higher of both holds for both: chords longer than sqrt(radius * cell) cut deeper than cell / 8.
-std::vector<double> lifted_heights(const TipView& view, const RowPart& part, double radius) {
-    const double jump = std::sqrt(radius * view.cell());
+std::vector<double> lifted_heights(const FineRows& view, const RowPart& part) {
     std::vector<double> z;
     z.reserve(part.end - part.first);
     for (std::size_t c = part.first; c < part.end; ++c) {
         const double own = view.at(c, part.row);
         double lifted = own;
-        if (c > part.first && view.at(c - 1, part.row) > own + jump) lifted = view.at(c - 1, part.row);
-        if (c + 1 < part.end && view.at(c + 1, part.row) > own + jump) {
-            lifted = std::max(lifted, view.at(c + 1, part.row));
+        for (const std::size_t beside : {c > part.first ? c - 1 : c, c + 1 < part.end ? c + 1 : c}) {
+            const double other = view.at(beside, part.row);
+            if (view.is_edge(other, own)) lifted = std::max(lifted, other);
         }
         z.push_back(lifted);
     }
     return z;
 }
 
-Pass pass_over(const TipView& view, const RowPart& part, const RasterOptions& options) {
+Pass pass_over(const FineRows& view, const RowPart& part, const RasterOptions& options) {
     constexpr double steepest = 5;  // a gate is at most so many tolerances high
-    const std::vector<double> z = lifted_heights(view, part, options.radius);
+    const std::vector<double> z = lifted_heights(view, part);
     std::vector<Gate> gates;
     for (std::size_t i = 0; i < z.size(); ++i) {
         const double before = z[i > 0 ? i - 1 : i];
@@ -193,14 +226,14 @@ Pass pass_over(const TipView& view, const RowPart& part, const RasterOptions& op
     Pass pass;
     for (const ReducedPoint& p : reduced_path(gates, false, {options.rounding})) {
         const double column = static_cast<double>(part.first) + p.at.x / view.cell();
-        pass.points.push_back({view.point(column, static_cast<double>(part.row), p.at.y), p.is_rounded});
+        pass.points.push_back({view.point(column, part.row, p.at.y), p.is_rounded});
     }
     return pass;
 }
 
 struct Pitch {
     bool is_turned = false;
-    std::size_t cells = 1;
+    std::size_t rows = fine;
 };
 
 Pitch best_pitch(const HeightMap& tip, const CellMask& mask, const RasterOptions& options) {
@@ -209,12 +242,12 @@ Pitch best_pitch(const HeightMap& tip, const CellMask& mask, const RasterOptions
     double least = std::numeric_limits<double>::infinity();
     for (const bool is_turned : {false, true}) {
         const StretchCounts counts = count_stretch(TipView(tip, is_turned), mask);
-        for (auto cells = static_cast<std::size_t>(std::max(1.0, 0.5 * chord)); static_cast<double>(cells) <= chord;
-             ++cells) {
-            const double density = row_density(counts, static_cast<double>(cells), chord);
+        for (auto rows = static_cast<std::size_t>(std::max(1.0, 0.5 * fine * chord));
+             static_cast<double>(rows) <= fine * chord; ++rows) {
+            const double density = row_density(counts, static_cast<double>(rows) / fine, chord);
             if (density >= least) continue;
             least = density;
-            best = {is_turned, cells};
+            best = {is_turned, rows};
         }
     }
     return best;
@@ -227,9 +260,10 @@ std::vector<Pass> raster_passes(const HeightMap& tip, const PassCells& cells, co
     assert(cells.wanted.size() == tip.height.size() && cells.allowed.size() == tip.height.size());
     assert(options.scallop > 0 && options.path_tolerance > 0);
     const Pitch pitch = best_pitch(tip, cells.wanted, options);
-    const TipView view(tip, pitch.is_turned);
+    const TipView turned(tip, pitch.is_turned);
+    const FineRows view(turned, options.radius);
     context.check_cancelled();
-    RowParts parts = Raster(view, cells, options, pitch.cells).parts();
+    RowParts parts = Raster(view, cells, options, pitch.rows).parts();
     parts.erase(std::remove_if(parts.begin(), parts.end(), [](const RowPart& p) { return p.end < p.first + 2; }),
                 parts.end());
     std::stable_sort(parts.begin(), parts.end(), [](const RowPart& a, const RowPart& b) { return a.row < b.row; });

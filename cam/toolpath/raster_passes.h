@@ -22,7 +22,7 @@ struct RasterOptions {
 
 // Rows over the cells that are allowed. Between two rows further ones are laid where the scallop would be higher over
 // wanted cells, and the overlap beside them. They run along whichever axis of the map gives the less length. Points lie
-// over the middles of cells. Preconditions: the masks have the size of the map, 0 < scallop <= radius,
+// over the middles of columns of cells. Preconditions: the masks have the size of the map, 0 < scallop <= radius,
 // path_tolerance > 0.
 std::vector<Pass> raster_passes(const HeightMap& tip, const PassCells& cells, const RasterOptions& options,
                                 const Context& context = {});

@@ -119,6 +119,7 @@ void check_settings(const ToolpathSettings& settings, const CellMachine& machine
     }
     const std::vector<std::pair<const char*, double>> not_negative{{"allowance", settings.allowance},
                                                                    {"fine_allowance", settings.fine_allowance},
+                                                                   {"beside_block", settings.beside_block.value_or(0)},
                                                                    {"rounding", settings.rounding},
                                                                    {"roughing_rounding", settings.roughing_rounding}};
     for (const auto& [name, value] : not_negative) {

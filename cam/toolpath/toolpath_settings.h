@@ -14,13 +14,15 @@ struct ToolpathSettings {
     double scallop = 0.25;       // height of the ridges that finishing leaves at most where the tool fits
     double fine_scallop = 0.25;  // the same of fine finishing
     double path_tolerance = 0.1;
-    double cell = 0.25;                        // of the maps for finishing
-    double allowance = 1.5;                    // that roughing leaves
-    double fine_allowance = 0.5;               // that roughing with the tool of the finishing leaves
-    double step_down = 15;                     // largest height of a level of roughing
-    double step_share = 0.6;                   // largest distance between passes of roughing, of the tool's diameter
-    double rounding = 5;                       // see PathMove::is_rounded: of finishing
-    double roughing_rounding = 1;              // the same of roughing; at most two thirds of the allowance
+    double cell = 0.25;            // of the maps for finishing
+    double allowance = 1.5;        // that roughing leaves
+    double fine_allowance = 0.5;   // that roughing with the tool of the finishing leaves
+    double step_down = 15;         // largest height of a level of roughing
+    double step_share = 0.6;       // largest distance between passes of roughing, of the tool's diameter
+    double rounding = 5;           // see PathMove::is_rounded: of finishing
+    double roughing_rounding = 1;  // the same of roughing; at most two thirds of the allowance
+    // How far roughing comes beside the projection of the block; nothing: as far as it takes to begin beside the foam.
+    std::optional<double> beside_block;
     std::optional<std::size_t> roughing_tool;  // index in CellMachine::tools; nothing: chosen by choose_tools()
     std::optional<std::size_t> finishing_tool;
     std::optional<std::size_t> fine_tool;  // only if the finishing tool is given too
@@ -44,10 +46,10 @@ ToolChoice choose_tools(const CellMachine& machine, const ToolpathSettings& sett
 // flute.
 double step_down_of(const CarvingTool& tool, const ToolpathSettings& settings);
 
-// Throws InputError (use), which names the setting, if one is not finite or not above zero (allowances may be zero),
-// if the height of levels is more than the flute of a tool that roughs, but for the fine one, if the distance between
-// passes is not less than the diameter, or the scallop height not less than the radius of the
-// tool of the finishing.
+// Throws InputError (use), which names the setting, if one is not finite or not above zero (allowances and beside_block
+// may be zero), if the height of levels is more than the flute of a tool that roughs, but for the fine one, if the
+// distance between passes is not less than the diameter, or the scallop height not less than the radius of the tool of
+// the finishing.
 void check_settings(const ToolpathSettings& settings, const CellMachine& machine, const ToolChoice& tools);
 
 // Feeds and speed of a tool, in an operation without runs. A cut has the largest feed of the tool's window, an approach

@@ -1,6 +1,6 @@
-// Triangles of the cap that lie between two planes are added up slab by slab, from both ends; those that a plane
-// crosses are clipped. Places become available, as planes go by, in the order of their heights; of each row the first
-// and the last one are kept.
+// Triangles of the cap that lie on one side of a plane are added up in the order of their heights, from both ends, so
+// that the sums of a plane do not depend on the others; those that a plane crosses are clipped. Places become
+// available, as planes go by, in the order of their heights; of each row the first and the last one are kept.
 
 #include "segment/score/old_joints.h"
 
@@ -82,9 +82,8 @@ struct AreaAndExtent {
 // Areas and extents of both sides of every plane.
 void part_cap(const OldJoint& joint, Vec3 normal, std::span<const double> offsets,
               std::vector<std::array<AreaAndExtent, 2>>& sides) {
-    const std::size_t planes = offsets.size();
-    std::vector<AreaAndExtent> whole_above(planes + 1);  // by the slab of the lowest corner
-    std::vector<AreaAndExtent> whole_below(planes + 1);  // by that of the highest
+    std::vector<std::pair<double, AreaAndExtent>> by_low;  // whole triangles, by their lowest corner
+    std::vector<std::pair<double, AreaAndExtent>> by_high;
     for (const auto& t : joint.triangles) {
         const std::array<double, 3> h{height(normal, t[0].point), height(normal, t[1].point),
                                       height(normal, t[2].point)};
@@ -96,8 +95,8 @@ void part_cap(const OldJoint& joint, Vec3 normal, std::span<const double> offset
         const std::size_t last = slab(high);
         AreaAndExtent whole;
         add_clipped(t, h, low, true, whole.area, whole.extent);
-        whole_above[first].add(whole);
-        whole_below[last].add(whole);
+        by_low.emplace_back(low, whole);
+        by_high.emplace_back(high, whole);
         for (std::size_t plane = first; plane < last; ++plane) {
             for (const bool above : {true, false}) {
                 AreaAndExtent& side = sides[plane][above ? 0 : 1];
@@ -105,15 +104,19 @@ void part_cap(const OldJoint& joint, Vec3 normal, std::span<const double> offset
             }
         }
     }
-    AreaAndExtent sum;
-    for (std::size_t plane = planes; plane-- > 0;) {
-        sum.add(whole_above[plane + 1]);
-        sides[plane][0].add(sum);
+    std::stable_sort(by_low.begin(), by_low.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::stable_sort(by_high.begin(), by_high.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    AreaAndExtent above;
+    auto next = by_low.begin();
+    for (std::size_t plane = offsets.size(); plane-- > 0;) {
+        for (; next != by_low.end() && next->first >= offsets[plane]; ++next) above.add(next->second);
+        sides[plane][0].add(above);
     }
-    sum = {};
-    for (std::size_t plane = 0; plane < planes; ++plane) {
-        sum.add(whole_below[plane]);
-        sides[plane][1].add(sum);
+    AreaAndExtent below;
+    next = by_high.begin();
+    for (std::size_t plane = 0; plane < offsets.size(); ++plane) {
+        for (; next != by_high.end() && next->first < offsets[plane]; ++next) below.add(next->second);
+        sides[plane][1].add(below);
     }
 }
 

@@ -38,29 +38,37 @@ void add_boxes(const PreparedPiece& prepared, Vec3 normal, std::span<const doubl
     slabs.inside.add_boxes();
     for (std::size_t c = 0; c < prepared.clusters.count(); ++c) add_cluster(prepared, c, slabs);
     const PlaneFrame frame = frame_across(normal);
+    std::array<double, 3> u{};
+    std::array<double, 3> v{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        u[k] = dot(prepared.sizes.axis[k], frame.u);
+        v[k] = dot(prepared.sizes.axis[k], frame.v);
+    }
     section.above.add_boxes();
     section.below.add_boxes();
     for (std::size_t l = 0; l < section.loops.size(); ++l) {
         const SectionLoop& loop = section.loops[l];
         const Vec3 origin = prepared.origin + (offsets[loop.plane] - height(normal, prepared.origin)) * normal;
-        PartBox& box = section.above.box(l);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3 axis = prepared.sizes.axis[k];
-            const double at = dot(axis, origin);
-            const double u = dot(axis, frame.u);
-            const double v = dot(axis, frame.v);
-            std::uint32_t i = loop.first_crossing;
-            for (std::uint32_t n = 0; n < loop.points; ++n, i = section.next[i]) {
-                const double along = at + u * slabs.point[i].x + v * slabs.point[i].y;
+        std::array<double, 3> at{};
+        for (std::size_t k = 0; k < 3; ++k) at[k] = dot(prepared.sizes.axis[k], origin);
+        PartBox box;
+        std::uint32_t i = loop.first_crossing;
+        for (std::uint32_t n = 0; n < loop.points; ++n, i = section.next[i]) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double along = at[k] + u[k] * slabs.point[i].x + v[k] * slabs.point[i].y;
                 box.include(k, along, along);
             }
         }
+        section.above.box(l) = box;
         section.below.box(l) = box;
     }
 }
 
 void add_seams(const Piece& piece, const Slabs& slabs, const Section& section, std::span<const double> offsets,
                std::span<std::optional<CutEvaluation>> evaluations) {
+    for (std::optional<CutEvaluation>& evaluation : evaluations) {
+        if (evaluation) evaluation->seam_mm = 0;
+    }
     const TriangleMesh& mesh = *piece.mesh;
     std::vector<double> cost(slabs.exit.size(), 1.0);  // per crossing, where it leaves its triangle
     std::uint32_t i = 0;

@@ -187,14 +187,15 @@ class SweepSide {
     std::vector<std::uint32_t> live_;                        // roots of the components added so far
 };
 
-// Fills in `s`, and returns what follows of the solids.
+// Fills in `s`, and returns what follows of the solids; their sizes only where `with_sizes`.
 std::vector<std::optional<CutEvaluation>> sweep_sections(const PreparedPiece& prepared, Vec3 normal,
-                                                         std::span<const double> offsets, SweptSections& s) {
+                                                         std::span<const double> offsets, SweptSections& s,
+                                                         bool with_sizes) {
     std::vector<std::optional<CutEvaluation>> evaluations(offsets.size());
     if (offsets.empty()) return evaluations;
     s.slabs = slabs(prepared, normal, offsets);
     s.section = find_section(prepared, s.slabs, offsets);
-    if (!prepared.sizes.of_cluster.empty()) add_boxes(prepared, normal, offsets, s.slabs, s.section);
+    if (with_sizes && !prepared.sizes.of_cluster.empty()) add_boxes(prepared, normal, offsets, s.slabs, s.section);
     assert(s.section.first_loop.size() == offsets.size() + 1 && s.section.first_loop.back() == s.section.loops.size());
     assert(std::is_sorted(s.section.first_loop.begin(), s.section.first_loop.end()));
     s.regions.assign(offsets.size(), {});
@@ -206,7 +207,6 @@ std::vector<std::optional<CutEvaluation>> sweep_sections(const PreparedPiece& pr
         }
         s.regions[plane] = regions(s.section, s.slabs, plane);
     }
-    if (prepared.has_seam) add_seams(*prepared.piece, s.slabs, s.section, offsets, evaluations);
     const std::vector<CavityLink> links = cavity_links(*prepared.piece->mesh, prepared.shells, normal);
     for (const bool above : {true, false}) {
         SweepSide(prepared, s.slabs, s.section, normal, offsets, links, above).run(evaluations, s.regions);
@@ -217,6 +217,7 @@ std::vector<std::optional<CutEvaluation>> sweep_sections(const PreparedPiece& pr
 void add_of_sections(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
                      const Objectives& objectives, const SweptSections& sections,
                      std::span<std::optional<CutEvaluation>> evaluations) {
+    if (prepared.has_seam) add_seams(*prepared.piece, sections.slabs, sections.section, offsets, evaluations);
     if (objectives.needs_connector())
         add_connector(prepared, normal, offsets, sections, objectives.connector, evaluations);
     if (objectives.needs_symmetry())
@@ -239,7 +240,7 @@ void add_structure(const PreparedPiece& prepared, Vec3 normal, std::span<const d
 std::vector<std::optional<CutEvaluation>> sweep_solids(const PreparedPiece& prepared, Vec3 normal,
                                                        std::span<const double> offsets) {
     SweptSections sections;
-    return sweep_sections(prepared, normal, offsets, sections);
+    return sweep_sections(prepared, normal, offsets, sections, true);
 }
 
 void add_fragility(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
@@ -262,17 +263,22 @@ void add_fragility(const PreparedPiece& prepared, Vec3 normal, std::span<const d
 void add_late_terms(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
                     const Objectives& objectives, std::span<std::optional<CutEvaluation>> evaluations) {
     add_fragility(prepared, normal, offsets, objectives, evaluations);
+    add_section_terms(prepared, normal, offsets, objectives, evaluations);
+}
+
+void add_section_terms(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
+                       const Objectives& objectives, std::span<std::optional<CutEvaluation>> evaluations) {
     add_structure(prepared, normal, offsets, evaluations);
-    if (!objectives.needs_connector() && !objectives.needs_symmetry()) return;
+    if (!prepared.has_seam && !objectives.needs_connector() && !objectives.needs_symmetry()) return;
     SweptSections sections;
-    sweep_sections(prepared, normal, offsets, sections);
+    sweep_sections(prepared, normal, offsets, sections, false);
     add_of_sections(prepared, normal, offsets, objectives, sections, evaluations);
 }
 
 std::vector<std::optional<CutEvaluation>> sweep(const PreparedPiece& prepared, Vec3 normal,
                                                 std::span<const double> offsets, const Objectives& objectives) {
     SweptSections sections;
-    std::vector<std::optional<CutEvaluation>> evaluations = sweep_sections(prepared, normal, offsets, sections);
+    std::vector<std::optional<CutEvaluation>> evaluations = sweep_sections(prepared, normal, offsets, sections, true);
     add_fragility(prepared, normal, offsets, objectives, evaluations);
     add_of_sections(prepared, normal, offsets, objectives, sections, evaluations);
     add_structure(prepared, normal, offsets, evaluations);

@@ -21,17 +21,20 @@ namespace qchopper {
 std::vector<std::optional<CutEvaluation>> sweep(const PreparedPiece& prepared, Vec3 normal,
                                                 std::span<const double> offsets, const Objectives& objectives);
 
-// The same without fragility. Measured by itself in docs/performance.md. Faces, cap area and fragility of a plane are
-// the same bits whatever other offsets are swept with it; volumes and base sums are not.
+// The solids and their sizes alone. Measured by itself in docs/performance.md. Faces, cap area and fragility of a plane
+// are the same bits whatever other offsets are swept with it; volumes and base sums are not.
 std::vector<std::optional<CutEvaluation>> sweep_solids(const PreparedPiece& prepared, Vec3 normal,
                                                        std::span<const double> offsets);
 
-// Fills in the fragility of evaluations that sweep_solids returned for the same offsets.
+// The terms that may wait until a plane can still win. They are filled in for evaluations that sweep_solids returned
+// for planes of the normal, all or some of them: the values of a plane are the same bits whatever others are asked
+// with it (tests/segment/score/connector_test.cpp).
 void add_fragility(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
                    const Objectives& objectives, std::span<std::optional<CutEvaluation>> evaluations);
-
-// The same, and structure, connector and symmetry where they have a weight: all terms that may wait until a plane can
-// still win.
+// Seam, structure, connector and symmetry where they have a weight.
+void add_section_terms(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
+                       const Objectives& objectives, std::span<std::optional<CutEvaluation>> evaluations);
+// Both.
 void add_late_terms(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
                     const Objectives& objectives, std::span<std::optional<CutEvaluation>> evaluations);
 

@@ -23,7 +23,13 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double scored_share = 0.9;   // of the distances
 constexpr double matched_share = 0.8;  // of the pairs
-constexpr double enough_turn = 5e-5;   // of the normal, in radians: a smaller one ends matching and fitting
+
+// How well matches are looked for.
+struct Matching {
+    std::size_t every = 1;      // n-th of the points is matched
+    double within = 1;          // a match may be so many times as far as the nearest point
+    double enough_turn = 5e-5;  // of the normal, in radians: a smaller one ends matching and fitting
+};
 
 // Points in a k-d tree without pointers: the middle one of a range divides it along the axis in which it is longest.
 class PointTree {
@@ -38,10 +44,15 @@ class PointTree {
         double distance2 = infinite;
         std::size_t point = 0;
     };
-    // The nearest of the points that lie above the plane, or of those that do not.
-    Found nearest(Vec3 p, const Plane& plane, bool above) const {
-        Found found;
-        search({p, plane, above}, 0, points_.size(), found);
+    // The nearest of the points that lie above the plane, or of those that do not. `near`: one of them, the match of a
+    // point nearby, which limits the search from the start; or none, of infinite distance.
+    Found nearest(Vec3 p, const Plane& plane, bool above, const Found& near, double within) const {
+        Found found = near;
+        if (near.distance2 < infinite) {
+            const Vec3 away = points_[near.point] - p;
+            found.distance2 = dot(away, away);
+        }
+        search({p, plane, above, within * within}, 0, points_.size(), {}, found);
         return found;
     }
 
@@ -51,6 +62,7 @@ class PointTree {
         Vec3 point;
         Plane plane;
         bool above;
+        double within2;
     };
 
     void divide(std::size_t begin, std::size_t end) {
@@ -79,7 +91,9 @@ class PointTree {
             found = {distance2, i};
     }
 
-    void search(const Query& query, std::size_t begin, std::size_t end, Found& found) const {
+    // `off`: along each axis at least so far the point lies outside the range (S. Arya and D. M. Mount, Algorithms for
+    // fast vector quantization, 1993).
+    void search(const Query& query, std::size_t begin, std::size_t end, Vec3 off, Found& found) const {
         if (end - begin <= per_leaf) {
             for (std::size_t i = begin; i < end; ++i) compare(query, i, found);
             return;
@@ -88,15 +102,16 @@ class PointTree {
         const int axis = axis_[middle];
         const double away = query.point[axis] - points_[middle][axis];
         if (away < 0)
-            search(query, begin, middle, found);
+            search(query, begin, middle, off, found);
         else
-            search(query, middle + 1, end, found);
-        if (away * away >= found.distance2) return;
+            search(query, middle + 1, end, off, found);
+        off[axis] = away;
+        if (query.within2 * dot(off, off) >= found.distance2) return;
         compare(query, middle, found);
         if (away < 0)
-            search(query, middle + 1, end, found);
+            search(query, middle + 1, end, off, found);
         else
-            search(query, begin, middle, found);
+            search(query, begin, middle, off, found);
     }
 
     std::vector<Vec3> points_;
@@ -111,13 +126,15 @@ struct Pair {
 };
 
 // Pairs of every n-th point. None where all points lie on one side.
-std::vector<Pair> matched(const PointTree& tree, const Plane& plane, std::size_t every) {
+std::vector<Pair> matched(const PointTree& tree, const Plane& plane, const Matching& how) {
     std::vector<Pair> pairs;
-    pairs.reserve(tree.points().size() / every + 1);
-    for (std::size_t i = 0; i < tree.points().size(); i += every) {
+    pairs.reserve(tree.points().size() / how.every + 1);
+    std::array<PointTree::Found, 2> last;  // below, above; points are near to those before them in the tree
+    for (std::size_t i = 0; i < tree.points().size(); i += how.every) {
         const Vec3 p = tree.points()[i];
         const bool is_above = height(plane.normal, p) > plane.offset;
-        const PointTree::Found found = tree.nearest(reflected(p, plane), plane, !is_above);
+        PointTree::Found& found = last[is_above ? 0 : 1];
+        found = tree.nearest(reflected(p, plane), plane, !is_above, found, how.within);
         if (found.distance2 == infinite) return {};
         pairs.push_back({p, tree.points()[found.point], found.distance2});
     }
@@ -136,8 +153,8 @@ void keep_closest(std::vector<Pair>& pairs, double share) {
     pairs.resize(kept);
 }
 
-double score(const PointTree& tree, const Plane& plane, std::size_t every) {
-    std::vector<Pair> pairs = matched(tree, plane, every);
+double score(const PointTree& tree, const Plane& plane, const Matching& how) {
+    std::vector<Pair> pairs = matched(tree, plane, how);
     if (pairs.empty()) return infinite;
     keep_closest(pairs, scored_share);
     double sum = 0;
@@ -194,14 +211,14 @@ Plane fitted(const std::vector<Pair>& pairs) {
     return canonical({n, dot(n, centre)});
 }
 
-Plane refined(const PointTree& tree, Plane plane, std::size_t every, int turns) {
+Plane refined(const PointTree& tree, Plane plane, const Matching& how, int turns) {
     for (int turn = 0; turn < turns; ++turn) {
-        std::vector<Pair> pairs = matched(tree, plane, every);
+        std::vector<Pair> pairs = matched(tree, plane, how);
         if (pairs.empty()) return plane;
         keep_closest(pairs, matched_share);
         const Plane before = plane;
         plane = fitted(pairs);
-        if (norm(plane.normal - before.normal) < enough_turn) return plane;
+        if (norm(plane.normal - before.normal) < how.enough_turn) return plane;
     }
     return plane;
 }
@@ -212,15 +229,15 @@ struct Scored {
 };
 
 // Scores the planes with every n-th point and keeps so many of the best. Of equal scores the earlier plane is better.
-void keep_best(std::vector<Scored>& planes, const PointTree& tree, std::size_t every, std::size_t kept) {
-    parallel_for(0, planes.size(), [&](std::size_t i) { planes[i].score = score(tree, planes[i].plane, every); });
+void keep_best(std::vector<Scored>& planes, const PointTree& tree, const Matching& how, std::size_t kept) {
+    parallel_for(0, planes.size(), [&](std::size_t i) { planes[i].score = score(tree, planes[i].plane, how); });
     std::stable_sort(planes.begin(), planes.end(), [](const Scored& a, const Scored& b) { return a.score < b.score; });
     planes.resize(std::min(planes.size(), kept));
 }
 
-void refine(std::vector<Scored>& planes, const PointTree& tree, std::size_t every, int turns) {
+void refine(std::vector<Scored>& planes, const PointTree& tree, const Matching& how, int turns) {
     parallel_for(0, planes.size(),
-                 [&](std::size_t i) { planes[i].plane = refined(tree, planes[i].plane, every, turns); });
+                 [&](std::size_t i) { planes[i].plane = refined(tree, planes[i].plane, how, turns); });
 }
 
 // The triangles of solids whose area is too small. Empty: none.
@@ -283,15 +300,17 @@ std::optional<SymmetryPlane> symmetry_plane(const TriangleMesh& scan, const Symm
         if (d.z > 0) planes.push_back({canonical({d, dot(d, centre)})});
     }
     // Points of a k-d tree in its order: every n-th of them are spread over the surface.
-    const auto every = [&](std::size_t of) { return std::max<std::size_t>(1, options.points / of); };
-    keep_best(planes, tree, every(250), planes.size() / 5);
-    keep_best(planes, tree, every(1'000), 6 * options.refined);
-    refine(planes, tree, every(400), 10);
-    keep_best(planes, tree, every(1'000), options.refined);
-    refine(planes, tree, every(2'000), 6);
-    keep_best(planes, tree, every(2'500), 1);
-    refine(planes, tree, 1, 8);
-    keep_best(planes, tree, 1, 1);
+    const auto some = [&](std::size_t of, double within, double enough_turn) {
+        return Matching{std::max<std::size_t>(1, options.points / of), within, enough_turn};
+    };
+    keep_best(planes, tree, some(250, 2, 0), planes.size() / 5);
+    keep_best(planes, tree, some(1'000, 2, 0), 6 * options.refined);
+    refine(planes, tree, some(400, 1.5, 2e-3), 10);
+    keep_best(planes, tree, some(1'000, 1.5, 0), options.refined);
+    refine(planes, tree, some(2'000, 1.2, 5e-4), 6);
+    keep_best(planes, tree, some(2'500, 1, 0), 1);
+    refine(planes, tree, {}, 8);
+    keep_best(planes, tree, {}, 1);
     if (planes.front().score == infinite) return std::nullopt;
     return SymmetryPlane{planes.front().plane, planes.front().score, std::sqrt(samples.area_each_mm2)};
 }

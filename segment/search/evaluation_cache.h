@@ -54,13 +54,13 @@ struct ReachEvaluations {
     std::set<std::pair<std::size_t, std::size_t>> for_size;  // the candidates of a piece that is too large
 };
 
-// Which terms of the planes of a normal are evaluated.
+// Which terms of a plane are evaluated.
 enum class LateStage : std::uint8_t { fast, fragility, whole };
 
 // What is known of the candidates of a piece whose slow terms are evaluated only as far as needed (late_rank.h).
 struct LateEvaluations {
-    PieceEvaluations planes;           // slow terms are 0 where they are not evaluated
-    std::vector<LateStage> of_normal;  // in the order of the candidates; empty: not swept yet
+    PieceEvaluations planes;       // slow terms are 0 where they are not evaluated
+    std::vector<LateStage> stage;  // one per candidate; empty: not swept yet
 };
 
 // Orders planes that are equal bit for bit.

@@ -1,4 +1,6 @@
-// Normals are always evaluated whole, so that their values have the same bits in whatever order they are asked for.
+// The values of a plane are the same bits whatever other planes of its normal are evaluated with it (sweep.h), so that
+// they do not depend on what was asked before. Each visit of a normal costs a pass over the piece, so that all of its
+// planes that may be among the best are evaluated at once.
 
 #include "segment/search/late_rank.h"
 
@@ -16,7 +18,7 @@
 namespace qchopper {
 namespace {
 
-constexpr std::size_t normals_at_once = 4;  // fixed, so that what is evaluated does not depend on the threads
+constexpr std::size_t normals_at_once = 8;  // fixed, so that what is evaluated does not depend on the threads
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 class LateRanking {
@@ -41,25 +43,24 @@ class LateRanking {
     std::vector<Ranked> run() {
         const StageTimer stage(context_, "planes evaluated");
         sweep_all();
+        parallel_for(0, groups_.size(), [&](std::size_t g) { update(groups_[g]); });
         double most = limit();
         for (std::vector<std::size_t> open = can_win(most); !open.empty(); open = can_win(most)) {
             open.resize(std::min(open.size(), normals_at_once));
-            parallel_for(0, open.size(), [&](std::size_t i) { advance(open[i]); });
+            prepared();
+            parallel_for(0, open.size(), [&](std::size_t i) { advance(groups_[open[i]], most); });
             most = limit();
-            context_.progress("planes evaluated", done(), late_.planes.candidates.size());
+            const auto done = std::count(late_.stage.begin(), late_.stage.end(), LateStage::whole);
+            context_.progress("planes evaluated", static_cast<std::size_t>(done), late_.stage.size());
         }
         PieceEvaluations known;
-        for (std::size_t g = 0; g < groups_.size(); ++g) {
-            if (!is_whole(g)) continue;
-            for (std::size_t i = groups_[g].first; i < groups_[g].last; ++i) {
-                known.candidates.push_back(late_.planes.candidates[i]);
-                known.evaluations.push_back(late_.planes.evaluations[i]);
-            }
+        for (std::size_t i = 0; i < known_.size(); ++i) {
+            if (late_.stage[i] != LateStage::whole || known_[i].total > most + tie) continue;
+            known.candidates.push_back(late_.planes.candidates[i]);
+            known.evaluations.push_back(late_.planes.evaluations[i]);
         }
         std::vector<Ranked> ranked = rank(known, others_, objectives_, scan_);
-        std::erase_if(ranked, [&](const Ranked& r) {
-            return r.terms.total > most + tie || (most < infinite && is_forbidden(r.terms, objectives_));
-        });
+        if (most < infinite) std::erase_if(ranked, [&](const Ranked& r) { return is_forbidden(r.terms, objectives_); });
         return ranked;
     }
 
@@ -67,6 +68,10 @@ class LateRanking {
     struct Group {  // candidates of one normal
         std::size_t first;
         std::size_t last;
+    };
+    struct Known {  // of a candidate: its total as far as it is evaluated
+        double total = infinite;
+        bool is_out = false;
     };
 
     void find_groups() {
@@ -77,13 +82,7 @@ class LateRanking {
             if (!continues) groups_.push_back({i, i});
             groups_.back().last = i + 1;
         }
-    }
-
-    std::vector<double> offsets_of(const Group& group) const {
-        std::vector<double> offsets;
-        for (std::size_t i = group.first; i < group.last; ++i)
-            offsets.push_back(late_.planes.candidates[i].plane.offset);
-        return offsets;
+        known_.resize(all.size());
     }
 
     const PreparedPiece& prepared() {
@@ -92,45 +91,84 @@ class LateRanking {
     }
 
     void sweep_all() {
-        if (late_.of_normal.size() == groups_.size()) return;
+        if (late_.stage.size() == late_.planes.candidates.size()) return;
         const PreparedPiece& piece = prepared();
         parallel_for(0, groups_.size(), [&](std::size_t g) {
             context_.check_cancelled();
             const Group& group = groups_[g];
-            auto swept = sweep_solids(piece, late_.planes.candidates[group.first].plane.normal, offsets_of(group));
+            std::vector<double> offsets;
+            for (std::size_t i = group.first; i < group.last; ++i)
+                offsets.push_back(late_.planes.candidates[i].plane.offset);
+            auto swept = sweep_solids(piece, late_.planes.candidates[group.first].plane.normal, offsets);
             std::move(swept.begin(), swept.end(),
                       late_.planes.evaluations.begin() + static_cast<std::ptrdiff_t>(group.first));
         });
-        late_.of_normal.assign(groups_.size(), LateStage::fast);
+        late_.stage.assign(late_.planes.candidates.size(), LateStage::fast);
     }
 
-    bool is_whole(std::size_t g) const { return late_.of_normal[g] == LateStage::whole; }
+    void update(const Group& group) {
+        for (std::size_t i = group.first; i < group.last; ++i) {
+            const std::optional<CutEvaluation>& evaluation = late_.planes.evaluations[i];
+            const std::optional<Terms> t = evaluation ? terms(*evaluation, others_, objectives_, scan_) : std::nullopt;
+            known_[i] = t ? Known{t->total, is_forbidden(*t, objectives_)} : Known{};
+        }
+    }
 
-    // Fragility first: it takes a tenth of the time of the others and tells more planes apart.
-    void advance(std::size_t g) {
+    bool is_open(std::size_t i, double most) const {
+        return late_.stage[i] != LateStage::whole && known_[i].total < infinite && known_[i].total <= most + tie;
+    }
+
+    // Evaluates the next terms of the planes of a normal that may be among the best: fragility first, because it takes
+    // a tenth of the time of the others and tells more planes apart.
+    void advance(const Group& group, double most) {
         context_.check_cancelled();
-        const Group& group = groups_[g];
-        const Vec3 normal = late_.planes.candidates[group.first].plane.normal;
-        const auto of_group = std::span(late_.planes.evaluations).subspan(group.first, group.last - group.first);
-        LateStage& stage = late_.of_normal[g];
-        if (stage == LateStage::fast) {
-            add_fragility(*prepared_, normal, offsets_of(group), objectives_, of_group);
-            stage = LateStage::fragility;
-        } else {
-            add_late_terms(*prepared_, normal, offsets_of(group), objectives_, of_group);
-            stage = LateStage::whole;
+        std::vector<std::size_t> chosen;
+        LateStage stage = LateStage::fragility;
+        for (std::size_t i = group.first; i < group.last; ++i) {
+            if (!is_open(i, most)) continue;
+            if (late_.stage[i] == LateStage::fast && stage == LateStage::fragility) {
+                stage = LateStage::fast;
+                chosen.clear();
+            }
+            if (late_.stage[i] == stage) chosen.push_back(i);
+        }
+        if (stage == LateStage::fragility && most == infinite && objectives_.forbidden.empty()) keep_least(chosen);
+        evaluate(chosen, stage);
+        update(group);
+    }
+
+    // While no limit is known: as many planes as are asked for, the least totals.
+    void keep_least(std::vector<std::size_t>& chosen) const {
+        if (chosen.size() <= best_) return;
+        std::stable_sort(chosen.begin(), chosen.end(),
+                         [&](std::size_t a, std::size_t b) { return known_[a].total < known_[b].total; });
+        chosen.resize(best_);
+        std::sort(chosen.begin(), chosen.end());
+    }
+
+    // The terms that follow `stage`, of planes of one normal.
+    void evaluate(const std::vector<std::size_t>& chosen, LateStage stage) {
+        std::vector<double> offsets;
+        std::vector<std::optional<CutEvaluation>> evaluations;
+        for (const std::size_t i : chosen) {
+            offsets.push_back(late_.planes.candidates[i].plane.offset);
+            evaluations.push_back(std::move(late_.planes.evaluations[i]));
+        }
+        const Vec3 normal = late_.planes.candidates[chosen.front()].plane.normal;
+        const auto add = stage == LateStage::fast ? add_fragility : add_section_terms;
+        add(*prepared_, normal, offsets, objectives_, evaluations);
+        for (std::size_t k = 0; k < chosen.size(); ++k) {
+            late_.planes.evaluations[chosen[k]] = std::move(evaluations[k]);
+            late_.stage[chosen[k]] = stage == LateStage::fast ? LateStage::fragility : LateStage::whole;
         }
     }
 
     // The total of the last of the best planes that are known; infinite if there are too few.
     double limit() const {
         std::vector<double> totals;
-        for (std::size_t g = 0; g < groups_.size(); ++g) {
-            if (!is_whole(g)) continue;
-            for (std::size_t i = groups_[g].first; i < groups_[g].last; ++i) {
-                const std::optional<Terms> t = terms_of(i);
-                if (t && !is_forbidden(*t, objectives_)) totals.push_back(t->total);
-            }
+        for (std::size_t i = 0; i < known_.size(); ++i) {
+            if (late_.stage[i] == LateStage::whole && known_[i].total < infinite && !known_[i].is_out)
+                totals.push_back(known_[i].total);
         }
         if (totals.size() < best_) return infinite;
         const auto last = totals.begin() + static_cast<std::ptrdiff_t>(best_) - 1;
@@ -138,36 +176,21 @@ class LateRanking {
         return *last;
     }
 
-    // The normals that are not known and may hold one of the best planes, the least bound first.
-    std::vector<std::size_t> can_win(double most) {
+    // The normals with planes that are not known and may be among the best, the least total first.
+    std::vector<std::size_t> can_win(double most) const {
         std::vector<std::pair<double, std::size_t>> open;
         for (std::size_t g = 0; g < groups_.size(); ++g) {
-            if (is_whole(g)) continue;
             double least = infinite;
             for (std::size_t i = groups_[g].first; i < groups_[g].last; ++i) {
-                if (const std::optional<Terms> t = terms_of(i)) least = std::min(least, t->total);
+                if (is_open(i, most)) least = std::min(least, known_[i].total);
             }
-            if (least < infinite && least <= most + tie) open.emplace_back(least, g);
+            if (least < infinite) open.emplace_back(least, g);
         }
         std::sort(open.begin(), open.end());
         std::vector<std::size_t> groups;
         groups.reserve(open.size());
         for (const auto& [least, g] : open) groups.push_back(g);
-        if (!groups.empty()) prepared();
         return groups;
-    }
-
-    std::optional<Terms> terms_of(std::size_t i) const {
-        if (!late_.planes.evaluations[i]) return std::nullopt;
-        return terms(*late_.planes.evaluations[i], others_, objectives_, scan_);
-    }
-
-    std::size_t done() const {
-        std::size_t planes = 0;
-        for (std::size_t g = 0; g < groups_.size(); ++g) {
-            if (is_whole(g)) planes += groups_[g].last - groups_[g].first;
-        }
-        return planes;
     }
 
     const Piece& piece_;
@@ -179,6 +202,7 @@ class LateRanking {
     ScanShare scan_;
     std::size_t best_;
     std::vector<Group> groups_;
+    std::vector<Known> known_;  // per candidate
     std::optional<PreparedPiece> prepared_;
 };
 

@@ -2,8 +2,8 @@
 // connector, symmetry.
 //
 // No term is negative, so the cost without the slow terms is a bound. Normals are taken in the order of their least
-// bound, a few at a time; of their planes fragility is evaluated first, and the other slow terms where the bound with
-// it is the least. It ends when no other plane can be among the best, which are the same as if all were evaluated
+// bound, a few at a time; of those of their planes that can be among the best fragility is evaluated first, then the
+// other slow terms. It ends when no other plane can be, so that the best are the same as if all were evaluated
 // (tests/segment/search/late_rank_test.cpp). docs/decisions/0027.
 
 #pragma once

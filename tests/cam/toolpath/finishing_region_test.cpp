@@ -92,6 +92,31 @@ TEST(SurfaceLeft, AnotherDirectionFinishesWhatTheFirstDoesNotSee) {
     EXPECT_GT(cells_of(first), 4000U);
 }
 
+TEST(SurfaceLeft, WhatIsGivenBackIsLeftToTheNextTake) {
+    const TriangleMesh mesh = shapes::box({0, 0, 0}, {60, 40, 20}, 4);
+    const auto setup = setup_of(mesh, 8);
+    const HeightMap closing = closing_of(setup, mesh, 0, 12);
+    // Over one half of the top there is foam after all.
+    HeightMap more = closing;
+    for (std::size_t i = 0; i < more.height.size(); ++i) {
+        const double x = (static_cast<double>(i % more.columns) + 0.5) * cell;
+        if (x > 0.5 * cell * static_cast<double>(more.columns)) more.height[i] += 30;
+    }
+    SurfaceLeft surface(mesh, std::nullopt);
+    EXPECT_EQ(surface.takes(), 0U);
+    const std::size_t all = cells_of(surface.take(closing, near, 0));
+    const double share = surface.share_within(0);
+    EXPECT_FALSE(surface.give_back(1, closing, near));
+    EXPECT_EQ(cells_of(surface.take(closing, near, 0)), 0U);
+    EXPECT_FALSE(surface.give_back(2, more, near)) << "that take had nothing";
+    EXPECT_TRUE(surface.give_back(1, more, near));
+    EXPECT_NEAR(surface.share_within(0), 0.5 * share, 0.1);
+    EXPECT_EQ(cells_of(surface.take(more, near, 0)), 0U) << "no better than what is known";
+    const std::size_t again = cells_of(surface.take(closing, near, 0));
+    EXPECT_NEAR(static_cast<double>(again), 0.5 * static_cast<double>(all), 0.1 * static_cast<double>(all));
+    EXPECT_EQ(surface.share_within(0), share);
+}
+
 TEST(SurfaceLeft, AFinerToolGoesOnlyWhereMoreIsLeft) {
     // A groove of radius 4 is finished by a ball of radius 3 and not by one of radius 6.
     TriangleMesh mesh = bumpy(60, 120, 0, 1);

@@ -205,6 +205,44 @@ TEST(Finishing, BumpyPiecesAreNeverGougedAndLittleIsLeft) {
     }
 }
 
+// Under a ball that floats there is nothing to finish but what stands on the floor within a tool's width of it.
+TEST(Finishing, TheFloorIsClearedWithoutTheWallBesideIt) {
+    const TriangleMesh mesh = shapes::ball({0, 0, 80}, 25, 48);
+    const auto setup = setup_of(shapes::box({-25, -25, 0}, {25, 25, 105}), 20);
+    const CarvingTool tool = ball_tool(12);
+    const HeightMap target = target_map(setup, mesh, 0, {cell, -6, 0});
+    const HeightMap tip = tip_surface(target, tool);
+    const FinishingRegion region = SurfaceLeft(mesh, std::nullopt).take(remaining_surface(tip, tool), 0.5, 3);
+    FinishingRegion floor(region.size(), not_finished);
+    add_floor_band(floor, target, 12);
+    FinishingOptions options;
+    options.floor = &floor;
+    const double floor_z = setup_to_map(setup, target, {0, 0, -6}).z;
+    const std::vector<Pass> passes = finishing_passes(tip, tool, region, options);
+    for (const Pass& pass : passes) {
+        for (const PassPoint& point : pass.points) {
+            const double over = point.tip.z - floor_z;
+            EXPECT_TRUE(over < 6 || over > 50) << over;
+        }
+    }
+    HeightMap stock = target;
+    std::fill(stock.height.begin(), stock.height.end(), 1e4F);
+    const HeightMap left = replayed(stock, passes, tool);
+    const double base_z = floor_z + 6;
+    std::size_t seen = 0;
+    for (std::size_t row = 0; row < left.rows; ++row) {
+        for (std::size_t column = 0; column < left.columns; ++column) {
+            const Vec3 in_map{(static_cast<double>(column) + 0.5) * cell, (static_cast<double>(row) + 0.5) * cell, 0};
+            const Vec3 p = apply_inverse(target.piece_in_map, in_map);
+            const double from_wall = std::hypot(p.x, p.y) - 25;
+            if (from_wall < 3 * cell || from_wall > 11) continue;
+            ++seen;
+            EXPECT_LE(static_cast<double>(left.at(column, row)), base_z + cell) << from_wall;
+        }
+    }
+    EXPECT_GT(seen, 10'000U);
+}
+
 TEST(Finishing, NoPassIsBelowTheTipSurface) {
     const TriangleMesh mesh = bumpy(50, 30, 70, 9);
     const Finished finished(mesh, 1, 30);

@@ -151,6 +151,126 @@ TEST(MakeToolpath, CarvesTheFootOfAWallThatTheHolderJustPasses) {
     }
 }
 
+TEST(MakeToolpath, FinishesAWallDownToWhereTheHolderMeetsItsTop) {
+    // The holder of the finishing tool, 150 mm above its tip, lets the tip come to a height of 50 beside the wall.
+    const TriangleMesh mesh = shapes::box({0, 0, 0}, {16, 16, 200});
+    const auto setup = setup_of(mesh, 5);
+    const Cell cell = ready_cell();
+    ToolpathSettings settings;
+    settings.has_fine_finishing = false;
+    PlainReplay replay(setup, cell, 1.9);
+    double on_air = 0;  // length of cuts that come nowhere near the piece
+    for (const Operation& operation : make_toolpath(setup, mesh, cell, settings).operations) {
+        replay.carve(operation);
+        if (operation.kind != OperationKind::finishing) continue;
+        for (const PathRun& run : operation.runs) {
+            Vec3 at = run.start;
+            for (const PathMove& move : run.moves) {
+                const bool is_far = std::max(std::abs(move.tip.x), std::abs(move.tip.y)) > 8 + 6 + 1.5;
+                if (move.kind == MoveKind::cut && is_far && move.tip.z > 2) on_air += norm(move.tip - at);
+                at = move.tip;
+            }
+        }
+    }
+    expect_clean(replay, "wall");
+    EXPECT_LT(on_air, 200) << "along the limit of the holder nothing is finished";
+    for (std::size_t i = 0; i < replay.points().size(); ++i) {
+        const Vec3 p = replay.points()[i];
+        const double beside = std::max(std::abs(p.x), std::abs(p.y)) - 8;
+        const bool is_on_wall = beside > 0.8 && beside < 4.5 && p.z > 53.8 && p.z < 190;
+        ASSERT_FALSE(is_on_wall && replay.is_foam(i)) << p.x << " " << p.y << " " << p.z;
+    }
+}
+
+// A wall on a plate, and tools with wide holders: foam that stands beside the wall, because no direction comes to it,
+// keeps them away from the plate.
+struct WallAndPlate {
+    TriangleMesh mesh = shapes::joined({shapes::box({0, 0, 0}, {160, 30, 10}), shapes::box({0, 0, 10}, {20, 30, 330})});
+    Setup setup;
+    Cell cell = ready_cell();
+
+    explicit WallAndPlate(double tilt_deg) : setup(setup_of(mesh, 2, tilt_deg)) {
+        cell.machine->spindle.body_radius = 0;
+        for (CarvingTool& tool : cell.machine->tools) tool.holder = {{120, 50}};
+    }
+};
+
+TEST(MakeToolpath, SurfaceThatStaysBlockedIsLeftToAnotherDirection) {
+    // Seen from above the tip may come to x = 80, but foam stands as far as x = 50 and up to z = 180: the holder meets
+    // it where the tip is nearer than x = 110. In the other direction, 8 degrees from there, the holder is farther
+    // away.
+    const WallAndPlate piece(8);
+    ToolpathSettings settings = coarse_settings();
+    settings.has_fine_finishing = false;
+    double from_above = 0;
+    double tilted = 0;
+    const Toolpath path = make_toolpath(piece.setup, piece.mesh, piece.cell, settings);
+    for (const Operation& operation : path.operations) {
+        if (operation.kind != OperationKind::finishing) continue;
+        for (const PathRun& run : operation.runs) {
+            Vec3 at = run.start;
+            for (const PathMove& move : run.moves) {
+                // On the plate, whose middle is at x = 80 in the mesh.
+                const bool is_in = std::abs(move.tip.z - 10) < 1 && move.tip.x > 15 && move.tip.x < 25;
+                if (move.kind == MoveKind::cut && is_in)
+                    (operation.direction == 0 ? from_above : tilted) += norm(move.tip - at);
+                at = move.tip;
+            }
+        }
+    }
+    EXPECT_LT(from_above, 1);
+    EXPECT_GT(tilted, 50);
+}
+
+TEST(MakeToolpath, PassesThatFoamBlocksAreTakenUpAgainWhenAnotherDirectionHasRemovedIt) {
+    // Roughing from both directions leaves foam on the wall, which the holder meets until the tilted tool finishes it.
+    const WallAndPlate piece(30);
+    ToolpathSettings settings = coarse_settings();
+    settings.has_fine_finishing = false;
+    bool has_tilted = false;
+    double again = 0;
+    for (const Operation& operation : make_toolpath(piece.setup, piece.mesh, piece.cell, settings).operations) {
+        if (operation.kind != OperationKind::finishing) continue;
+        has_tilted = has_tilted || operation.direction == 1;
+        if (operation.direction != 0 || !has_tilted) continue;
+        for (const PathRun& run : operation.runs) {
+            Vec3 at = run.start;
+            for (const PathMove& move : run.moves) {
+                if (move.kind == MoveKind::cut) again += norm(move.tip - at);
+                at = move.tip;
+            }
+        }
+    }
+    EXPECT_GT(again, 50);
+}
+
+TEST(MakeToolpath, RoughingStaysBesideTheBlockAsNarrowAsItIsAsked) {
+    const TriangleMesh mesh = shapes::box({0, 0, 0}, {40, 30, 60});
+    const auto setup = setup_of(mesh, 5, 40);
+    const Cell cell = ready_cell();
+    const auto farthest = [&](const ToolpathSettings& settings) {
+        double most = 0;
+        PlainReplay replay(setup, cell, 2.5);
+        for (const Operation& operation : make_toolpath(setup, mesh, cell, settings).operations) {
+            replay.carve(operation);
+            if (operation.kind != OperationKind::roughing || operation.direction != 0) continue;
+            for (const PathRun& run : operation.runs) {
+                for (const PathMove& move : run.moves) {
+                    most = std::max({most, std::abs(move.tip.x) - 25, std::abs(move.tip.y) - 20});
+                }
+            }
+        }
+        expect_clean(replay, "box");
+        return most;
+    };
+    ToolpathSettings settings = coarse_settings();
+    EXPECT_GT(farthest(settings), 6);
+    settings.beside_block = 2;
+    const double narrow = farthest(settings);
+    EXPECT_LE(narrow, 2.5);
+    EXPECT_GT(narrow, 0.5);
+}
+
 TEST(MakeToolpath, NeverCutsFoamAboveTheFlute) {
     // The wall is nearly twice as high as the flute of the finishing tool (80 mm), and roughing leaves a skin on it.
     const TriangleMesh mesh = shapes::box({0, 0, 0}, {24, 24, 150});

@@ -10,6 +10,7 @@
 
 #include "cam/toolpath/clipped_passes.h"
 #include "cam/toolpath/disc_max.h"
+#include "cam/toolpath/finishing_limit.h"
 #include "cam/toolpath/in_process_stock.h"
 #include "cam/toolpath/links.h"
 #include "cam/toolpath/pass_order.h"
@@ -370,6 +371,44 @@ TEST(Clipped, FreeAndBlockedPartsAddUpToThePasses) {
     for (const Pass& part : parts.free) {
         for (const PassPoint& point : part.points) {
             EXPECT_LE(least_height(plate.space.holder_limit, point.tip.x, point.tip.y), point.tip.z);
+        }
+    }
+}
+
+TEST(NearSurface, LeavesOutWhereTheToolIsHeldAway) {
+    HeightMap tip;
+    tip.cell = 0.25;
+    tip.columns = 400;
+    tip.rows = 40;
+    // A wall at x = 50: lower beside it.
+    for (std::size_t i = 0; i < tip.columns * tip.rows; ++i) tip.height.push_back(i % tip.columns < 200 ? 80.0F : 5.0F);
+    EXPECT_EQ(near_surface({line({50.5, 1, 40}, {50.5, 9, 40})}, tip).size(), 1U) << "along the wall";
+    EXPECT_TRUE(near_surface({line({70, 1, 40}, {70, 9, 40})}, tip).empty()) << "in the air";
+    const std::vector<Pass> on_floor = near_surface({line({99, 5, 5}, {60, 5, 5}), line({60, 5, 5}, {52, 5, 8})}, tip);
+    ASSERT_EQ(on_floor.size(), 2U);
+    EXPECT_EQ(length_of(on_floor[0]), 39);
+    EXPECT_LT(on_floor[1].points.back().tip.z, 7) << "where it leaves the floor";
+}
+
+TEST(RaiseToLimit, NoLineBetweenNeighboursIsBelowTheLimit) {
+    const HeightMap limit = random_map(12, 9, 0.5, 4);
+    HeightMap tip;
+    tip.cell = 0.2;
+    tip.columns = 30;
+    tip.rows = 22;
+    tip.height.assign(tip.columns * tip.rows, 20);
+    raise_to_limit(tip, limit);
+    const auto at = [&](std::size_t c, std::size_t r) {
+        return Vec3{0.2 * (static_cast<double>(c) + 0.5), 0.2 * (static_cast<double>(r) + 0.5), tip.at(c, r)};
+    };
+    for (std::size_t r = 0; r + 1 < tip.rows; ++r) {
+        for (std::size_t c = 0; c + 1 < tip.columns; ++c) {
+            for (const Vec3 to : {at(c + 1, r), at(c, r + 1), at(c + 1, r + 1)}) {
+                for (const double t : {0.0, 0.2, 0.4, 0.499, 0.501, 0.7, 1.0}) {
+                    const Vec3 p = at(c, r) + t * (to - at(c, r));
+                    ASSERT_GE(p.z + 1e-5, least_height(limit, p.x, p.y));
+                }
+            }
         }
     }
 }

@@ -8,11 +8,13 @@
 #include <random>
 
 #include "segment/cut/cut.h"
+#include "segment/cut/cut_piece.h"
 #include "segment/cut/half_solids.h"
 #include "segment/cut/nudge.h"
 #include "segment/mesh/disjoint_sets.h"
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
+#include "segment/score/candidates.h"
 #include "segment/score/dowel_columns.h"
 #include "segment/score/old_joints.h"
 #include "segment/score/sweep.h"
@@ -286,6 +288,7 @@ TEST(Connector, TheStagesGiveWhatOneSweepGives) {
     const Objectives o = [] {
         Objectives all = with_connector(ConnectorForm::spread);
         all.weights.symmetry = 1;
+        all.weights.seam = 1;
         all.symmetry_plane = Plane{{1, 0, 0}, 3};
         return all;
     }();
@@ -304,7 +307,56 @@ TEST(Connector, TheStagesGiveWhatOneSweepGives) {
         EXPECT_EQ(whole[k]->connector, staged[k]->connector);
         EXPECT_EQ(whole[k]->symmetry_mm, staged[k]->symmetry_mm);
         EXPECT_EQ(whole[k]->fragility, staged[k]->fragility);
+        EXPECT_EQ(whole[k]->seam_mm, staged[k]->seam_mm);
+        EXPECT_GT(staged[k]->seam_mm, 0);
     }
+}
+
+TEST(Connector, TheValuesOfAPlaneDoNotDependOnTheOthersThatAreAsked) {
+    Objectives o = with_connector(ConnectorForm::spread);
+    o.weights.symmetry = 1;
+    o.weights.seam = 1;
+    o.symmetry_plane = Plane{{1, 0, 0}, 3};
+    std::mt19937 random(52);
+    std::size_t valued = 0;
+    for (const FragilityForm form : {FragilityForm::thinness, FragilityForm::thesis, FragilityForm::binary}) {
+        o.fragility_form = form;
+        for (const auto& [name, mesh, count] : shapes::all_closed()) {
+            const Vec3 first = random_normal(random);
+            const Extent range = extent(mesh, first);
+            const auto at = nudge(piece_of(mesh), first, std::array{range.low + 0.45 * range.size()});
+            if (!at[0]) continue;
+            const auto made = cut_piece(piece_of(mesh), {first, at[0]->offset}, 1);
+            for (const Piece& piece : made ? made->pieces : std::vector<Piece>{}) {
+                const Vec3 n = random_normal(random);
+                const std::vector<Candidate> planes = candidates_along(piece, n, 0, 17);
+                std::vector<double> offsets;
+                for (const Candidate& c : planes) offsets.push_back(c.plane.offset);
+                const PreparedPiece prepared = prepare(piece, o);
+                const auto whole = sweep(prepared, n, offsets, o);
+                const auto quick = sweep_solids(prepared, n, offsets);
+                std::vector<double> some;
+                std::vector<std::size_t> of;
+                std::vector<std::optional<CutEvaluation>> asked;
+                for (std::size_t k = random() % 3; k < offsets.size(); k += 1 + random() % 6) {
+                    of.push_back(k);
+                    some.push_back(offsets[k]);
+                    asked.push_back(quick[k]);
+                }
+                add_late_terms(prepared, n, some, o, asked);
+                for (std::size_t i = 0; i < of.size(); ++i) {
+                    ASSERT_EQ(whole[of[i]].has_value(), asked[i].has_value()) << name;
+                    if (!asked[i]) continue;
+                    EXPECT_EQ(whole[of[i]]->fragility, asked[i]->fragility) << name;
+                    EXPECT_EQ(whole[of[i]]->seam_mm, asked[i]->seam_mm) << name;
+                    EXPECT_EQ(whole[of[i]]->connector, asked[i]->connector) << name;
+                    EXPECT_EQ(whole[of[i]]->symmetry_mm, asked[i]->symmetry_mm) << name;
+                    valued += asked[i]->connector > 0 && asked[i]->connector < 1 ? 1 : 0;
+                }
+            }
+        }
+    }
+    EXPECT_GT(valued, 20U);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "segment/mesh/oriented_box.h"
+#include "segment/sample/sample.h"
 #include "segment/score/evaluate.h"
 #include "segment/score/seam_cost.h"
 #include "segment/search/search.h"
@@ -42,24 +43,37 @@ std::vector<Ranked> plain(const Segmentation& s, std::size_t piece, const Search
                 scan_share(s, piece, settings.objectives, cache));
 }
 
-TEST(LateRank, TheBestPlanesAreThoseOfEvaluatingAll) {
-    for (const auto& [name, mesh, count] : shapes::all_closed()) {
-        SearchSettings settings = chopper();
-        Segmentation s = start(mesh);
-        for (int cut = 0; cut < 3; ++cut) {
-            EvaluationCache cache(settings.objectives, settings.candidates);
-            const std::vector<Ranked> all = plain(s, 0, settings);
-            if (all.empty()) break;
-            for (const std::size_t best : {std::size_t{1}, std::size_t{5}, all.size() + 1}) {
-                const std::vector<Ranked> late = rank_late(s, 0, settings, cache, {}, best);
-                ASSERT_GE(late.size(), std::min(best, all.size())) << name;
-                for (std::size_t k = 0; k < late.size(); ++k) {
-                    ASSERT_EQ(late[k], all[k]) << name << " cut " << cut << " best " << best << " place " << k;
-                }
+// Three cuts by the best plane; before each the best planes are those of evaluating all.
+void expect_best_of_all(const std::string& name, const TriangleMesh& mesh, const SearchSettings& settings) {
+    Segmentation s = start(mesh);
+    for (int cut = 0; cut < 3; ++cut) {
+        EvaluationCache cache(settings.objectives, settings.candidates);
+        const std::vector<Ranked> all = plain(s, 0, settings);
+        if (all.empty()) break;
+        for (const std::size_t best : {std::size_t{1}, std::size_t{5}, all.size() + 1}) {
+            const std::vector<Ranked> late = rank_late(s, 0, settings, cache, {}, best);
+            ASSERT_GE(late.size(), std::min(best, all.size())) << name;
+            for (std::size_t k = 0; k < late.size(); ++k) {
+                ASSERT_EQ(late[k], all[k]) << name << " cut " << cut << " best " << best << " place " << k;
             }
-            ASSERT_TRUE(apply(s, cut_by(s, 0, all, 0, 0), 0)) << name;
         }
+        ASSERT_TRUE(apply(s, cut_by(s, 0, all, 0, 0), 0)) << name;
     }
+}
+
+TEST(LateRank, TheBestPlanesAreThoseOfEvaluatingAll) {
+    for (const auto& [name, mesh, count] : shapes::all_closed()) expect_best_of_all(name, mesh, chopper());
+}
+
+TEST(LateRank, TheBestPlanesOfASpecimenAreThoseOfEvaluatingAll) {
+    SearchSettings settings = chopper();
+    Objectives& o = settings.objectives;
+    o.fragility_distance = 20;
+    o.print_volume = Vec3{200, 200, 200};
+    o.connector = {};
+    SampleOptions options;
+    options.faces = 6'000;
+    expect_best_of_all("vertebra", sample(Specimen::vertebra, options), settings);
 }
 
 TEST(LateRank, ForbiddenPlanesComeOnlyWhenNoOtherIsLeft) {
