@@ -72,12 +72,14 @@ Cycles cycles(std::span<const std::uint32_t> next) {
     constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
     Cycles result;
     result.cycle_of.assign(next.size(), none);
+    result.order.reserve(next.size());
     for (std::uint32_t first = 0; first < next.size(); ++first) {
         if (result.cycle_of[first] != none) continue;
         const auto number = static_cast<std::uint32_t>(result.cycles.size());
         std::uint32_t size = 0;
         for (std::uint32_t i = first; result.cycle_of[i] == none; i = next[i]) {
             result.cycle_of[i] = number;
+            result.order.push_back(i);
             ++size;
         }
         result.cycles.push_back({first, size});

@@ -60,6 +60,7 @@ struct Cycles {
     };
     std::vector<std::uint32_t> cycle_of;  // one per member: the number of its cycle
     std::vector<Cycle> cycles;
+    std::vector<std::uint32_t> order;  // the members cycle by cycle, each from its first one on
 };
 // `next` has one entry per member: the one that follows. O(members).
 Cycles cycles(std::span<const std::uint32_t> next);

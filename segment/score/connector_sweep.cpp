@@ -37,7 +37,7 @@ class PlaneJoints {
             include(s.section.loops[region.loops.front()], extents_[joint]);
         }
         for (std::size_t k = 0; k < joints_.size(); ++k) joints_[k].diameter = extents_[k].largest();
-        if (!joints_.empty()) rows_ = row_crossings(s.slabs, s.section, s.regions[plane], options.spacing);
+        if (!joints_.empty()) rows_ = row_crossings(s.section, s.regions[plane], options.spacing);
     }
 
     // Sites row by row, ascending in x.
@@ -67,8 +67,7 @@ class PlaneJoints {
     }
 
     void include(const SectionLoop& loop, Extent16& extent) const {
-        std::uint32_t i = loop.first_crossing;
-        for (std::uint32_t n = 0; n < loop.points; ++n, i = s_.section.next[i]) extent.include(s_.slabs.point[i]);
+        for (const Point2 p : s_.section.points(loop)) extent.include(p);
     }
 
     const SweptSections& s_;

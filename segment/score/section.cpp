@@ -8,6 +8,7 @@
 #include <cassert>
 #include <memory>
 #include <numeric>
+#include <utility>
 
 #include "segment/mesh/polygon_nesting.h"
 
@@ -47,20 +48,24 @@ class SectionFinder {
         const std::vector<CrossedTriangle>& all = slabs_.crossed;
         for (std::uint32_t i = 0; i < all.size(); ++i) place_of[all[i].triangle] = i;
         for (std::uint32_t& triangle : across) triangle = place_of[triangle];
-        out_.next.resize(crossings);
+        next_.resize(crossings);
         std::uint32_t i = 0;
         for (const CrossedTriangle& s : all) {
             for (std::size_t plane = s.low; plane < s.high; ++plane, ++i) {
                 const CrossedTriangle& other = all[across[i]];
                 assert(plane >= other.low && plane < other.high);
-                out_.next[i] = static_cast<std::uint32_t>(other.first_crossing + (plane - other.low));
+                next_[i] = static_cast<std::uint32_t>(other.first_crossing + (plane - other.low));
             }
         }
     }
 
     void trace_loops() {
-        Cycles found = cycles(out_.next);
+        Cycles found = cycles(next_);
         loop_of_ = std::move(found.cycle_of);
+        out_.order = std::move(found.order);
+        out_.point.reserve(out_.order.size());
+        for (const std::uint32_t i : out_.order) out_.point.push_back(slabs_.point[i]);
+        std::uint32_t place = 0;
         out_.loops.reserve(found.cycles.size());
         auto s = slabs_.crossed.begin();
         for (const auto& [first, size] : found.cycles) {
@@ -68,7 +73,7 @@ class SectionFinder {
             SectionLoop loop;
             loop.plane = static_cast<std::uint16_t>(s->low + (first - s->first_crossing));
             loop.points = size;
-            loop.first_crossing = first;
+            loop.first = std::exchange(place, place + size);
             const std::uint32_t exit = crossing(*s, loop.plane).exit();
             loop.component_above = s->component[exit];
             loop.component_below = s->component[(exit + 1) % 3];
@@ -88,8 +93,8 @@ class SectionFinder {
                 add_part(apex_is_above ? above_ : below_, loop_of_[i], p_, s, share, 1);
                 add_part(apex_is_above ? below_ : above_, loop_of_[i], p_, s, 1 - share, 2);
                 // Half the shoelace; the surface is followed clockwise.
-                const Point2 origin = slabs_.point[loop.first_crossing];
-                loop.area_mm2 -= orientation(origin, slabs_.point[i], slabs_.point[out_.next[i]]) / 2;
+                const Point2 origin = out_.point[loop.first];
+                loop.area_mm2 -= orientation(origin, slabs_.point[i], slabs_.point[next_[i]]) / 2;
             }
         }
     }
@@ -117,6 +122,7 @@ class SectionFinder {
     const PreparedPiece& p_;
     const Slabs& slabs_;
     std::span<const double> offsets_;
+    std::vector<std::uint32_t> next_;     // per crossing: the one that follows on its loop
     std::vector<std::uint32_t> loop_of_;  // per crossing
     SumTable above_;                      // per loop, not yet in the order of the planes
     SumTable below_;
@@ -129,7 +135,7 @@ Section find_section(const PreparedPiece& prepared, const Slabs& slabs, std::spa
     return SectionFinder(prepared, slabs, offsets).run();
 }
 
-std::vector<SectionRegion> regions(const Section& section, const Slabs& slabs, std::size_t plane) {
+std::vector<SectionRegion> regions(const Section& section, std::size_t plane) {
     std::vector<std::size_t> kept;  // loops of two points enclose no area and get no cap (cap.cpp)
     for (std::size_t i = section.first_loop[plane]; i < section.first_loop[plane + 1]; ++i) {
         if (section.loops[i].points > 2) kept.push_back(i);
@@ -142,10 +148,9 @@ std::vector<SectionRegion> regions(const Section& section, const Slabs& slabs, s
         std::vector<Loop> loops(kept.size());
         for (std::size_t k = 0; k < kept.size(); ++k) {
             const SectionLoop& loop = section.loops[kept[k]];
-            std::uint32_t crossing = loop.first_crossing;
-            for (std::uint32_t n = 0; n < loop.points; ++n, crossing = section.next[crossing]) {
+            for (const Point2 p : section.points(loop)) {
                 loops[k].push_back(static_cast<std::uint32_t>(points.size()));
-                points.push_back(slabs.point[crossing]);
+                points.push_back(p);
             }
             std::reverse(loops[k].begin(), loops[k].end());
         }

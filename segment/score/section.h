@@ -20,15 +20,23 @@ struct SectionLoop {
     double area_mm2 = 0;                // signed: positive around material
     std::uint32_t component_above = 0;  // slab components (slabs.h) beside the loop
     std::uint32_t component_below = 0;
-    std::uint32_t first_crossing = 0;  // its first crossing; Section::next leads to the others
+    std::uint32_t first = 0;  // its first crossing, in Section::order
 };
 
 struct Section {
-    std::vector<std::uint32_t> next;      // per crossing: the one that follows on its loop
+    std::vector<std::uint32_t> order;     // the crossings, loop by loop as they follow each other
+    std::vector<Point2> point;            // Slabs::point in this order: read one after the other, they cost least
     std::vector<SectionLoop> loops;       // by plane, ascending
     std::vector<std::size_t> first_loop;  // per plane, and one more at which the last one ends
     SumTable above;                       // per loop: the parts of crossed triangles
     SumTable below;
+
+    std::span<const std::uint32_t> crossings(const SectionLoop& loop) const {
+        return std::span(order).subspan(loop.first, loop.points);
+    }
+    std::span<const Point2> points(const SectionLoop& loop) const {
+        return std::span(point).subspan(loop.first, loop.points);
+    }
 };
 
 // Preconditions: the piece is closed; `slabs` made of the same offsets.
@@ -43,7 +51,7 @@ struct SectionRegion {
 };
 
 // Loops of two points have no region, as in the cut (cap.cpp). `plane`: index of the offset.
-std::vector<SectionRegion> regions(const Section& section, const Slabs& slabs, std::size_t plane);
+std::vector<SectionRegion> regions(const Section& section, std::size_t plane);
 
 // The sections of all planes of one normal.
 struct SweptSections {

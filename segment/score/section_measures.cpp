@@ -52,10 +52,9 @@ void add_boxes(const PreparedPiece& prepared, Vec3 normal, std::span<const doubl
         std::array<double, 3> at{};
         for (std::size_t k = 0; k < 3; ++k) at[k] = dot(prepared.sizes.axis[k], origin);
         PartBox box;
-        std::uint32_t i = loop.first_crossing;
-        for (std::uint32_t n = 0; n < loop.points; ++n, i = section.next[i]) {
+        for (const Point2 p : section.points(loop)) {
             for (std::size_t k = 0; k < 3; ++k) {
-                const double along = at[k] + u[k] * slabs.point[i].x + v[k] * slabs.point[i].y;
+                const double along = at[k] + u[k] * p.x + v[k] * p.y;
                 box.include(k, along, along);
             }
         }
@@ -83,14 +82,13 @@ void add_seams(const Piece& piece, const Slabs& slabs, const Section& section, s
     }
     for (const SectionLoop& loop : section.loops) {
         if (!evaluations[loop.plane] || loop.points <= 2) continue;  // a cut makes no cap there
-        std::uint32_t at = loop.first_crossing;
+        const std::span<const std::uint32_t> crossing = section.crossings(loop);
+        const std::span<const Point2> point = section.points(loop);
         double sum = 0;
-        for (std::uint32_t n = 0; n < loop.points; ++n) {
-            const std::uint32_t next = section.next[at];
-            const double length =
-                std::hypot(slabs.point[next].x - slabs.point[at].x, slabs.point[next].y - slabs.point[at].y);
-            sum += seam_part(piece, slabs.exit[next] / 3, length, cost[at], cost[next]);
-            at = next;
+        for (std::size_t n = 0; n < crossing.size(); ++n) {
+            const std::size_t next = n + 1 < crossing.size() ? n + 1 : 0;
+            const double length = std::hypot(point[next].x - point[n].x, point[next].y - point[n].y);
+            sum += seam_part(piece, slabs.exit[crossing[next]] / 3, length, cost[crossing[n]], cost[crossing[next]]);
         }
         evaluations[loop.plane]->seam_mm += sum;
     }

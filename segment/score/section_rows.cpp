@@ -9,17 +9,16 @@
 
 namespace qchopper {
 
-std::vector<RowCrossing> row_crossings(const Slabs& slabs, const Section& section,
-                                       const std::vector<SectionRegion>& regions, double spacing) {
+std::vector<RowCrossing> row_crossings(const Section& section, const std::vector<SectionRegion>& regions,
+                                       double spacing) {
     std::vector<RowCrossing> crossings;
     const auto first_row = [&](double y) { return static_cast<std::int32_t>(std::ceil(y / spacing)); };
     for (const SectionRegion& region : regions) {
         for (const std::size_t l : region.loops) {
-            const SectionLoop& loop = section.loops[l];
-            std::uint32_t i = loop.first_crossing;
-            for (std::uint32_t n = 0; n < loop.points; ++n, i = section.next[i]) {
-                Point2 a = slabs.point[i];
-                Point2 b = slabs.point[section.next[i]];
+            const std::span<const Point2> points = section.points(section.loops[l]);
+            for (std::size_t n = 0; n < points.size(); ++n) {
+                Point2 a = points[n];
+                Point2 b = points[n + 1 < points.size() ? n + 1 : 0];
                 if (a.y > b.y) std::swap(a, b);
                 const std::int32_t end = first_row(b.y);
                 for (std::int32_t row = first_row(a.y); row < end; ++row) {

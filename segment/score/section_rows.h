@@ -20,7 +20,7 @@ struct RowCrossing {
 
 // Of the loops of one plane that have regions, by row, then x. From an even number of crossings of a row to the next
 // one the row lies in material. O(points of the loops + c log c) for c crossings.
-std::vector<RowCrossing> row_crossings(const Slabs& slabs, const Section& section,
-                                       const std::vector<SectionRegion>& regions, double spacing);
+std::vector<RowCrossing> row_crossings(const Section& section, const std::vector<SectionRegion>& regions,
+                                       double spacing);
 
 }  // namespace qchopper

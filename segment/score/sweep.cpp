@@ -205,7 +205,7 @@ std::vector<std::optional<CutEvaluation>> sweep_sections(const PreparedPiece& pr
         for (std::size_t i = s.section.first_loop[plane]; i < s.section.first_loop[plane + 1]; ++i) {
             evaluations[plane]->cap_area_mm2 += s.section.loops[i].area_mm2;
         }
-        s.regions[plane] = regions(s.section, s.slabs, plane);
+        s.regions[plane] = regions(s.section, plane);
     }
     const std::vector<CavityLink> links = cavity_links(*prepared.piece->mesh, prepared.shells, normal);
     for (const bool above : {true, false}) {

@@ -15,8 +15,7 @@ std::vector<Vec3> points_in_section(const PreparedPiece& prepared, const Plane& 
     std::vector<Vec3> points;
     if (!(area_mm2 > 0)) return points;
     const double spacing = std::sqrt(area_mm2 / section_points);
-    const std::vector<RowCrossing> rows =
-        row_crossings(sections.slabs, sections.section, sections.regions[index], spacing);
+    const std::vector<RowCrossing> rows = row_crossings(sections.section, sections.regions[index], spacing);
     const PlaneFrame frame = frame_across(plane.normal);
     const Vec3 origin = prepared.origin + (plane.offset - height(plane.normal, prepared.origin)) * plane.normal;
     for (std::size_t i = 0; i + 1 < rows.size(); i += 2) {

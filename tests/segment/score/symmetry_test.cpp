@@ -20,7 +20,7 @@ std::vector<Vec3> points_of(const Piece& piece, const Plane& plane) {
     const std::array offsets{plane.offset};
     s.slabs = slabs(prepared, plane.normal, offsets);
     s.section = find_section(prepared, s.slabs, offsets);
-    s.regions.push_back(regions(s.section, s.slabs, 0));
+    s.regions.push_back(regions(s.section, 0));
     double area = 0;
     for (const SectionLoop& loop : s.section.loops) area += loop.area_mm2;
     return points_in_section(prepared, plane, s, 0, area);

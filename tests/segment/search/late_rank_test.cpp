@@ -72,7 +72,7 @@ TEST(LateRank, TheBestPlanesOfASpecimenAreThoseOfEvaluatingAll) {
     o.print_volume = Vec3{200, 200, 200};
     o.connector = {};
     SampleOptions options;
-    options.faces = 6'000;
+    options.faces = 3'000;
     expect_best_of_all("vertebra", sample(Specimen::vertebra, options), settings);
 }
 
