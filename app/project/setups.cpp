@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <mutex>
 
+#include "app/project/unreachable_of.h"
 #include "base/parallel.h"
 #include "cam/setup/blocks_needed.h"
 #include "cam/setup/held_setup.h"
@@ -14,8 +15,8 @@
 namespace qchopper {
 namespace {
 
-// Of a piece's surface; what more of it holder and spindle keep out of reach is a reason to cut the piece.
-constexpr double most_by_holder = 0.02;
+// Of a piece's surface; what more of it arm, holder and spindle keep out of reach is a reason to cut the piece.
+constexpr double most_by_machine = 0.02;
 
 }  // namespace
 
@@ -112,8 +113,9 @@ bool Setups::find_whether_carvable(const Piece& piece) {
     const Vec3 size = oriented_box(piece.mesh->points).size();
     if (std::max({size.x, size.y, size.z}) <= low) return true;
     const auto is_low_enough = [&](const Carving& carving) {
-        const SurfaceReach& reach = carving.setup().reach;
-        return carving.setup().box.max.z <= low || reach.holder_mm2 <= most_by_holder * reach.area_mm2;
+        if (carving.setup().box.max.z <= low) return true;
+        const double of_tilt = unreachable_of(max_tilt_deg(cell_))(piece).share;
+        return carving.setup().reach.unreachable_share() - of_tilt <= most_by_machine;
     };
     Carving best = carving_of(piece);
     Carving held = is_low_enough(best) ? held_of(piece, best, {}) : Carving{};

@@ -57,8 +57,9 @@ class Setups {
     // possible, kept per mesh; and on samples of the surface from the best base.
     bool fits(const Piece& piece);
     // For the stop rules as well, by held(): whether the machine holds every pose of the setup, and the block is no
-    // higher than the longest tool, or the holder keeps hardly any of the surface out of reach. A piece that is shorter
-    // than that tool always is, because cutting it further is no cure. True in a cell of version 1.
+    // higher than the longest tool, or hardly any more of the surface is out of reach than of a tool without holder
+    // that tilts in all directions. A piece that is shorter than that tool always is, because cutting it further is no
+    // cure. True in a cell of version 1.
     bool is_carvable(const Piece& piece);
     UnreachableSurface unreachable(const Piece& piece);
 
