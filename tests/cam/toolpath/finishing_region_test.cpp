@@ -133,8 +133,9 @@ TEST(SurfaceLeft, AFinerToolGoesOnlyWhereMoreIsLeft) {
     ASSERT_GT(cells_of(region), 200U);
     for (std::size_t i = 0; i < region.size(); ++i) {
         if (region[i] == not_finished) continue;
+        const std::size_t row = i / fine.columns;
         const double x = (static_cast<double>(i % fine.columns) + 0.5) * cell;
-        const double y = (static_cast<double>(i / fine.columns) + 0.5) * cell;
+        const double y = (static_cast<double>(row) + 0.5) * cell;
         const Vec3 p = apply_inverse(fine.piece_in_map, {x, y, static_cast<double>(region[i])});
         // In the groove, or at the outer walls, whose lowest millimetres a smaller ball reaches better.
         const bool is_at_wall = p.x < 2 || p.x > 58 || p.y < 2 || p.y > 58;
