@@ -81,8 +81,7 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
         ->check(read_by(lengths_from, "not X,Y,Z in mm"));
     c->add_flag("--fits-cell", a.fits_cell,
                 "stop rule: every piece fits the cell, and by carve its arm and tools can carve it (by carve, and by "
-                "prepare if no "
-                "other is set)");
+                "prepare if no other is set)");
     c->add_option(
          "--max-unreachable", a.max_unreachable,
          "stop rule: of no piece a larger share of the surface, 0 to 1, is out of reach of the tool (0.02 by carve)")
