@@ -232,7 +232,8 @@ std::vector<Pass> finishing_passes(const HeightMap& tip, const CarvingTool& tool
     const FinishingRegion wide_region = grown(region, tip.columns, tip.rows, by);
     report(2);
     const RasterOptions common{radius, options.scallop, options.path_tolerance, 0.5 * step, options.rounding};
-    CellMask steep = SurfaceGrowth(masks.steep, tip, 0.5 * step + tip.cell).mask();
+    // With the cells at the foot of a wall: squares of level_lines() may begin at them.
+    CellMask steep = SurfaceGrowth(grown(masks.steep, tip.columns, tip.rows, 1), tip, 0.5 * step).mask();
     LevelFloor foot;
     if (options.floor != nullptr) {
         foot = foot_of_walls(tip, *options.floor, radius);

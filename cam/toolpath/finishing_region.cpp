@@ -17,9 +17,12 @@
 namespace qchopper {
 namespace {
 
-constexpr std::uint8_t all = 255;        // more foam than is examined, or not seen at all
-constexpr std::uint8_t most_twice = 4;   // foam is examined up to near * 2^(most_twice - 1)
-constexpr double lowest_facing = -0.01;  // sine of half a degree: a vertical wall is not left out by rounding
+constexpr std::uint8_t all = 255;       // more foam than is examined, or not seen at all
+constexpr std::uint8_t most_twice = 4;  // foam is examined up to near * 2^(most_twice - 1)
+constexpr double overhanging = -0.01;  // sine of half a degree: a vertical wall is not one by rounding
+// Sine of 12 degrees. Under an edge a tool comes within `near` of overhanging surface: of what faces farther down in a
+// strip narrower than three millimetres.
+constexpr double lowest_facing = -0.2;
 constexpr std::size_t triangles_at_once = 1024;
 
 // The least of the `width` values from each one on, in place; the last ones have fewer.
@@ -138,11 +141,12 @@ FinishingRegion SurfaceLeft::take(const HeightMap& remaining, double near, doubl
         for (std::size_t t = first; t < end; ++t) {
             const Vec3 normal = normalized(rotate(remaining.piece_in_map, area_vector(*mesh_, t)));
             if (!(normal.z > lowest_facing)) continue;
+            const std::uint8_t worst = normal.z > overhanging ? most_twice : 0;
             for_each_point(t, [&](std::size_t index, Vec3 p) {
                 if (left_[index] <= least_before && (left_[index] == 0 || worth > 0)) return;
                 const Vec3 at = apply(remaining.piece_in_map, p);
                 const std::uint8_t k = foam_class(remaining, at, normal, near);
-                if (k >= left_[index]) return;
+                if (k >= left_[index] || k > worst) return;
                 before_[index] = left_[index];
                 left_[index] = k;
                 taken_by_[index] = static_cast<std::uint16_t>(takes_);

@@ -186,12 +186,12 @@ class ToolpathMaker {
         HeightMap own_tip;  // without holder and spindle
         HeightMap tip = finishing_tip(operation, floor_z, own_tip);
         if (over_foam) raise_to_limit(tip, limit_now(operation));
-        FinishingRegion region = finishing_region(operation, tip);
+        const FinishingRegion region = finishing_region(operation, tip);
         const bool is_empty = std::all_of(region.begin(), region.end(), [](float low) { return low == not_finished; });
         const bool has_floor = direction == 0 && kind == OperationKind::finishing && !over_foam;
         if (is_empty && !has_floor) return;
         const FinishingRegion floor = has_floor ? floor_band(direction, floor_z, tool.diameter) : FinishingRegion();
-        if (has_floor) give_floor(floor, region, options);
+        if (has_floor) options.floor = &floor;
         std::vector<Pass> passes = finishing_passes(tip, tool, region, options, context_);
         passes = near_surface(passes, own_tip);
         own_tip = {};
@@ -294,16 +294,6 @@ class ToolpathMaker {
         const CarvingTool& tool = machine_.tools[operation.tool];
         const bool is_fine = operation.kind == OperationKind::fine_finishing;
         return left_.take(remaining_surface(tip, tool), near(operation), operation.step, is_fine ? near(operation) : 0);
-    }
-
-    // With several directions the walls above the floor are carved with it: without that, other directions left what
-    // roughing leaves on overhanging surface (docs/decisions/0033).
-    void give_floor(const FinishingRegion& floor, FinishingRegion& region, FinishingOptions& options) const {
-        if (setup_.reach.directions.size() == 1) {
-            options.floor = &floor;
-            return;
-        }
-        for (std::size_t i = 0; i < region.size(); ++i) region[i] = std::min(region[i], floor[i]);
     }
 
     // The floor within a tool's width of the piece.

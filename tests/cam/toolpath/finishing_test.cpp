@@ -55,14 +55,16 @@ struct Finished {
     HeightMap left;
     std::vector<SurfacePoint> points;
 
-    Finished(const TriangleMesh& mesh, std::size_t direction, double tilt_deg, const FinishingOptions& options = {}) {
+    Finished(const TriangleMesh& mesh, std::size_t direction, double tilt_deg, const FinishingOptions& options = {},
+             std::optional<double> near = std::nullopt) {
         const auto setup = setup_of(mesh, 14, tilt_deg);
         const CarvingTool tool = ball_tool(12);
         target = target_map(setup, mesh, direction, {cell, -6, 0});
         tip = tip_surface(target, tool);
         closing = remaining_surface(tip, tool);
         SurfaceLeft surface(mesh, std::nullopt);
-        passes = finishing_passes(tip, tool, surface.take(closing, 0.5 * options.scallop + 0.75 * cell, 2), options);
+        const double as_none = near.value_or(0.5 * options.scallop + 0.75 * cell);
+        passes = finishing_passes(tip, tool, surface.take(closing, as_none, 2), options);
         HeightMap stock = target;
         std::fill(stock.height.begin(), stock.height.end(), 1e4F);
         left = replayed(stock, passes, tool);
@@ -241,6 +243,37 @@ TEST(Finishing, TheFloorIsClearedWithoutTheWallBesideIt) {
         }
     }
     EXPECT_GT(seen, 10'000U);
+}
+
+// Walls on both sides of a piece that lean out by a degree under an edge that descends by 60: from above a tool that
+// goes along the edge passes the strip under it at less than the tolerance, and carves it.
+TEST(Finishing, TheStripUnderAnOverhangingEdgeIsCarved) {
+    constexpr double lean = 0.02;  // per mm of height
+    const auto edge_z = [](double x) { return 70 - 1.7 * x; };
+    TriangleMesh mesh = shapes::box({-30, -20, 0}, {30, 20, 100}, 40);
+    for (Vec3& p : mesh.points) {
+        p.z *= edge_z(p.x) / 100;
+        p.y += (p.y > 0 ? 1 : -1) * lean * p.z;
+    }
+    const FinishingOptions options;
+    const Finished finished(mesh, 0, 0, options, options.scallop + cell);
+    std::size_t passed = 0;
+    std::size_t carved = 0;
+    for (const double side : {-1.0, 1.0}) {
+        const Vec3 normal = rotate(finished.target.piece_in_map, normalized(Vec3{0, side, -lean}));
+        for (double x = -25; x < 25; x += 0.5) {
+            for (double under = 0.25; under < 30; under += 0.25) {
+                const double z = edge_z(x) - under;
+                const Vec3 at = apply(finished.target.piece_in_map, {x, side * (20 + lean * z), z});
+                const SurfacePoint point{at, normal, 1};
+                if (foam_over(finished.closing, point, 1) > options.scallop + 0.75 * cell) continue;
+                ++passed;
+                if (foam_over(finished.left, point, 10) <= options.scallop + 0.5) ++carved;
+            }
+        }
+    }
+    EXPECT_GT(passed, 5000U);
+    EXPECT_GE(static_cast<double>(carved), 0.995 * static_cast<double>(passed));
 }
 
 TEST(Finishing, NoPassIsBelowTheTipSurface) {
