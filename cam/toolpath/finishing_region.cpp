@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint8_t all = 255;       // more foam than is examined, or not seen at all
 constexpr std::uint8_t most_twice = 4;  // foam is examined up to near * 2^(most_twice - 1)
-constexpr double overhanging = -0.01;  // sine of half a degree: a vertical wall is not one by rounding
+constexpr double overhanging = -0.01;   // sine of half a degree: a vertical wall is not one by rounding
 // Sine of 12 degrees. Under an edge a tool comes within `near` of overhanging surface: of what faces farther down in a
 // strip narrower than three millimetres.
 constexpr double lowest_facing = -0.2;

@@ -93,6 +93,17 @@ class Rays {
         return HeightMap::nothing;
     }
 
+    // The lowest one.
+    float lowest(double x, double y, double top, double step) const {
+        const Span span = span_in(box_, apply(setup_in_map_, {x, y, 0}), out_);
+        if (span.is_empty()) return HeightMap::nothing;
+        std::size_t last = 0;
+        for (double z = span.low; z < std::min(span.high, top); z += step) {
+            if (!is_removed({x, y, z}, last)) return static_cast<float>(std::max(span.low, z - step));
+        }
+        return HeightMap::nothing;
+    }
+
  private:
     bool is_removed(Vec3 in_map, std::size_t& last) const {
         if (others_.empty()) return false;
@@ -158,7 +169,8 @@ void ToolSweep::stand(HeightMap& map, HeightMap& other, Vec3 tip) const {
 
 InProcessStock::InProcessStock(const Setup& setup, FoamCells kind) : setup_(&setup), kind_(kind) {}
 
-HeightMap InProcessStock::highest(std::size_t direction, const HeightMap& frame) const {
+template <class Height>
+HeightMap InProcessStock::mapped(std::size_t direction, const HeightMap& frame, const Height& height_of) const {
     std::vector<Raised> others;
     const HeightMap* own = nullptr;
     for (const Removed& removed : removed_) {
@@ -176,16 +188,27 @@ HeightMap InProcessStock::highest(std::size_t direction, const HeightMap& frame)
     }
     assert(own == nullptr || own->height.size() == frame.height.size());
     const Rays rays(*setup_, frame, std::move(others), kind_ == FoamCells::whole ? 1 : 0);
-    HeightMap highest = frame;
+    HeightMap result = frame;
     parallel_for(0, frame.rows, [&](std::size_t row) {
         for (std::size_t column = 0; column < frame.columns; ++column) {
             const double x = frame.cell * (static_cast<double>(column) + 0.5);
             const double y = frame.cell * (static_cast<double>(row) + 0.5);
             const double top = own != nullptr ? static_cast<double>(own->at(column, row)) : infinite;
-            highest.height[row * frame.columns + column] = rays.highest(x, y, top, frame.cell);
+            result.height[row * frame.columns + column] = height_of(rays, x, y, top);
         }
     });
-    return highest;
+    return result;
+}
+
+HeightMap InProcessStock::highest(std::size_t direction, const HeightMap& frame) const {
+    return mapped(direction, frame, [&](const Rays& rays, double x, double y, double top) {
+        return rays.highest(x, y, top, frame.cell);
+    });
+}
+
+HeightMap InProcessStock::lowest(std::size_t direction, const HeightMap& frame) const {
+    return mapped(direction, frame,
+                  [&](const Rays& rays, double x, double y, double top) { return rays.lowest(x, y, top, frame.cell); });
 }
 
 void InProcessStock::remove_above(std::size_t direction, const HeightMap& map) {

@@ -50,6 +50,10 @@ class InProcessStock {
     // cells of one size. O(cells * depth / cell * directions) at most; a ray ends at the first foam.
     HeightMap highest(std::size_t direction, const HeightMap& frame) const;
 
+    // The same for the lowest foam: all of it lies above. Under it there may be air, where other directions or the
+    // sides of the block end it.
+    HeightMap lowest(std::size_t direction, const HeightMap& frame) const;
+
     // All above the heights of a map of a direction is gone: infinite where nothing was removed. The maps of one
     // direction must have the same cells.
     void remove_above(std::size_t direction, const HeightMap& map);
@@ -62,6 +66,11 @@ class InProcessStock {
         std::size_t direction = 0;
         HeightMap down_to;
     };
+    // Per cell what a function of its rays, the middle of the cell and the height down to which its own direction has
+    // removed all says.
+    template <class Height>
+    HeightMap mapped(std::size_t direction, const HeightMap& frame, const Height& height_of) const;
+
     const Setup* setup_;
     FoamCells kind_;
     std::vector<Removed> removed_;

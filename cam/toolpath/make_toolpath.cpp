@@ -137,6 +137,7 @@ class ToolpathMaker {
         const HeightMap piece = target(direction, foam_cell_, 0);
         HeightMap tip = tip_surface(piece, tool, {operation.allowance});
         raise_to_holder(tip, piece, body_of(tool_index), setup_.piece_in_setup);
+        raise_to_foam(tip, direction, tool, operation.step_down);
         if (settings_.beside_block) close_beside_block(tip, direction, *settings_.beside_block);
         CarvingSpace space = space_of(piece, operation);
         space.tip_limit = &tip;
@@ -147,6 +148,18 @@ class ToolpathMaker {
         }
         std::vector<PathRun> runs = rough(space, tool, body_of(tool_index), operation, options, context_);
         add(std::move(operation), space, std::move(runs));
+    }
+
+    // No tip is allowed more than a level below all foam under the tool: where a tilted tool sticks out of the far side
+    // of the block there is nothing to cut, and the arm would have to come nearer to the block.
+    void raise_to_foam(HeightMap& tip, std::size_t direction, const CarvingTool& tool, double level) const {
+        HeightMap lowest = stock_.lowest(direction, tip);
+        for (float& z : lowest.height) z = z == HeightMap::nothing ? z : -z;
+        lowest = disc_max(lowest, 0.5 * tool.diameter + border_cells * tip.cell);
+        for (std::size_t i = 0; i < tip.height.size(); ++i) {
+            if (lowest.height[i] == HeightMap::nothing) continue;
+            tip.height[i] = std::max(tip.height[i], -lowest.height[i] - static_cast<float>(level));
+        }
     }
 
     // No tip is allowed farther than that beside the projection of the block.

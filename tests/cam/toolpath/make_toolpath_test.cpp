@@ -271,6 +271,29 @@ TEST(MakeToolpath, RoughingStaysBesideTheBlockAsNarrowAsItIsAsked) {
     EXPECT_GT(narrow, 0.5);
 }
 
+TEST(MakeToolpath, ATiltedToolStaysBesideTheFoamThatItRoughs) {
+    const TriangleMesh mesh = shapes::box({0, 0, 0}, {30, 30, 60});
+    const auto setup = setup_of(mesh, 40, 50);
+    const Cell cell = ready_cell();
+    const Vec3 half{0.5 * setup.block.size.x, 0.5 * setup.block.size.y, 0};
+    std::size_t cuts = 0;
+    for (const Operation& operation : make_toolpath(setup, mesh, cell, coarse_settings()).operations) {
+        if (operation.kind != OperationKind::roughing || operation.direction != 1) continue;
+        // A level under the lowest foam, the radius beside it, and some cells for the map.
+        const double most = operation.step_down + 0.5 * cell.machine->tools[operation.tool].diameter + 12;
+        for (const PathRun& run : operation.runs) {
+            for (const PathMove& move : run.moves) {
+                if (move.kind != MoveKind::cut) continue;
+                ++cuts;
+                EXPECT_LE(std::hypot(std::max(0.0, std::abs(move.tip.x) - half.x),
+                                     std::max(0.0, std::abs(move.tip.y) - half.y)),
+                          most);
+            }
+        }
+    }
+    EXPECT_GT(cuts, 100U);
+}
+
 TEST(MakeToolpath, NeverCutsFoamAboveTheFlute) {
     // The wall is nearly twice as high as the flute of the finishing tool (80 mm), and roughing leaves a skin on it.
     const TriangleMesh mesh = shapes::box({0, 0, 0}, {24, 24, 150});

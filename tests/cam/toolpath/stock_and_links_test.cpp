@@ -121,7 +121,9 @@ TEST(InProcessStock, NeverTellsLessFoamThanThereIs) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
         const StockOfRandomWays carved(setup, mesh, seed);
         std::vector<HeightMap> highest;
+        std::vector<HeightMap> lowest;
         for (std::size_t d = 0; d < 2; ++d) highest.push_back(carved.stock.highest(d, carved.frames[d]));
+        for (std::size_t d = 0; d < 2; ++d) lowest.push_back(carved.stock.lowest(d, carved.frames[d]));
         std::size_t foam = 0;
         std::size_t told = 0;
         for (int k = 0; k < 20000; ++k) {
@@ -137,6 +139,7 @@ TEST(InProcessStock, NeverTellsLessFoamThanThereIs) {
                 const auto c = static_cast<std::size_t>(q.x / 1.3);
                 const auto r = static_cast<std::size_t>(q.y / 1.3);
                 ASSERT_GE(static_cast<double>(highest[d].at(c, r)), q.z - 1e-3) << seed << " direction " << d;
+                ASSERT_LE(static_cast<double>(lowest[d].at(c, r)), q.z + 1e-3) << seed << " direction " << d;
             }
         }
         EXPECT_GT(foam, 1000U);
@@ -152,6 +155,30 @@ TEST(InProcessStock, OfAWholeBlockIsItsTop) {
     const Vec3 middle = setup_to_map(setup, frame, {0, 0, 38});
     EXPECT_NEAR(top.at(static_cast<std::size_t>(middle.x), static_cast<std::size_t>(middle.y)), middle.z, 1e-4);
     EXPECT_EQ(top.at(0, 0), HeightMap::nothing);
+}
+
+TEST(InProcessStock, OfAWholeBlockTheLowestFoamOfATiltedRayIsOnItsFarSide) {
+    const TriangleMesh mesh = shapes::box({0, 0, 0}, {50, 40, 30});
+    const auto setup = setup_of(mesh, 8, 50);
+    const HeightMap frame = target_map(setup, mesh, 1, {1, 0, 15});
+    const HeightMap lowest = InProcessStock(setup, FoamCells::middles).lowest(1, frame);
+    const Vec3 half{0.5 * setup.block.size.x, 0.5 * setup.block.size.y, 0};
+    std::size_t on_bottom = 0;
+    std::size_t on_sides = 0;
+    for (std::size_t row = 0; row < frame.rows; ++row) {
+        for (std::size_t column = 0; column < frame.columns; ++column) {
+            const auto z = static_cast<double>(lowest.at(column, row));
+            if (lowest.at(column, row) == HeightMap::nothing) continue;
+            const Vec3 p =
+                map_to_setup(setup, frame, {static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5, z});
+            const double beside = std::max(std::abs(p.x) - half.x, std::abs(p.y) - half.y);
+            const double above = p.z + setup.spoil;
+            EXPECT_NEAR(std::min(std::abs(beside), std::abs(above)), 0, 1e-3);
+            ++(std::abs(beside) < std::abs(above) ? on_sides : on_bottom);
+        }
+    }
+    EXPECT_GT(on_bottom, 500U);
+    EXPECT_GT(on_sides, 500U);
 }
 
 LevelRegion random_region(unsigned seed) {
