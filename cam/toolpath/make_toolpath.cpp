@@ -14,13 +14,13 @@
 #include "base/error.h"
 #include "cam/setup/holder_limit.h"
 #include "cam/toolpath/clipped_passes.h"
-#include "cam/toolpath/disc_max.h"
 #include "cam/toolpath/finishing.h"
 #include "cam/toolpath/finishing_limit.h"
 #include "cam/toolpath/finishing_region.h"
 #include "cam/toolpath/in_process_stock.h"
 #include "cam/toolpath/links.h"
 #include "cam/toolpath/roughing.h"
+#include "cam/toolpath/roughing_limit.h"
 #include "cam/toolpath/tip_surface.h"
 
 namespace qchopper {
@@ -29,7 +29,6 @@ namespace {
 constexpr double cells_per_radius = 6;  // of the finest tool, in the maps of foam
 constexpr double least_foam_cell = 0.5;
 constexpr double worth_a_round = 50;   // mm of passes that were blocked and are free now
-constexpr float closed = 1e6F;         // mm, of a tip
 constexpr int most_handed_over = 2;    // times, of each kind of finishing
 constexpr double long_blocked = 20;    // mm of a pass; shorter ones lie between free ones
 constexpr double worth_another = 200;  // mm of such passes that are worth another direction
@@ -137,8 +136,11 @@ class ToolpathMaker {
         const HeightMap piece = target(direction, foam_cell_, 0);
         HeightMap tip = tip_surface(piece, tool, {operation.allowance});
         raise_to_holder(tip, piece, body_of(tool_index), setup_.piece_in_setup);
-        raise_to_foam(tip, direction, tool, operation.step_down);
-        if (settings_.beside_block) close_beside_block(tip, direction, *settings_.beside_block);
+        raise_to_foam(tip, stock_.lowest(direction, tip), tool, operation.step_down);
+        if (settings_.beside_block) {
+            const InProcessStock block(setup_, FoamCells::middles);
+            close_beside_foam(tip, block.highest(direction, tip), *settings_.beside_block);
+        }
         CarvingSpace space = space_of(piece, operation);
         space.tip_limit = &tip;
         space.is_limit_between = false;
@@ -148,26 +150,6 @@ class ToolpathMaker {
         }
         std::vector<PathRun> runs = rough(space, tool, body_of(tool_index), operation, options, context_);
         add(std::move(operation), space, std::move(runs));
-    }
-
-    // No tip is allowed more than a level below all foam under the tool: where a tilted tool sticks out of the far side
-    // of the block there is nothing to cut, and the arm would have to come nearer to the block.
-    void raise_to_foam(HeightMap& tip, std::size_t direction, const CarvingTool& tool, double level) const {
-        HeightMap lowest = stock_.lowest(direction, tip);
-        for (float& z : lowest.height) z = z == HeightMap::nothing ? z : -z;
-        lowest = disc_max(lowest, 0.5 * tool.diameter + border_cells * tip.cell);
-        for (std::size_t i = 0; i < tip.height.size(); ++i) {
-            if (lowest.height[i] == HeightMap::nothing) continue;
-            tip.height[i] = std::max(tip.height[i], -lowest.height[i] - static_cast<float>(level));
-        }
-    }
-
-    // No tip is allowed farther than that beside the projection of the block.
-    void close_beside_block(HeightMap& tip, std::size_t direction, double beside) const {
-        const HeightMap near = disc_max(InProcessStock(setup_, FoamCells::middles).highest(direction, tip), beside);
-        for (std::size_t i = 0; i < tip.height.size(); ++i) {
-            if (near.height[i] == HeightMap::nothing) tip.height[i] = closed;
-        }
     }
 
     // From all directions; then surface that stays blocked for one is left to the others.

@@ -14,6 +14,7 @@
 #include "cam/toolpath/in_process_stock.h"
 #include "cam/toolpath/links.h"
 #include "cam/toolpath/pass_order.h"
+#include "cam/toolpath/roughing_limit.h"
 #include "cam/toolpath/roughing_passes.h"
 #include "cam/toolpath/time_estimate.h"
 #include "cam/toolpath/tip_surface.h"
@@ -179,6 +180,39 @@ TEST(InProcessStock, OfAWholeBlockTheLowestFoamOfATiltedRayIsOnItsFarSide) {
     }
     EXPECT_GT(on_bottom, 500U);
     EXPECT_GT(on_sides, 500U);
+}
+
+TEST(RaiseToFoam, KeepsTheTipAtMostALevelBelowTheLowestFoamUnderTheTool) {
+    const HeightMap before = random_map(40, 30, 1, 3);
+    HeightMap lowest = random_map(40, 30, 1, 4);
+    for (std::size_t i = 0; i < lowest.height.size(); ++i) {
+        lowest.height[i] += 20;
+        if (i % 40 > 12) lowest.height[i] = HeightMap::nothing;  // no foam there
+    }
+    HeightMap tip = before;
+    raise_to_foam(tip, lowest, flat_tool(2), 5);
+    std::size_t raised = 0;
+    for (std::size_t row = 0; row < tip.rows; ++row) {
+        for (std::size_t column = 0; column < tip.columns; ++column) {
+            const float was = before.at(column, row);
+            raised += tip.at(column, row) > was ? 1 : 0;
+            float least = std::numeric_limits<float>::infinity();
+            for (std::size_t r = 0; r < tip.rows; ++r) {
+                for (std::size_t c = 0; c < tip.columns; ++c) {
+                    const double far = std::hypot(static_cast<double>(c) - static_cast<double>(column),
+                                                  static_cast<double>(r) - static_cast<double>(row));
+                    if (far <= 1 && lowest.at(c, r) != HeightMap::nothing) least = std::min(least, lowest.at(c, r));
+                }
+            }
+            if (least < std::numeric_limits<float>::infinity()) {
+                EXPECT_LE(tip.at(column, row), std::max(was, least - 5)) << "the foam under the tool is reached";
+            } else if (column > 20) {
+                EXPECT_EQ(tip.at(column, row), was) << "far from all foam";
+            }
+            EXPECT_GE(tip.at(column, row), was);
+        }
+    }
+    EXPECT_GT(raised, 20U);
 }
 
 LevelRegion random_region(unsigned seed) {
