@@ -15,8 +15,8 @@ std::set<std::string> all_groups() {
     return {"inspect", "repair", "prepare", "segment", "explain", "export", "dry-run"};
 }
 
-std::string cell() {
-    return (fs::path(QCHOPPER_SOURCE_DIR) / "cells" / "foam-1.toml").string();
+std::string cell(const std::string& name = "foam-1") {
+    return (fs::path(QCHOPPER_SOURCE_DIR) / "cells" / (name + ".toml")).string();
 }
 
 void add_scan_steps(const CommandSpecimen& s, std::vector<CommandStep>& steps) {
@@ -58,10 +58,24 @@ void add_project_steps(const CommandSpecimen& s, std::vector<CommandStep>& steps
     steps.push_back({"dry-run", "dry-run, all jobs", {"dry-run", project}, "prepared", ""});
 }
 
+// The bunny, whose scan is in metres, at 1.5 m: pieces, programs and their proofs.
+void add_program_steps(const CommandSpecimen& s, std::vector<CommandStep>& steps) {
+    for (const std::string name : {"kr60-ha", "kr120-r2500-pro-rotary"}) {
+        steps.push_back(
+            {"programs",
+             "prepare with programs at 1.5 m, " + name,
+             {"prepare", s.scan.string(), "--units", "m", "--scale", "9.63397", "--cell", cell(name), "-o", project},
+             "",
+             "",
+             true});
+    }
+}
+
 }  // namespace
 
 std::vector<CommandSpecimen> command_specimens(const fs::path& data, const fs::path& made, bool is_small) {
-    const CommandSpecimen bunny{"bunny", data / "bunny_bun_zipper.ply", 0, "m", {0, 6}, 2000, all_groups()};
+    CommandSpecimen bunny{"bunny", data / "bunny_bun_zipper.ply", 0, "m", {0, 6}, 2000, all_groups()};
+    bunny.groups.insert("programs");
     if (is_small) return {bunny, {"skull 100k", made / "skull_100k.ply", 100'000, "mm", {0, 6}, 2000, all_groups()}};
     return {bunny,
             {"CT head 371k", data / "ct_head_371k.ply", 0, "mm", {0, 6}, 5000, all_groups()},
@@ -75,10 +89,12 @@ std::vector<CommandStep> command_steps(const CommandSpecimen& specimen, const st
     add_scan_steps(specimen, all);
     add_segment_steps(specimen, all);
     add_project_steps(specimen, all);
+    add_program_steps(specimen, all);
     std::vector<CommandStep> chosen;
     std::set<std::string> needed;  // projects that later steps start from
     for (auto step = all.rbegin(); step != all.rend(); ++step) {
-        const bool is_wanted = specimen.groups.contains(step->group) && (only.empty() || only.contains(step->group));
+        const bool is_named = only.contains(step->group) || (only.empty() && !step->is_long);
+        const bool is_wanted = specimen.groups.contains(step->group) && is_named;
         if (!is_wanted && !needed.contains(step->keep)) continue;
         if (!step->from.empty()) needed.insert(step->from);
         chosen.push_back(*step);
