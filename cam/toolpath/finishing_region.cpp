@@ -23,6 +23,7 @@ constexpr double overhanging = -0.01;   // sine of half a degree: a vertical wal
 // Sine of 12 degrees. Under an edge a tool comes within `near` of overhanging surface: of what faces farther down in a
 // strip narrower than three millimetres.
 constexpr double lowest_facing = -0.2;
+constexpr std::uint8_t worst_under_edges = 1;  // k of overhanging surface; with more, much is carved to no avail
 constexpr std::size_t triangles_at_once = 1024;
 
 // The least of the `width` values from each one on, in place; the last ones have fewer.
@@ -141,7 +142,7 @@ FinishingRegion SurfaceLeft::take(const HeightMap& remaining, double near, doubl
         for (std::size_t t = first; t < end; ++t) {
             const Vec3 normal = normalized(rotate(remaining.piece_in_map, area_vector(*mesh_, t)));
             if (!(normal.z > lowest_facing)) continue;
-            const std::uint8_t worst = normal.z > overhanging ? most_twice : 0;
+            const std::uint8_t worst = normal.z > overhanging ? most_twice : worst_under_edges;
             for_each_point(t, [&](std::size_t index, Vec3 p) {
                 if (left_[index] <= least_before && (left_[index] == 0 || worth > 0)) return;
                 const Vec3 at = apply(remaining.piece_in_map, p);
