@@ -33,8 +33,9 @@ class SurfaceLeft {
     // The region that is to be finished with a tool from the direction of a map that holds what remains at best then:
     // the points over which it leaves less foam than has been left so far, and what lies at most `overlap` beside them.
     // Foam up to `near` is as good as none, and differences count by factors of two from there. With `worth`, only
-    // points that have more foam than that so far. Afterwards the points have what is left now. The result does not
-    // depend on the number of threads. O(points + cells).
+    // points that have more foam than that so far. Surface that faces down by up to 12 degrees counts where at most 2 *
+    // near is left over it: the strip under an edge that the tool goes along. Afterwards the points have what is left
+    // now. The result does not depend on the number of threads. O(points + cells).
     FinishingRegion take(const HeightMap& remaining, double near, double overlap, double worth = 0);
 
     // The number of calls of take().
