@@ -355,7 +355,7 @@ void add_geometry(std::vector<Mutation>& all) {
     const auto plus = [](double d) { return [d](double v) { return v + d; }; };
     all.push_back(everywhere("inches_for_mm", each_component("lin ", xyz, times(1 / 25.4))));
     all.push_back(everywhere("metres_for_mm", each_component("lin ", xyz, times(0.001))));
-    all.push_back(everywhere("scaled_by_1_percent", each_component("lin ", {"X", "Y"}, times(1.01))));
+    all.push_back(everywhere("scaled_by_3_percent", each_component("lin ", {"X", "Y"}, times(1.03))));
     all.push_back(everywhere("mirrored_x", each_component("lin ", {"X"}, times(-1))));
     all.push_back(everywhere("mirrored_y", each_component("lin ", {"Y"}, times(-1))));
     all.push_back(everywhere("mirrored_z", each_component("lin ", {"Z"}, times(-1))));
