@@ -11,76 +11,119 @@
 namespace qchopper {
 namespace {
 
-constexpr double least_free = 2;  // mm of a part of a pass that is worth a way there
-constexpr double touching = 1.5;  // mm
+constexpr double least_part = 2;       // mm of a part of a pass that is worth a way there
+constexpr double touching = 1.5;       // mm
+constexpr double least_length = 1e-6;  // mm; rounding leaves less
 
-// Collects the points of a pass into parts that are free and parts that are blocked.
-class PassParts {
- public:
-    explicit PassParts(ClippedPasses& parts) : parts_(parts) {}
+// Of a pass, in mm from its beginning.
+struct Stretch {
+    double from = 0;
+    double to = 0;
+};
 
-    // A further point, and whether the tip may be there. The line to a blocked point is blocked.
-    void add(const PassPoint& point, bool is_free) {
-        if (!points_.empty() && is_free != is_free_) {
-            const PassPoint last = points_.back();
-            if (is_free) points_.push_back({point.tip, false});
-            end_part();
-            if (!is_free) points_.push_back({last.tip, false});
+// Where the tip may not be, asked at most so far apart. The line to such a point belongs to it.
+template <class IsFree>
+std::vector<Stretch> blocked_stretches(const Pass& pass, double apart, const IsFree& is_free) {
+    std::vector<Stretch> blocked;
+    bool was_free = is_free(pass.points[0].tip);
+    if (!was_free) blocked.push_back({});
+    double begin = 0;
+    double before = 0;
+    for (std::size_t i = 1; i < pass.points.size(); ++i) {
+        const Vec3 from = pass.points[i - 1].tip;
+        const Vec3 way = pass.points[i].tip - from;
+        const double length = norm(way);
+        const auto samples = static_cast<std::size_t>(length / apart) + 1;
+        for (std::size_t k = 1; k <= samples; ++k) {
+            const double share = static_cast<double>(k) / static_cast<double>(samples);
+            const bool now_free = is_free(from + share * way);
+            const double at = begin + share * length;
+            if (was_free && !now_free) blocked.push_back({before, at});
+            if (!was_free) blocked.back().to = at;
+            was_free = now_free;
+            before = at;
         }
-        is_free_ = is_free;
-        points_.push_back(point);
+        begin += length;
     }
+    return blocked;
+}
 
-    void end_pass(bool is_closed) {
-        is_closed_ = is_closed && is_whole_;
-        end_part();
+// None is short, and none is near to another or to an end of the pass: short parts would be carved never, not even when
+// all foam is gone.
+std::vector<Stretch> without_short_parts(const std::vector<Stretch>& blocked, double length) {
+    std::vector<Stretch> wide;
+    for (const Stretch& own : blocked) {
+        const double more = std::max(0.0, 0.5 * (least_part - (own.to - own.from)));
+        Stretch next{own.from - more, own.to + more};
+        if (next.from < least_part) next.from = 0;
+        if (length - next.to < least_part) next.to = length;
+        if (!wide.empty() && next.from - wide.back().to < least_part) {
+            wide.back().to = std::max(wide.back().to, next.to);
+        } else {
+            wide.push_back(next);
+        }
+    }
+    return wide;
+}
+
+// Cuts stretches out of a pass, one after the other.
+class PassCutter {
+ public:
+    explicit PassCutter(const Pass& pass) : pass_(pass) {}
+
+    // From where the one before has ended.
+    Pass up_to(double end) {
+        Pass part;
+        part.points.push_back(here_);
+        while (next_ < pass_.points.size()) {
+            const PassPoint& point = pass_.points[next_];
+            const double length = norm(point.tip - here_.tip);
+            if (at_ + length > end) {
+                here_ = {here_.tip + ((end - at_) / length) * (point.tip - here_.tip), false};
+                break;
+            }
+            at_ += length;
+            here_ = point;
+            ++next_;
+            part.points.push_back(point);
+        }
+        if (norm(here_.tip - part.points.back().tip) > least_length) part.points.push_back(here_);
+        at_ = end;
+        here_.is_rounded = false;
+        part.points.back().is_rounded = false;
+        return part;
     }
 
  private:
-    void end_part() {
-        if (points_.size() >= 2) {
-            Pass part{std::move(points_), is_closed_};
-            const bool is_long = is_closed_ || length_of(part) >= least_free;
-            (is_free_ && is_long ? parts_.free : parts_.blocked).push_back(std::move(part));
-        }
-        points_.clear();
-        is_whole_ = false;
-    }
-
-    ClippedPasses& parts_;
-    std::vector<PassPoint> points_;
-    bool is_free_ = true;
-    bool is_whole_ = true;
-    bool is_closed_ = false;
+    const Pass& pass_;
+    double at_ = 0;
+    std::size_t next_ = 1;
+    PassPoint here_ = pass_.points[0];
 };
 
-// By whether the tip may be at a point, asked at most so far apart.
 template <class IsFree>
 ClippedPasses divided(const std::vector<Pass>& passes, double apart, const IsFree& is_free) {
     ClippedPasses parts;
+    const auto add = [](std::vector<Pass>& to, Pass part) {
+        if (length_of(part) > least_length) to.push_back(std::move(part));
+    };
     for (const Pass& pass : passes) {
-        PassParts own(parts);
-        bool was_free = is_free(pass.points[0].tip);
-        own.add(pass.points[0], was_free);
-        for (std::size_t i = 1; i < pass.points.size(); ++i) {
-            const Vec3 from = pass.points[i - 1].tip;
-            const PassPoint& point = pass.points[i];
-            const auto samples = static_cast<std::size_t>(norm(point.tip - from) / apart) + 1;
-            Vec3 before = from;
-            for (std::size_t k = 1; k <= samples; ++k) {
-                const Vec3 p = from + (static_cast<double>(k) / static_cast<double>(samples)) * (point.tip - from);
-                const bool now_free = is_free(p);
-                // The point before the change, so that a line has samples of one kind.
-                if (now_free != was_free) {
-                    if (k > 1) own.add({before, false}, was_free);
-                    if (k < samples) own.add({p, false}, now_free);
-                }
-                was_free = now_free;
-                before = p;
-            }
-            own.add(point, was_free);
+        const double length = length_of(pass);
+        const std::vector<Stretch> blocked = without_short_parts(blocked_stretches(pass, apart, is_free), length);
+        if (blocked.empty()) {
+            add(pass.is_closed || length >= least_part ? parts.free : parts.blocked, pass);
+            continue;
         }
-        own.end_pass(pass.is_closed);
+        if (blocked[0].from <= 0 && blocked[0].to >= length) {
+            add(parts.blocked, pass);
+            continue;
+        }
+        PassCutter cutter(pass);
+        for (const Stretch& own : blocked) {
+            add(parts.free, cutter.up_to(own.from));
+            add(parts.blocked, cutter.up_to(own.to));
+        }
+        add(parts.free, cutter.up_to(length + 1));
     }
     return parts;
 }

@@ -14,10 +14,11 @@
 namespace qchopper {
 
 // Together all that the passes carve: a blocked part begins and ends where a free one does
-// (tests/cam/toolpath/stock_and_links_test.cpp).
+// (tests/cam/toolpath/stock_and_links_test.cpp). Parts are at least 2 mm long, at the cost of free ones, and so is what
+// stays blocked: when the foam is gone it is free as a whole and worth a way there. Shorter passes stay as they are.
 struct ClippedPasses {
     std::vector<Pass> free;     // the tip stays above the holder's limit and removes nothing above its flute
-    std::vector<Pass> blocked;  // the rest, and parts that are too short to be worth a way there
+    std::vector<Pass> blocked;  // the rest, and open passes that are too short
 };
 
 ClippedPasses clipped(const std::vector<Pass>& passes, const CarvingSpace& space, const CarvingTool& tool);

@@ -1,7 +1,8 @@
 // A ray goes down through each cell in steps of a cell. Between two steps and within the cell every point of foam lies
 // within less than a cell of a step, seen from any direction: so each step is compared with the highest of 3 x 3 cells
 // of every other direction's map and one cell above it, and the answer is the step before. Along its own direction the
-// map of that direction tells where the ray begins, exactly. O(cells * steps * directions).
+// map of that direction tells where the ray begins, exactly. Above the highest cell of a square of another direction's
+// map all steps are over at once. O(cells * steps * directions) at most.
 
 #include "cam/toolpath/in_process_stock.h"
 
@@ -22,6 +23,7 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t sweep_rings = 1024;                    // of equal area under the tool
 constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
+constexpr std::size_t square = 16;                           // cells of a map of which the highest is known
 
 Box block_of(const Setup& setup) {
     const Vec3 half{0.5 * setup.block.size.x, 0.5 * setup.block.size.y, 0};
@@ -61,9 +63,53 @@ bool is_above(const HeightMap& map, Vec3 p) {
 }
 
 // What another direction removed, raised so that a sample speaks for all that is less than a cell away.
-struct Raised {
-    HeightMap down_to;
-    Pose ray_in_map;  // from the map that is asked for
+class Raised {
+ public:
+    // `ray_in_map`: from the map that is asked for.
+    Raised(HeightMap down_to, const Pose& ray_in_map) : down_to_(std::move(down_to)), ray_in_map_(ray_in_map) {
+        columns_ = (down_to_.columns + square - 1) / square;
+        top_.assign(columns_ * ((down_to_.rows + square - 1) / square), HeightMap::nothing);
+        for (std::size_t row = 0; row < down_to_.rows; ++row) {
+            for (std::size_t column = 0; column < down_to_.columns; ++column) {
+                float& top = top_[row / square * columns_ + column / square];
+                top = std::max(top, down_to_.at(column, row));
+            }
+        }
+    }
+
+    // How many points from this one on, `step` apart along the ray, are surely removed: 0 if this one is not.
+    std::size_t removed_from(Vec3 on_ray, double step) const {
+        const Vec3 p = apply(ray_in_map_, on_ray);
+        if (!is_above(down_to_, p)) return 0;
+        const double wide = static_cast<double>(square) * down_to_.cell;
+        const double column = std::floor(p.x / wide);
+        const double row = std::floor(p.y / wide);
+        const float top = top_[static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column)];
+        // A little inside, so that rounding puts no point beside the square.
+        const Vec3 along = rotate(ray_in_map_, {0, 0, step});
+        const double inside = 1e-6;
+        double steps = steps_within(p.z, static_cast<double>(top) + inside, infinite, along.z);
+        const double columns_end = std::min((column + 1) * wide, static_cast<double>(down_to_.columns) * down_to_.cell);
+        const double rows_end = std::min((row + 1) * wide, static_cast<double>(down_to_.rows) * down_to_.cell);
+        steps = std::min(steps, steps_within(p.x, column * wide + inside, columns_end - inside, along.x));
+        steps = std::min(steps, steps_within(p.y, row * wide + inside, rows_end - inside, along.y));
+        return 1 + static_cast<std::size_t>(std::clamp(steps, 0.0, most_steps));
+    }
+
+ private:
+    static constexpr double most_steps = 1e6;
+
+    // How often `step` may be added so that it stays between two values; negative if it is not there now.
+    static double steps_within(double at, double low, double high, double step) {
+        if (!(at > low && at < high)) return -1;
+        if (step == 0) return infinite;
+        return std::floor((step > 0 ? high - at : low - at) / step);
+    }
+
+    HeightMap down_to_;
+    Pose ray_in_map_;
+    std::size_t columns_ = 0;
+    std::vector<float> top_;  // of each square
 };
 
 class Rays {
@@ -86,34 +132,40 @@ class Rays {
         const Span span = span_in(box_, apply(setup_in_map_, {x, y, 0}), out_);
         if (span.is_empty()) return HeightMap::nothing;
         const double begin = std::min(span.high, top);
-        std::size_t last = 0;  // what removed the step before is asked first
-        for (double z = begin; z > span.low; z -= step) {
-            if (!is_removed({x, y, z}, last)) return static_cast<float>(std::min(begin, z + step));
-        }
-        return HeightMap::nothing;
+        const double z = first_left({x, y, begin}, -step, begin - span.low);
+        return z == infinite ? HeightMap::nothing : static_cast<float>(std::min(begin, z + step));
     }
 
     // The lowest one.
     float lowest(double x, double y, double top, double step) const {
         const Span span = span_in(box_, apply(setup_in_map_, {x, y, 0}), out_);
         if (span.is_empty()) return HeightMap::nothing;
-        std::size_t last = 0;
-        for (double z = span.low; z < std::min(span.high, top); z += step) {
-            if (!is_removed({x, y, z}, last)) return static_cast<float>(std::max(span.low, z - step));
-        }
-        return HeightMap::nothing;
+        const double z = first_left({x, y, span.low}, step, std::min(span.high, top) - span.low);
+        return z == infinite ? HeightMap::nothing : static_cast<float>(std::max(span.low, z - step));
     }
 
  private:
-    bool is_removed(Vec3 in_map, std::size_t& last) const {
-        if (others_.empty()) return false;
-        for (std::size_t k = 0; k < others_.size(); ++k) {
-            const std::size_t i = (last + k) % others_.size();
-            if (!is_above(others_[i].down_to, apply(others_[i].ray_in_map, in_map))) continue;
-            last = i;
-            return true;
+    // The height of the first point of a ray, in steps, that is not removed; infinite if all are to a distance.
+    double first_left(Vec3 from, double step, double far) const {
+        std::size_t last = 0;  // what removed the step before is asked first
+        for (std::size_t k = 0; static_cast<double>(k) * std::abs(step) < far;) {
+            const double z = from.z + static_cast<double>(k) * step;
+            const std::size_t removed = removed_from({from.x, from.y, z}, step, last);
+            if (removed == 0) return z;
+            k += removed;
         }
-        return false;
+        return infinite;
+    }
+
+    std::size_t removed_from(Vec3 in_map, double step, std::size_t& last) const {
+        for (std::size_t k = 0; k < others_.size(); ++k) {
+            const std::size_t i = last + k < others_.size() ? last + k : last + k - others_.size();
+            const std::size_t removed = others_[i].removed_from(in_map, step);
+            if (removed == 0) continue;
+            last = i;
+            return removed;
+        }
+        return 0;
     }
 
     std::vector<Raised> others_;
@@ -184,7 +236,7 @@ HeightMap InProcessStock::mapped(std::size_t direction, const HeightMap& frame, 
             raised = disc_max(raised, std::numbers::sqrt2 * (frame.cell + 1e-6));
             for (float& height : raised.height) height += static_cast<float>(frame.cell);
         }
-        others.push_back({std::move(raised), removed.down_to.piece_in_map * inverse(frame.piece_in_map)});
+        others.emplace_back(std::move(raised), removed.down_to.piece_in_map * inverse(frame.piece_in_map));
     }
     assert(own == nullptr || own->height.size() == frame.height.size());
     const Rays rays(*setup_, frame, std::move(others), kind_ == FoamCells::whole ? 1 : 0);

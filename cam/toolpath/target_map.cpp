@@ -21,6 +21,7 @@ namespace qchopper {
 namespace {
 
 constexpr std::size_t triangles_at_once = 4096;
+constexpr double beside_cells = 0.3;
 
 // The least float that is not below a height; never -0, which would make the result depend on the order.
 float rounded_up(double height) {
@@ -193,17 +194,21 @@ HeightMap target_map(const Setup& setup, const TriangleMesh& mesh, std::size_t d
     HeightMap map;
     map.cell = options.cell;
     const Vec3 out = setup.reach.directions[direction].out;
-    const auto [e1, e2] = frame_under(out);
-    map.piece_in_map.row = {e1, e2, out};
+    // Rows along the sides of the block: the map of a block that is turned under it is up to twice as large.
+    const auto [e1, e2] = frame_under(rotate(setup.piece_in_setup, out));
+    map.piece_in_map.row = {rotate_inverse(setup.piece_in_setup, e1), rotate_inverse(setup.piece_in_setup, e2), out};
     const Box box = box_in_map(map.piece_in_map, setup, mesh);
-    const Vec3 size = box.size() + Vec3{2 * options.border, 2 * options.border, 0};
+    // Sides of the block, and walls that lie whole cells from them, are neither on lines between cells nor in the
+    // middle, where rounding decides whether a cell has them.
+    const double beside = options.border + beside_cells * map.cell;
+    const Vec3 size = box.size() + Vec3{2 * beside, 2 * beside, 0};
     if ((size.x / map.cell + 1) * (size.y / map.cell + 1) > static_cast<double>(most_map_cells)) {
         throw InputError(InputFault::use, "a height map of the block would have too many cells", "use larger cells");
     }
     map.columns = static_cast<std::size_t>(size.x / map.cell) + 1;
     map.rows = static_cast<std::size_t>(size.y / map.cell) + 1;
     const double middle = box.centre().z;
-    map.piece_in_map.shift = {options.border - box.min.x, options.border - box.min.y, -middle};
+    map.piece_in_map.shift = {beside - box.min.x, beside - box.min.y, -middle};
     map.height.resize(map.columns * map.rows);
     const FloorPlane floor(setup, map, options.floor_z, box.min.z - middle, box.max.z - middle);
     parallel_for(0, map.rows, [&](std::size_t row) {

@@ -21,14 +21,15 @@ struct TargetOptions {
     double cell = 0.25;
     // Height, in setup coordinates, of the plane below which no tip may go: the foam under it stays.
     double floor_z = 0;
-    double border = 0;  // how far the map goes beyond the projection of the block
+    double border = 0;  // how far the map goes beyond the projection of the block, at least
 };
 
 // The highest point of the piece or of the floor over the whole of each cell, not only over its middle. It covers the
 // projection of the block, and every cell has a height; along a direction on whose side the floor is steeper than the
-// block is high, the floor ends at the block's highest and lowest point. Preconditions: the mesh is that of the piece,
-// direction is one of setup.reach.directions. Throws InputError (use) if a value is not finite, the cell not above
-// zero or the border below it, and as height_map() does. O(triangles + cells covered).
+// block is high, the floor ends at the block's highest and lowest point. Seen from above, its rows lie along the sides
+// of the block. Preconditions: the mesh is that of the piece, direction is one of setup.reach.directions. Throws
+// InputError (use) if a value is not finite, the cell not above zero or the border below it, and as height_map() does.
+// O(triangles + cells covered).
 HeightMap target_map(const Setup& setup, const TriangleMesh& mesh, std::size_t direction, const TargetOptions& options);
 
 // The point of a map in setup coordinates, and back.

@@ -22,7 +22,7 @@ using test_pieces::bumpy;
 using test_pieces::setup_of;
 
 constexpr double cell = 0.5;
-constexpr double near = 0.5;
+constexpr double near = 0.75;  // of a scallop height of 0.25 mm and a cell
 
 HeightMap closing_of(const Setup& setup, const TriangleMesh& mesh, std::size_t direction, double diameter) {
     const CarvingTool tool = ball_tool(diameter);

@@ -148,6 +148,47 @@ TEST(InProcessStock, NeverTellsLessFoamThanThereIs) {
     }
 }
 
+// Down or up through the middle of a cell in steps of a cell, to the first point that may be foam; none: nothing.
+float first_foam(const InProcessStock& stock, const Setup& setup, const HeightMap& frame, Vec3 begin, double end) {
+    const double step = end > begin.z ? frame.cell : -frame.cell;
+    for (int k = 0; std::abs(step) * k < std::abs(end - begin.z); ++k) {
+        const double z = begin.z + step * k;
+        if (!stock.may_be_foam(map_to_setup(setup, frame, {begin.x, begin.y, z}))) continue;
+        return static_cast<float>(k == 0 ? begin.z : z - step);
+    }
+    return HeightMap::nothing;
+}
+
+bool are_near(float a, float b) {
+    return a == b || std::abs(a - b) < 1e-4F;
+}
+
+// The tilted direction has removed all above the piece, and its map is many squares wide.
+TEST(InProcessStock, AlongRaysIsThatOfAPlainLoop) {
+    const TriangleMesh mesh = shapes::box({0, 0, 0}, {50, 40, 30});
+    const auto setup = setup_of(mesh, 8, 50);
+    InProcessStock stock(setup, FoamCells::middles);
+    stock.remove_above(1, target_map(setup, mesh, 1, {0.7, 0, 15}));
+    const HeightMap frame = target_map(setup, mesh, 0, {0.7, 0, 15});
+    const HeightMap highest = stock.highest(0, frame);
+    const HeightMap lowest = stock.lowest(0, frame);
+    const double bottom = setup_to_map(setup, frame, {0, 0, -setup.spoil}).z;
+    const double top = bottom + setup.block.size.z;
+    std::size_t between = 0;
+    for (std::size_t row = 0; row < frame.rows; ++row) {
+        for (std::size_t column = 0; column < frame.columns; ++column) {
+            const double x = frame.cell * (static_cast<double>(column) + 0.5);
+            const double y = frame.cell * (static_cast<double>(row) + 0.5);
+            const float from_above = first_foam(stock, setup, frame, {x, y, top}, bottom);
+            ASSERT_TRUE(are_near(highest.at(column, row), from_above)) << column << ' ' << row;
+            const float from_below = first_foam(stock, setup, frame, {x, y, bottom}, top);
+            ASSERT_TRUE(are_near(lowest.at(column, row), from_below)) << column << ' ' << row;
+            if (from_above != HeightMap::nothing && static_cast<double>(from_above) < top - 1) ++between;
+        }
+    }
+    EXPECT_GT(between, 1000U);
+}
+
 TEST(InProcessStock, OfAWholeBlockIsItsTop) {
     const TriangleMesh mesh = shapes::box({0, 0, 0}, {50, 40, 30});
     const auto setup = setup_of(mesh, 8);
@@ -434,6 +475,25 @@ TEST(Clipped, FreeAndBlockedPartsAddUpToThePasses) {
             EXPECT_LE(least_height(plate.space.holder_limit, point.tip.x, point.tip.y), point.tip.z);
         }
     }
+}
+
+TEST(Clipped, PartsOfADottedPassAreFreeAsAWholeWhenTheFoamIsGone) {
+    const CarvingTool tool = ball_tool(12);
+    Plate plate;
+    // Blocked and free by turns of 1 mm from x = 60 on, for 40 mm, and one blocked cell beyond.
+    HeightMap& limit = plate.space.holder_limit;
+    for (std::size_t r = 0; r < limit.rows; ++r) {
+        for (std::size_t c = 60; c < 100; c += 2) limit.height[r * limit.columns + c] = 50;
+        limit.height[r * limit.columns + 150] = 50;
+    }
+    const ClippedPasses parts = clipped({line({20.1, 50, 12}, {180.3, 50, 12})}, plate.space, tool);
+    ASSERT_EQ(parts.free.size(), 3U);
+    ASSERT_EQ(parts.blocked.size(), 2U);
+    EXPECT_NEAR(length_of(parts.blocked[0]), 40, 1);
+    for (const Pass& part : parts.blocked) EXPECT_GE(length_of(part), 2 - 1e-9);
+    EXPECT_NEAR(length_of(parts.free) + length_of(parts.blocked), 160.2, 1e-9);
+    std::fill(limit.height.begin(), limit.height.end(), HeightMap::nothing);
+    EXPECT_TRUE(clipped(parts.blocked, plate.space, tool).blocked.empty());
 }
 
 TEST(NearSurface, LeavesOutWhereTheToolIsHeldAway) {

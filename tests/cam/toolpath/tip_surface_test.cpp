@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "segment/mesh/measure.h"
+#include "segment/mesh/transform.h"
 #include "tests/cam/toolpath/toolpath_pieces.h"
 #include "tests/shapes.h"
 
@@ -105,6 +106,22 @@ TEST(TargetMap, TheFloorIsAPlaneOfTheSetup) {
             }
         }
         EXPECT_GT(on_floor, 1000U);
+    }
+}
+
+// However the piece lies in its own coordinates.
+TEST(TargetMap, RowsLieAlongTheSidesOfTheBlock) {
+    const TriangleMesh mesh = shapes::box({0, 0, 0}, {40, 20, 10});
+    for (const double turn : {0.0, 0.5, 2.0}) {
+        auto setup = setup_of(mesh, 5);
+        const Pose turned{{Vec3{std::cos(turn), -std::sin(turn), 0}, {std::sin(turn), std::cos(turn), 0}, {0, 0, 1}},
+                          {}};
+        setup.piece_in_setup = setup.piece_in_setup * inverse(turned);
+        const HeightMap map = target_map(setup, apply(turned, mesh), 0, {0.5, 0, 3});
+        const Vec3 side = map_to_setup(setup, map, {1, 0, 0}) - map_to_setup(setup, map, {});
+        EXPECT_NEAR(norm(side - Vec3{1, 0, 0}), 0, 1e-12);
+        EXPECT_NEAR(0.5 * static_cast<double>(map.columns), setup.block.size.x + 6, 1);
+        EXPECT_NEAR(0.5 * static_cast<double>(map.rows), setup.block.size.y + 6, 1);
     }
 }
 
