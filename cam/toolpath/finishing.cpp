@@ -239,8 +239,8 @@ std::vector<Pass> finishing_passes(const HeightMap& tip, const CarvingTool& tool
         foot = foot_of_walls(tip, *options.floor, radius);
         std::transform(steep.begin(), steep.end(), foot.cells.begin(), steep.begin(), std::bit_or<>());
     }
-    std::vector<Pass> passes = level_passes(tip, {std::move(masks.steep), std::move(steep)}, {wide_region, foot},
-                                            least_slope, common, context);
+    std::vector<Pass> passes = level_passes(tip, {std::move(masks.steep), std::move(steep)},
+                                            {wide_region, foot, options.tool}, least_slope, common, context);
     report(3);
     const CellMask flat = SurfaceGrowth(masks.flat, tip, step).mask();
     std::vector<Pass> rows = raster_passes(tip, {masks.flat, flat}, common, context);

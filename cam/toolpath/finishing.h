@@ -15,6 +15,7 @@
 #include "cam/cell/carving_tool.h"
 #include "cam/toolpath/finishing_region.h"
 #include "cam/toolpath/pass.h"
+#include "cam/toolpath/tip_surface.h"
 
 namespace qchopper {
 
@@ -27,6 +28,9 @@ struct FinishingOptions {
     // The floor around the piece, in the cells of the map: levels go round whatever stands on it, up to the radius
     // of the tool above it. Nothing: there is none.
     const FinishingRegion* floor = nullptr;
+    // The tool over the target, as the tip surface was made with it: levels then go along vertical edges where these
+    // are, and not a cell beside them. Nothing: it is not known.
+    const TipDilation* tool = nullptr;
 };
 
 // The largest distance between neighbouring passes. Throws InputError (use) as finishing_passes does.

@@ -154,7 +154,8 @@ std::vector<LevelLine> marked_parts(const LevelLine& line, const std::vector<std
 
 class LevelGates {
  public:
-    LevelGates(const HeightMap& tip, double tolerance) : smooth_(tip), tolerance_(tolerance), cell_(tip.cell) {}
+    LevelGates(const HeightMap& tip, double tolerance)
+        : tip_(tip), smooth_(tip), tolerance_(tolerance), cell_(tip.cell) {}
 
     std::vector<Gate> of(const LevelLine& line, double z) const {
         const auto count = static_cast<std::ptrdiff_t>(line.points.size());
@@ -195,11 +196,15 @@ class LevelGates {
         const double width_at_edge = 0.75 * cell_ + 0.7 * tolerance_;
         double width = point.is_at_edge ? std::max(tolerance_, width_at_edge) : tolerance_;
         const auto beside = [&](double far) { return Point2{at.x + far * left.x, at.y + far * left.y}; };
-        // A cell farther, because next to an edge the interpolated surface is too high.
-        if (smooth_.height(beside(width + cell_)) > z) width = 0.01 * tolerance_;
+        // A cell farther, because next to an edge the interpolated surface is too high; and at the edge itself not even
+        // interpolated.
+        const Point2 far = beside(width + cell_);
+        const double rise = point.is_at_found_edge ? tip_.height[smooth_.cell(far)] : smooth_.height(far);
+        if (rise > z) width = 0.01 * tolerance_;
         return {at, beside(width)};
     }
 
+    const HeightMap& tip_;
     SmoothTip smooth_;
     double tolerance_;
     double cell_;
@@ -279,17 +284,18 @@ std::vector<Pass> level_passes(const HeightMap& tip, const PassCells& cells, con
     const double jump = std::sqrt(options.radius * tip.cell);
     const LevelContact contact(tip, ground, options.radius, step);
     std::vector<LevelLine> lines =
-        parts_where(level_lines(tip, cells.allowed, levels, halvings, 0, jump), options.overlap,
+        parts_where(level_lines(tip, cells.allowed, levels, halvings, 0, jump, ground.tool), options.overlap,
                     [&](Point2 p, std::size_t level) { return contact.holds(p, levels.height(level)); });
     const LevelNeed need(tip, cells.wanted, options);
     for (std::size_t gap = halvings / 2; gap > 0; gap /= 2) {
         context.check_cancelled();
         const double distance_up = levels.step * static_cast<double>(gap);
-        std::vector<LevelLine> between = parts_where(level_lines(tip, cells.allowed, levels, 2 * gap, gap, jump),
-                                                     options.overlap, [&](Point2 p, std::size_t level) {
-                                                         const double z = levels.height(level);
-                                                         return need.holds(p, z, distance_up) && contact.holds(p, z);
-                                                     });
+        std::vector<LevelLine> between =
+            parts_where(level_lines(tip, cells.allowed, levels, 2 * gap, gap, jump, ground.tool), options.overlap,
+                        [&](Point2 p, std::size_t level) {
+                            const double z = levels.height(level);
+                            return need.holds(p, z, distance_up) && contact.holds(p, z);
+                        });
         std::move(between.begin(), between.end(), std::back_inserter(lines));
     }
     // From above.

@@ -8,6 +8,7 @@
 #include "cam/toolpath/finishing_region.h"
 #include "cam/toolpath/pass.h"
 #include "cam/toolpath/raster_passes.h"
+#include "cam/toolpath/tip_surface.h"
 #include "cam/toolpath/tip_view.h"
 
 namespace qchopper {
@@ -18,10 +19,12 @@ struct LevelFloor {
     double top = 0;
 };
 
-// What levels are for; both must outlive it.
+// What levels are for, and the tool over the target, if edges of the tip surface are to be found with it. They must
+// outlive it.
 struct LevelGround {
     const FinishingRegion& region;
     const LevelFloor& floor;
+    const TipDilation* tool = nullptr;
 };
 
 // Levels over the cells that are allowed, where the tool touches the region, and at the floor. Their distance keeps the

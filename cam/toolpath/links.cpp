@@ -135,8 +135,30 @@ double RunBuilder::over_flute(Vec3 at) const {
     return static_cast<double>(disc_max_at(space_->middle_foam, at.x, at.y, radius)) - at.z - tool_->flute_length;
 }
 
-double RunBuilder::limit_at(double x, double y) const {
-    return space_->is_limit_between ? height_between(*space_->tip_limit, x, y) : least_height(*space_->tip_limit, x, y);
+// Between the middles of cells beside a vertical edge the tool tells where the edge is.
+double RunBuilder::limit_at(Vec3 p) const {
+    if (!space_->is_limit_between) return least_height(*space_->tip_limit, p.x, p.y);
+    const double limit = height_between(*space_->tip_limit, p.x, p.y);
+    if (limit <= p.z || space_->tool == nullptr || !is_limit_of_tool(p)) return limit;
+    return std::min(limit, space_->tool->height(p.x, p.y));
+}
+
+// Whether nothing else keeps the tip above a point at the middles of the cells around it.
+bool RunBuilder::is_limit_of_tool(Vec3 p) const {
+    const HeightMap& limit = *space_->tip_limit;
+    const auto first = [&](double at, std::size_t count) {
+        return static_cast<std::size_t>(std::clamp(at / limit.cell - 0.5, 0.0, static_cast<double>(count - 1)));
+    };
+    const std::size_t column = first(p.x, limit.columns);
+    const std::size_t row = first(p.y, limit.rows);
+    for (const std::size_t c : {column, std::min(column + 1, limit.columns - 1)}) {
+        for (const std::size_t r : {row, std::min(row + 1, limit.rows - 1)}) {
+            const std::size_t cell = r * limit.columns + c;
+            const bool is_high = static_cast<double>(limit.height[cell]) > p.z;
+            if (is_high && !is_of_tool(limit, *space_->tool, cell)) return false;
+        }
+    }
+    return true;
 }
 
 double RunBuilder::holder_at(double x, double y) const {
@@ -157,7 +179,7 @@ RunBuilder::Way RunBuilder::way_to(Vec3 to) const {
     const auto every = std::max<std::size_t>(1, static_cast<std::size_t>(0.5 * space_->foam.cell / fine));
     for (std::size_t i = 0; i <= samples; ++i) {
         const Vec3 p = at_ + (static_cast<double>(i) / static_cast<double>(samples)) * line;
-        const double limit = limit_at(p.x, p.y);
+        const double limit = limit_at(p);
         way.limit = std::max(way.limit, limit);
         way.over_limit = std::max(way.over_limit, limit - p.z);
         if (i % every != 0 && i != samples) continue;

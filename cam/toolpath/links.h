@@ -19,6 +19,7 @@
 #include "cam/setup/holder_limit.h"
 #include "cam/toolpath/in_process_stock.h"
 #include "cam/toolpath/pass.h"
+#include "cam/toolpath/tip_surface.h"
 #include "cam/toolpath/toolpath.h"
 
 namespace qchopper {
@@ -30,6 +31,7 @@ constexpr double least_ramp = 3;  // mm
 struct CarvingSpace {
     const HeightMap* tip_limit = nullptr;  // least height of the tip
     bool is_limit_between = true;          // the limit holds between middles of cells too; else each cell has its own
+    const TipDilation* tool = nullptr;     // if known: what made the limit, which may have been raised since
     HeightMap foam;                        // highest foam; runs lower it
     HeightMap removed;                     // down to where runs removed everything, infinite elsewhere; runs lower it
     HeightMap middle_foam;                 // at the middles of cells; runs lower it
@@ -89,7 +91,8 @@ class RunBuilder {
 
     double foam_near(Vec3 at, double radius) const;
     double over_flute(Vec3 at) const;
-    double limit_at(double x, double y) const;
+    double limit_at(Vec3 p) const;
+    bool is_limit_of_tool(Vec3 p) const;
     double holder_at(double x, double y) const;
     bool needs_ramp(Vec3 at) const;
 

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -36,9 +37,11 @@ constexpr double border_cells = 6;
 constexpr double surface_spacing = 1;       // mm, between points that are asked what is left over them
 constexpr double clear_of_table = 2;        // mm, of all points of a tool
 constexpr double rim_clear_of_table = 1.1;  // mm; the check tool_to_table of cam/setup asks for 1
-constexpr double finishing_border = 0.075;  // mm, of the cells of finishing (TipOptions::border)
 constexpr double upright = 0.9999;          // cosine of the tilt of a direction from above
 constexpr double skin_beyond = 4.2;         // mm beyond the allowance: a narrower rim of foam is left to finishing
+
+// Edges are cut into by at most 0.11 mm by its border, which with what paths between cells cut is below 0.25 mm.
+constexpr TipOptions finishing_tip_options{0, 0.075};
 
 class ToolpathMaker {
  public:
@@ -178,26 +181,37 @@ class ToolpathMaker {
         operation.scallop = options.scallop;
         operation.rounding = settings_.rounding;
         const double floor_z = finishing_floor(out_of(direction), 0.5 * tool.diameter);
-        HeightMap own_tip;  // without holder and spindle
-        HeightMap tip = finishing_tip(operation, floor_z, own_tip);
+        auto over_piece = std::make_unique<ToolOverPiece>(target(direction, settings_.cell, floor_z), tool);
+        HeightMap own_tip = tip_surface(over_piece->piece, tool, finishing_tip_options);  // without holder and spindle
+        HeightMap tip = finishing_tip(operation, over_piece->piece, own_tip);
         if (over_foam) raise_to_limit(tip, limit_now(operation));
         const FinishingRegion region = finishing_region(operation, tip);
         const bool is_empty = std::all_of(region.begin(), region.end(), [](float low) { return low == not_finished; });
         const bool has_floor = direction == 0 && kind == OperationKind::finishing && !over_foam;
         if (is_empty && !has_floor) return;
-        const FinishingRegion floor = has_floor ? floor_band(direction, floor_z, tool.diameter) : FinishingRegion();
+        const FinishingRegion floor = has_floor ? floor_band(over_piece->piece, tool.diameter) : FinishingRegion();
         if (has_floor) options.floor = &floor;
+        options.tool = &over_piece->tool;
         std::vector<Pass> passes = finishing_passes(tip, tool, region, options, context_);
         passes = near_surface(passes, own_tip);
         own_tip = {};
-        PassesLeft left{std::move(operation), std::move(tip), std::move(passes), left_.takes()};
+        PassesLeft left{std::move(operation), std::move(over_piece), std::move(tip), std::move(passes), left_.takes()};
         carve(left);
         if (!left.passes.empty()) blocked_.push_back(std::move(left));
     }
 
+    // A finishing tool over the map of the piece. It stays where it is.
+    struct ToolOverPiece {
+        ToolOverPiece(HeightMap map, const CarvingTool& of)
+            : piece(std::move(map)), tool(piece, of, finishing_tip_options) {}
+        HeightMap piece;
+        TipDilation tool;
+    };
+
     // Passes of an operation that are not carved yet, over its tip surface.
     struct PassesLeft {
         Operation operation;  // without runs
+        std::unique_ptr<ToolOverPiece> over_piece;
         HeightMap tip;
         std::vector<Pass> passes;
         std::size_t take = 0;  // of SurfaceLeft; 0: the surface was given back
@@ -210,6 +224,7 @@ class ToolpathMaker {
         const ToolBody body = body_of(left.operation.tool);
         CarvingSpace space = space_of(target(left.operation.direction, foam_cell_, 0), left.operation);
         space.tip_limit = &left.tip;
+        space.tool = &left.over_piece->tool;
         LinkOptions links;
         links.slack = settings_.path_tolerance;
         RunBuilder runs(space, tool, left.operation, links);
@@ -270,13 +285,9 @@ class ToolpathMaker {
     // Foam up to so much is as good as none.
     double near(const Operation& operation) const { return operation.scallop + settings_.cell; }
 
-    HeightMap finishing_tip(const Operation& operation, double floor_z, HeightMap& own_tip) const {
-        const CarvingTool& tool = machine_.tools[operation.tool];
+    // A tip surface over the piece, raised for holder and spindle.
+    HeightMap finishing_tip(const Operation& operation, const HeightMap& piece, HeightMap tip) const {
         const ToolBody body = body_of(operation.tool);
-        const HeightMap piece = target(operation.direction, settings_.cell, floor_z);
-        // Edges are cut into by at most 0.11 mm by that, which with what paths between cells cut is below 0.25 mm.
-        own_tip = tip_surface(piece, tool, {0, finishing_border});
-        HeightMap tip = own_tip;
         raise_to_holder(tip, piece, body, setup_.piece_in_setup);
         const double foam_left = operation.scallop + settings_.path_tolerance;
         raise_to_limit(tip, limit_over_finished(target(operation.direction, foam_cell_, 0), foam_left, body,
@@ -292,8 +303,7 @@ class ToolpathMaker {
     }
 
     // The floor within a tool's width of the piece.
-    FinishingRegion floor_band(std::size_t direction, double floor_z, double width) const {
-        const HeightMap piece = target(direction, settings_.cell, floor_z);
+    static FinishingRegion floor_band(const HeightMap& piece, double width) {
         FinishingRegion floor(piece.height.size(), not_finished);
         add_floor_band(floor, piece, width);
         return floor;

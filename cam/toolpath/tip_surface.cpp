@@ -76,6 +76,9 @@ TipDilation::TipDilation(const HeightMap& target, const CarvingTool& tool, const
     check(options);
     const RoundProfile profile = profile_of(tool, options.allowance);
     const double border = std::min(options.border, 0.5 * target.cell);
+    tool_ = tool;
+    allowance_ = options.allowance;
+    inner_ = 0.5 * target.cell - border;
     const auto distance = [&](std::size_t column, std::size_t row) {
         return nearest(column, row, target.cell, border);
     };
@@ -92,6 +95,7 @@ TipDilation::TipDilation(const HeightMap& target, const CarvingTool& tool, const
 
 TipDilation TipDilation::of_negative_tips(const HeightMap& negative_tip, const CarvingTool& tool) {
     TipDilation dilation;
+    dilation.tool_ = tool;
     const RoundProfile profile = profile_of(tool, 0);
     const auto distance = [&](std::size_t columns, std::size_t rows) {
         return negative_tip.cell * std::hypot(static_cast<double>(columns), static_cast<double>(rows));
@@ -165,6 +169,35 @@ void TipDilation::fill(std::size_t row, std::size_t first, std::size_t end, floa
     }
 }
 
+double TipDilation::height(double x, double y) const {
+    const HeightMap& map = *target_;
+    const RoundProfile profile = profile_of(tool_, allowance_);
+    const double past = profile.radius + inner_;
+    const auto first = [&](double at) {
+        return static_cast<std::size_t>(std::max(0.0, std::floor((at - past) / map.cell)));
+    };
+    const auto end = [&](double at, std::size_t count) {
+        return std::min(count, static_cast<std::size_t>(std::max(0.0, std::floor((at + past) / map.cell) + 1)));
+    };
+    const auto beside = [&](double at, std::size_t cell) {
+        return std::max(0.0, std::abs(map.cell * (static_cast<double>(cell) + 0.5) - at) - inner_);
+    };
+    double least = -std::numeric_limits<double>::infinity();
+    const std::size_t first_column = first(x);
+    const std::size_t end_column = end(x, map.columns);
+    for (std::size_t row = first(y); row < end(y, map.rows); ++row) {
+        const double v = beside(y, row);
+        const float* own = &map.height[row * map.columns];
+        for (std::size_t column = first_column; column < end_column; ++column) {
+            const double high = static_cast<double>(own[column]) + allowance_;
+            if (high <= least) continue;
+            const double u = beside(x, column);
+            least = std::max(least, high - profile.height(std::sqrt(u * u + v * v)));
+        }
+    }
+    return least;
+}
+
 namespace {
 
 HeightMap filled(const HeightMap& map, const TipDilation& dilation) {
@@ -178,6 +211,12 @@ HeightMap filled(const HeightMap& map, const TipDilation& dilation) {
 }
 
 }  // namespace
+
+bool is_of_tool(const HeightMap& tip, const TipDilation& tool, std::size_t cell) {
+    const double x = tip.cell * (static_cast<double>(cell % tip.columns) + 0.5);
+    const double y = tip.cell * (static_cast<double>(cell / tip.columns) + 0.5);
+    return static_cast<double>(tip.height[cell]) <= tool.height(x, y) + 1e-3;
+}
 
 HeightMap tip_surface(const HeightMap& target, const CarvingTool& tool, const TipOptions& options) {
     return filled(target, TipDilation(target, tool, options));

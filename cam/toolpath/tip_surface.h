@@ -59,6 +59,10 @@ class TipDilation {
     // cannot be the largest are left out.
     void fill(std::size_t row, std::size_t first, std::size_t end, float* tip) const;
 
+    // The least height of the tip over any point of the map; over the middle of a cell that of fill().
+    // O((radius / cell)^2).
+    double height(double x, double y) const;
+
     // What remains where the tip stands over the middle of every cell: fill() then gives its height at the middles of
     // cells, and map and result are both the negative of heights.
     static TipDilation of_negative_tips(const HeightMap& negative_tip, const CarvingTool& tool);
@@ -70,10 +74,17 @@ class TipDilation {
     float highest(std::size_t row, std::size_t first, std::size_t end) const;
 
     const HeightMap* target_ = nullptr;
+    CarvingTool tool_;
+    double allowance_ = 0;
+    double inner_ = 0;                      // half the side of a cell without its border
     std::vector<std::vector<float>> drop_;  // by rows and columns from the axis: tip height less surface height
     std::vector<float> block_top_;          // highest cell of each block of a row
     std::size_t blocks_ = 0;                // per row
 };
+
+// Whether over the middle of a cell a tip surface is what the tool alone asks for: neither holder nor foam has raised
+// it since. O((radius / cell)^2).
+bool is_of_tool(const HeightMap& tip, const TipDilation& tool, std::size_t cell);
 
 // The least height at which the tip may stand over each cell so that the tool, up to its flute and shank with its whole
 // diameter, stays at least `allowance` away from the target. On several threads; the result does not depend on them.

@@ -127,15 +127,15 @@ std::vector<std::array<Vec3, 2>> parts_of(const ToolPath& path, std::size_t i) {
 
 double deepest_in(const SweptCutter& swept, const std::array<Vec3, 3>& triangle, double floor) {
     double deepest = floor;
+    // A heap, so that the part that may be deepest is divided first, and what is left over is bounded closely.
     std::vector<Part> parts{{triangle, 0}};
+    const auto is_shallower = [](const Part& a, const Part& b) { return a.bound > b.bound; };
     deepest = std::max(deepest, -evaluate(swept, parts[0]));
-    std::size_t left = most_parts;
-    while (!parts.empty() && left > 0) {
-        --left;
-        const Part part = parts.back();
+    for (std::size_t left = most_parts; left > 0; --left) {
+        if (parts.empty() || -parts.front().bound <= deepest + gouge_resolution) return deepest;
+        std::pop_heap(parts.begin(), parts.end(), is_shallower);
+        const std::array<Vec3, 3> c = parts.back().corner;
         parts.pop_back();
-        if (-part.bound <= deepest + gouge_resolution) continue;
-        const std::array<Vec3, 3>& c = part.corner;
         const Vec3 ab = 0.5 * (c[0] + c[1]);
         const Vec3 bc = 0.5 * (c[1] + c[2]);
         const Vec3 ca = 0.5 * (c[2] + c[0]);
@@ -143,11 +143,12 @@ double deepest_in(const SweptCutter& swept, const std::array<Vec3, 3>& triangle,
              {std::array{c[0], ab, ca}, std::array{ab, c[1], bc}, std::array{ca, bc, c[2]}, std::array{bc, ca, ab}}) {
             Part next{corners, 0};
             deepest = std::max(deepest, -evaluate(swept, next));
-            if (-next.bound > deepest + gouge_resolution) parts.push_back(next);
+            if (-next.bound <= deepest + gouge_resolution) continue;
+            parts.push_back(next);
+            std::push_heap(parts.begin(), parts.end(), is_shallower);
         }
     }
-    for (const Part& part : parts) deepest = std::max(deepest, -part.bound);
-    return deepest;
+    return parts.empty() ? deepest : std::max(deepest, -parts.front().bound);
 }
 
 GougeFigures find_gouges(const ToolPath& path, const ReplayScene& scene, double floor, const Context& context) {
