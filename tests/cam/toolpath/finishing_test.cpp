@@ -97,6 +97,59 @@ Leftover leftover(const Finished& finished, const Holds& holds) {
 // known at the middles of cells.
 constexpr double cell_error = 2 * cell;
 
+// How far the middle of the tool is from the walls of a block that is turned under the map, along all levels.
+struct FromWalls {
+    double least = 1e9;
+    double most = 0;
+    std::size_t points = 0;
+
+    explicit FromWalls(bool knows_tool) {
+        constexpr double wide_cell = 0.5;
+        const Vec3 size{60, 40, 40};
+        const double turn = 0.4;
+        TriangleMesh mesh = shapes::box({0, 0, 0}, size);
+        for (Vec3& p : mesh.points) p = turned(p, turn);
+        const auto setup = setup_of(mesh, 14);
+        const CarvingTool tool = ball_tool(12);
+        const TipOptions border{0, 0.075};
+        const HeightMap target = target_map(setup, mesh, 0, {wide_cell, -6, 0});
+        const HeightMap tip = tip_surface(target, tool, border);
+        const TipDilation over_target(target, tool, border);
+        SurfaceLeft surface(mesh, std::nullopt);
+        FinishingOptions options;
+        if (knows_tool) options.tool = &over_target;
+        for (const Pass& pass :
+             finishing_passes(tip, tool, surface.take(remaining_surface(tip, tool), 0.75, 2), options)) {
+            for (std::size_t i = 1; i < pass.points.size(); ++i) {
+                for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+                    const Vec3 in_map = pass.points[i - 1].tip + share * (pass.points[i].tip - pass.points[i - 1].tip);
+                    const Vec3 p = turned(apply_inverse(target.piece_in_map, in_map), -turn);
+                    if (p.z < 2 || p.z > 30) continue;
+                    const double from =
+                        std::hypot(std::max({0.0, -p.x, p.x - size.x}), std::max({0.0, -p.y, p.y - size.y}));
+                    least = std::min(least, from);
+                    most = std::max(most, from);
+                    ++points;
+                }
+            }
+        }
+    }
+
+ private:
+    static Vec3 turned(Vec3 p, double by) {
+        return {std::cos(by) * p.x - std::sin(by) * p.y, std::sin(by) * p.x + std::cos(by) * p.y, p.z};
+    }
+};
+
+TEST(Finishing, LevelsGoAlongWallsThatAreObliqueToTheMap) {
+    const FromWalls known(true);
+    EXPECT_GT(known.points, 1000U);
+    EXPECT_GE(known.least, 6 - std::sqrt(2) * 0.075 - 0.02);
+    // The far corner of a cell that the wall touches, without its border, a sixteenth of a cell and the path tolerance.
+    EXPECT_LE(known.most, 6 + 0.5 * (std::cos(0.4) + std::sin(0.4)) - 0.075 + 0.05 + 0.1);
+    EXPECT_LT(known.most, FromWalls(false).most - 0.2);
+}
+
 TEST(Finishing, AFlatTopHasTheScallopsOfItsStep) {
     const TriangleMesh mesh = shapes::box({0, 0, 0}, {60, 50, 20});
     const Finished finished(mesh, 0, 0);

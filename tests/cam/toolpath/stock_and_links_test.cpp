@@ -422,6 +422,31 @@ TEST(RunBuilder, StaysDownWhereTheWayMayBeCutAndGoesOverWhatMayNot) {
     EXPECT_GE(highest, 45);
 }
 
+// Retracts but for the last move of each run, of two levels along a wall at x = 100.
+std::size_t retracts_along_wall(bool knows_tool) {
+    const CarvingTool tool = ball_tool(12);
+    HeightMap target = random_map(200, 200, 1, 1);
+    for (std::size_t i = 0; i < target.height.size(); ++i) target.height[i] = i % 200 < 100 ? 60.0F : 0.0F;
+    const TipDilation dilation(target, tool);
+    Plate plate;
+    plate.tip = tip_surface(target, tool);
+    if (knows_tool) plate.space.tool = &dilation;
+    RunBuilder builder(plate.space, tool, plate.operation, {});
+    builder.add({line({106.02, 50, 20}, {106.02, 80, 20}), line({106.02, 80, 17}, {106.02, 50, 17})});
+    std::size_t retracts = 0;
+    for (const PathRun& run : builder.finish()) {
+        for (std::size_t i = 0; i + 1 < run.moves.size(); ++i) {
+            retracts += run.moves[i].kind == MoveKind::retract ? 1 : 0;
+        }
+    }
+    return retracts;
+}
+
+TEST(RunBuilder, GoesDownAlongAWallWhereTheEdgeIsBetweenMiddlesOfCells) {
+    EXPECT_EQ(retracts_along_wall(true), 0U);
+    EXPECT_GT(retracts_along_wall(false), 0U) << "the map alone does not tell";
+}
+
 TEST(RunBuilder, NoRunIsTooLongForAChunk) {
     Plate plate;
     Pass pass;

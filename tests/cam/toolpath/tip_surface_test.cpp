@@ -125,6 +125,38 @@ TEST(TargetMap, RowsLieAlongTheSidesOfTheBlock) {
     }
 }
 
+TEST(TipDilation, TellsHeightsBetweenTheMiddlesOfCellsToo) {
+    const TriangleMesh mesh = bumpy(40, 20, 50, 2);
+    const HeightMap target = target_map(setup_of(mesh, 8), mesh, 0, {1, -6, 0});
+    const TipOptions options{0.3, 0.1};
+    const TipDilation dilation(target, ball_tool(9), options);
+    const HeightMap tip = tip_surface(target, ball_tool(9), options);
+    for (std::size_t row = 0; row < tip.rows; ++row) {
+        for (std::size_t column = 0; column < tip.columns; ++column) {
+            const double x = static_cast<double>(column) + 0.5;
+            const double y = static_cast<double>(row) + 0.5;
+            ASSERT_NEAR(dilation.height(x, y), static_cast<double>(tip.at(column, row)), 1e-4);
+            ASSERT_TRUE(is_of_tool(tip, dilation, row * tip.columns + column));
+        }
+    }
+    // A post of 10 mm on a floor, of a cell that is 0.8 mm wide without its border: the ball touches it at its side.
+    HeightMap post;
+    post.cell = 1;
+    post.columns = 21;
+    post.rows = 21;
+    post.height.assign(441, 0);
+    post.height[10 * 21 + 10] = 10;
+    const TipDilation beside(post, ball_tool(9), {0, 0.1});
+    for (double far = 0.45; far < 5.4; far += 0.05) {
+        const double from_side = std::max(0.0, far - 0.4);
+        const double expected = from_side > 4.5 ? 0 : std::max(0.0, 10 - tool_profile(ball_tool(9), from_side));
+        EXPECT_NEAR(beside.height(10.5 + far, 10.5), expected, 1e-9) << far;
+    }
+    HeightMap raised = tip_surface(post, ball_tool(9), {0, 0.1});
+    raised.height[0] += 1;
+    EXPECT_FALSE(is_of_tool(raised, beside, 0));
+}
+
 TEST(TargetMap, ValuesThatAreNoLengthsAreRefused) {
     const TriangleMesh mesh = shapes::box({0, 0, 0}, {20, 20, 10});
     const auto setup = setup_of(mesh);

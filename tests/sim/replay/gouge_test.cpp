@@ -80,6 +80,18 @@ TEST(Gouge, OfAPlaneIsTheDepthBelowIt) {
     EXPECT_EQ(deepest_in(SweptCutter(cutters[0], {10, 0, 0}), clear, 0), 0);
 }
 
+// The side of the tool passes the upright edge of a long triangle, so that much of it is nearly as deep as the edge.
+TEST(Gouge, OfALongTriangleIsBoundedClosely) {
+    const std::array<Vec3, 3> wall{Vec3{0, 0, 22}, Vec3{-144, 0, 164}, Vec3{0, 0, 30}};
+    const Vec3 from{2.665, 5.511, 0};
+    const Vec3 move{1.717, -1.355, 0};
+    double nearest = 1e9;
+    for (int i = 0; i <= 1000; ++i) nearest = std::min(nearest, norm(from + 0.001 * i * move));
+    std::array<Vec3, 3> seen = wall;
+    for (Vec3& corner : seen) corner = corner - from;
+    EXPECT_NEAR(deepest_in(SweptCutter(cutters[0], move), seen, 0), 6 - nearest, gouge_resolution);
+}
+
 TEST(Gouge, AShiftedPassIsFoundWithItsLineAndDepth) {
     BoxJob job = box_job("kr60-ha");
     job.job.chunks[0].moves[5].tip.z -= 0.6;
