@@ -82,14 +82,14 @@ TEST(Gouge, OfAPlaneIsTheDepthBelowIt) {
 
 // The side of the tool passes the upright edge of a long triangle, so that much of it is nearly as deep as the edge.
 TEST(Gouge, OfALongTriangleIsBoundedClosely) {
-    const std::array<Vec3, 3> wall{Vec3{0, 0, 22}, Vec3{-144, 0, 164}, Vec3{0, 0, 30}};
-    const Vec3 from{2.665, 5.511, 0};
-    const Vec3 move{1.717, -1.355, 0};
+    const Vec3 from{3.801724446534422, 4.60097154127746, 0};
+    const Vec3 move{0.262325574802048, -0.2470434136324, 0};
+    const std::array<Vec3, 3> wall{Vec3{0, 0, 21.562502006156961} - from,
+                                   Vec3{-143.862701415, 0, 164.54245195732884} - from,
+                                   Vec3{0, 0, 29.554506400688211} - from};
     double nearest = 1e9;
     for (int i = 0; i <= 1000; ++i) nearest = std::min(nearest, norm(from + 0.001 * i * move));
-    std::array<Vec3, 3> seen = wall;
-    for (Vec3& corner : seen) corner = corner - from;
-    EXPECT_NEAR(deepest_in(SweptCutter(cutters[0], move), seen, 0), 6 - nearest, gouge_resolution);
+    EXPECT_NEAR(deepest_in(SweptCutter(cutters[0], move), wall, 0.0278), 6 - nearest, gouge_resolution);
 }
 
 TEST(Gouge, AShiftedPassIsFoundWithItsLineAndDepth) {
