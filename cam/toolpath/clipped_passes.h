@@ -14,8 +14,9 @@
 namespace qchopper {
 
 // Together all that the passes carve: a blocked part begins and ends where a free one does
-// (tests/cam/toolpath/stock_and_links_test.cpp). Parts are at least 2 mm long, at the cost of free ones, and so is what
-// stays blocked: when the foam is gone it is free as a whole and worth a way there. Shorter passes stay as they are.
+// (tests/cam/toolpath/passes_and_links_test.cpp). Parts are at least 2 mm long, at the cost of free ones, and so is
+// what stays blocked: when the foam is gone it is free as a whole and worth a way there. Shorter passes stay as they
+// are.
 struct ClippedPasses {
     std::vector<Pass> free;     // the tip stays above the holder's limit and removes nothing above its flute
     std::vector<Pass> blocked;  // the rest, and open passes that are too short

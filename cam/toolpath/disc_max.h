@@ -1,7 +1,7 @@
 // The highest cell of a map within a distance of each cell.
 //
 // mm. Distances are from middle to middle; cells beside the map count as `nothing`. The result does not depend on the
-// number of threads (tests/cam/toolpath/stock_and_links_test.cpp).
+// number of threads (tests/cam/toolpath/in_process_stock_test.cpp).
 
 #pragma once
 

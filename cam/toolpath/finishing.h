@@ -4,9 +4,9 @@
 // the surface, and in all no more than that, 1.3 path tolerances and two cells of the map
 // (tests/cam/toolpath/finishing_test.cpp): the tip surface is higher than the exact one by up to the diagonal of a cell
 // across a slope, and along a vertical edge levels keep 0.75 cells away from it besides, or a sixteenth of a cell where
-// the tool over the target is known. No pass is below the tip surface, which lies between the middles of cells where the
-// tool over the target says, but for what tip_surface.h says of paths between middles and for a fiftieth of the path
-// tolerance where a corner is rounded. The result does not depend on the number of threads.
+// the tool over the target is known. No pass is below the tip surface, which lies between the middles of cells where
+// the tool over the target says, but for what tip_surface.h says of paths between middles and for a fiftieth of the
+// path tolerance where a corner is rounded. The result does not depend on the number of threads.
 
 #pragma once
 

@@ -25,7 +25,7 @@ HeightMap limit_over_foam(const HeightMap& middle_foam, const CarvingTool& tool,
                           const HolderGap& gap);
 
 // Raises a tip surface, so that no straight line between the middles of neighbouring cells lies below the limit
-// (tests/cam/toolpath/stock_and_links_test.cpp). O(cells).
+// (tests/cam/toolpath/passes_and_links_test.cpp). O(cells).
 void raise_to_limit(HeightMap& tip, const HeightMap& limit);
 
 }  // namespace qchopper

@@ -2,7 +2,7 @@
 //
 // mm. It is the block less, for each direction, all above a height of its own map: along a direction carving removes
 // only what lies open above. Conservative: a point that may still be foam counts as foam
-// (tests/cam/toolpath/stock_and_links_test.cpp), so that there is never more foam in the way than is known; it may be
+// (tests/cam/toolpath/in_process_stock_test.cpp), so that there is never more foam in the way than is known; it may be
 // up to three cells more than there is. For what a flute has to cut at once that is too much beside a wall: foam can be
 // known at the middles of cells instead, where it is right to within a cell of the other directions.
 

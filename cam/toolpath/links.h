@@ -2,7 +2,7 @@
 //
 // mm, in the frame of the height maps of one direction. A link at its own feed touches no foam: the whole tool must be
 // clear of all that may be foam. Where that is not known, the way is driven at the feed of cuts
-// (tests/cam/toolpath/stock_and_links_test.cpp).
+// (tests/cam/toolpath/passes_and_links_test.cpp).
 //
 // The tool comes to a pass straight, where the way is clear or may be cut; else over what stands between; else through
 // the retract plane. It comes down at the feed of links to just above the foam. A pass of roughing is entered on a ramp

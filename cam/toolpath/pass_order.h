@@ -1,7 +1,7 @@
 // Passes in an order in which each begins near to where the one before ends.
 //
 // mm, in a plane: heights do not count. Always the nearest one that is left, of equal ones the first
-// (tests/cam/toolpath/stock_and_links_test.cpp).
+// (tests/cam/toolpath/passes_and_links_test.cpp).
 
 #pragma once
 

@@ -2,7 +2,7 @@
 //
 // mm, in the frame of the map. Every point of a pass, and every cell under the line to the next one, is in the region,
 // but for corners of cells of which less than an eighth of a cell is passed
-// (tests/cam/toolpath/stock_and_links_test.cpp).
+// (tests/cam/toolpath/passes_and_links_test.cpp).
 
 #pragma once
 

@@ -90,4 +90,15 @@ TriangleMesh bumpy(double size, std::size_t cells, double high, unsigned seed) {
     return mesh;
 }
 
+HeightMap random_map(std::size_t columns, std::size_t rows, double cell, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> height(0, 50);
+    HeightMap map;
+    map.cell = cell;
+    map.columns = columns;
+    map.rows = rows;
+    for (std::size_t i = 0; i < columns * rows; ++i) map.height.push_back(height(random));
+    return map;
+}
+
 }  // namespace qchopper::test_pieces

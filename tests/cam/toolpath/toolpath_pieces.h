@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "cam/cell/carving_tool.h"
+#include "cam/setup/height_map.h"
 #include "cam/setup/setup.h"
 #include "segment/mesh/triangle_mesh.h"
 
@@ -20,5 +21,8 @@ Setup setup_of(const TriangleMesh& mesh, double margin = 5, double tilt_deg = 0)
 // A closed body over [0, size] x [0, size] with its underside at z = 0 and bumps of a given height; the same for a
 // seed.
 TriangleMesh bumpy(double size, std::size_t cells, double high, unsigned seed);
+
+// Heights from 0 to 50, the same for a seed.
+HeightMap random_map(std::size_t columns, std::size_t rows, double cell, unsigned seed);
 
 }  // namespace qchopper::test_pieces
