@@ -11,6 +11,7 @@
 #include "base/timings.h"
 #include "bench/clock.h"
 #include "bench/figures.h"
+#include "cam/job/job_caps.h"
 #include "cam/job/read_job.h"
 
 namespace {
@@ -34,8 +35,8 @@ Replayed replayed(const ReadJob& job, const Cell& cell, double replay_cell) {
         texts[name] = {bytes.begin(), bytes.end()};
     }
     const double started = process_cpu_s();
-    const JobProof proof =
-        prove({cell, job.setup, job.setup_in_cell, mesh, *job.program, texts, nullptr, replay_cell}, {});
+    const JobProof proof = prove(
+        {cell, job.setup, job.setup_in_cell, mesh, *job.program, texts, nullptr, holes_of(job.caps), replay_cell}, {});
     return {process_cpu_s() - started, proof.time_s};
 }
 
