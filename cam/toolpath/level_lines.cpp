@@ -86,8 +86,9 @@ struct SideEnds {
 
  private:
     static Point2 middle(const HeightMap& tip, std::size_t cell) {
-        return {(static_cast<double>(cell % tip.columns) + 0.5) * tip.cell,
-                (static_cast<double>(cell / tip.columns) + 0.5) * tip.cell};
+        const std::size_t row = cell / tip.columns;
+        const std::size_t column = cell % tip.columns;
+        return {(static_cast<double>(column) + 0.5) * tip.cell, (static_cast<double>(row) + 0.5) * tip.cell};
     }
 };
 

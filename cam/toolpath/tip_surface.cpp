@@ -213,8 +213,10 @@ HeightMap filled(const HeightMap& map, const TipDilation& dilation) {
 }  // namespace
 
 bool is_of_tool(const HeightMap& tip, const TipDilation& tool, std::size_t cell) {
-    const double x = tip.cell * (static_cast<double>(cell % tip.columns) + 0.5);
-    const double y = tip.cell * (static_cast<double>(cell / tip.columns) + 0.5);
+    const std::size_t row = cell / tip.columns;
+    const std::size_t column = cell % tip.columns;
+    const double x = tip.cell * (static_cast<double>(column) + 0.5);
+    const double y = tip.cell * (static_cast<double>(row) + 0.5);
     return static_cast<double>(tip.height[cell]) <= tool.height(x, y) + 1e-3;
 }
 
