@@ -1,5 +1,6 @@
-// Ways are looked at in samples half a cell of the foam's map apart, or a cell of the tip limit. Each run lowers the
-// foam as it goes, so that what was carved a moment ago is free. O(samples * (radius / cell)^2).
+// Ways are looked at in samples half a cell of the foam's map apart, and for the tip limit a cell of it, or a sixteenth
+// where the tool is known. Each run lowers the foam as it goes, so that what was carved a moment ago is free.
+// O(samples * (radius / cell)^2).
 
 #include "cam/toolpath/links.h"
 
@@ -143,6 +144,14 @@ double RunBuilder::limit_at(Vec3 p) const {
     return std::min(limit, space_->tool->height(p.x, p.y));
 }
 
+// How far apart a way is held against the limit. An edge that is known between the middles of cells may lie between two
+// places as well: then the tool is at most so far in the wall.
+double RunBuilder::limit_spacing() const {
+    const double cell = space_->tip_limit->cell;
+    if (!space_->is_limit_between) return 0.5 * cell;
+    return space_->tool != nullptr ? cell / 16 : cell;
+}
+
 // Whether nothing else keeps the tip above a point at the middles of the cells around it.
 bool RunBuilder::is_limit_of_tool(Vec3 p) const {
     const HeightMap& limit = *space_->tip_limit;
@@ -174,7 +183,7 @@ RunBuilder::Way RunBuilder::way_to(Vec3 to) const {
     const Vec3 line = to - at_;
     way.length = norm(line);
     const double across = std::hypot(line.x, line.y);
-    const double fine = space_->is_limit_between ? space_->tip_limit->cell : 0.5 * space_->tip_limit->cell;
+    const double fine = limit_spacing();
     const auto samples = static_cast<std::size_t>(across / fine) + 1;
     const auto every = std::max<std::size_t>(1, static_cast<std::size_t>(0.5 * space_->foam.cell / fine));
     for (std::size_t i = 0; i <= samples; ++i) {

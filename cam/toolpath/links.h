@@ -92,6 +92,7 @@ class RunBuilder {
     double foam_near(Vec3 at, double radius) const;
     double over_flute(Vec3 at) const;
     double limit_at(Vec3 p) const;
+    double limit_spacing() const;
     bool is_limit_of_tool(Vec3 p) const;
     double holder_at(double x, double y) const;
     bool needs_ramp(Vec3 at) const;

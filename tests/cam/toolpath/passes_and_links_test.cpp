@@ -192,11 +192,17 @@ TEST(RunBuilder, StaysDownWhereTheWayMayBeCutAndGoesOverWhatMayNot) {
     EXPECT_GE(highest, 45);
 }
 
-// Retracts but for the last move of each run, of two levels along a wall at x = 100.
-std::size_t retracts_along_wall(bool knows_tool) {
-    const CarvingTool tool = ball_tool(12);
+// A wall at x = 100, 60 mm high.
+HeightMap wall_map() {
     HeightMap target = random_map(200, 200, 1, 1);
     for (std::size_t i = 0; i < target.height.size(); ++i) target.height[i] = i % 200 < 100 ? 60.0F : 0.0F;
+    return target;
+}
+
+// Retracts but for the last move of each run, of two levels along the wall.
+std::size_t retracts_along_wall(bool knows_tool) {
+    const CarvingTool tool = ball_tool(12);
+    const HeightMap target = wall_map();
     const TipDilation dilation(target, tool);
     Plate plate;
     plate.tip = tip_surface(target, tool);
@@ -215,6 +221,30 @@ std::size_t retracts_along_wall(bool knows_tool) {
 TEST(RunBuilder, GoesDownAlongAWallWhereTheEdgeIsBetweenMiddlesOfCells) {
     EXPECT_EQ(retracts_along_wall(true), 0U);
     EXPECT_GT(retracts_along_wall(false), 0U) << "the map alone does not tell";
+}
+
+// Below its top the wall keeps the middle of the ball 6 mm away, near the top less: a straight line from a pass below
+// to one near the top is less than a cell long, seen from above, and cuts into the wall between its ends.
+TEST(RunBuilder, NoLinkUpAlongAWallCutsIntoIt) {
+    const CarvingTool tool = ball_tool(12);
+    const HeightMap target = wall_map();
+    const TipDilation dilation(target, tool);
+    Plate plate;
+    plate.tip = tip_surface(target, tool);
+    plate.space.tool = &dilation;
+    RunBuilder builder(plate.space, tool, plate.operation, {});
+    builder.add({line({106.05, 50, 20}, {106.05, 80, 20}), line({105.3, 80, 57.5}, {105.3, 50, 57.5})});
+    for (const PathRun& run : builder.finish()) {
+        Vec3 at = run.start;
+        for (const PathMove& move : run.moves) {
+            for (int i = 0; i <= 200; ++i) {
+                const Vec3 p = at + (i / 200.0) * (move.tip - at);
+                // As if the tool were 0.1 mm farther off.
+                ASSERT_LE(dilation.height(p.x + 0.1, p.y), p.z + 1e-3) << p.x << ' ' << p.y << ' ' << p.z;
+            }
+            at = move.tip;
+        }
+    }
 }
 
 TEST(RunBuilder, NoRunIsTooLongForAChunk) {
