@@ -5,6 +5,7 @@
 #include "cam/toolpath/links.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -41,6 +42,29 @@ double height_between(const HeightMap& map, double x, double y) {
     };
     return (1 - v) * ((1 - u) * at(0, 0) + u * at(1, 0)) + v * ((1 - u) * at(0, 1) + u * at(1, 1));
 }
+
+// The four cells between whose middles a point lies.
+struct AroundPoint {
+    std::array<std::size_t, 4> cells{};
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -std::numeric_limits<double>::infinity();
+
+    AroundPoint(const HeightMap& map, double x, double y) {
+        const auto first = [&](double at, std::size_t count) {
+            return static_cast<std::size_t>(std::clamp(at / map.cell - 0.5, 0.0, static_cast<double>(count - 1)));
+        };
+        const std::size_t column = first(x, map.columns);
+        const std::size_t row = first(y, map.rows);
+        const std::size_t next_column = std::min(column + 1, map.columns - 1);
+        const std::size_t next_row = std::min(row + 1, map.rows - 1);
+        cells = {row * map.columns + column, row * map.columns + next_column, next_row * map.columns + column,
+                 next_row * map.columns + next_column};
+        for (const std::size_t cell : cells) {
+            lowest = std::min(lowest, static_cast<double>(map.height[cell]));
+            highest = std::max(highest, static_cast<double>(map.height[cell]));
+        }
+    }
+};
 
 Vec3 raised(Vec3 point, double z) {
     return {point.x, point.y, z};
@@ -136,12 +160,20 @@ double RunBuilder::over_flute(Vec3 at) const {
     return static_cast<double>(disc_max_at(space_->middle_foam, at.x, at.y, radius)) - at.z - tool_->flute_length;
 }
 
-// Between the middles of cells beside a vertical edge the tool tells where the edge is.
+// Across an edge the limit between the middles of cells is no straight line: there the tool tells.
 double RunBuilder::limit_at(Vec3 p) const {
     if (!space_->is_limit_between) return least_height(*space_->tip_limit, p.x, p.y);
     const double limit = height_between(*space_->tip_limit, p.x, p.y);
-    if (limit <= p.z || space_->tool == nullptr || !is_limit_of_tool(p)) return limit;
-    return std::min(limit, space_->tool->height(p.x, p.y));
+    if (space_->tool == nullptr) return limit;
+    const AroundPoint around(*space_->tip_limit, p.x, p.y);
+    const double jump = std::sqrt(0.5 * tool_->diameter * space_->tip_limit->cell);
+    if (around.highest <= p.z || around.highest - around.lowest <= jump) return limit;
+    const double of_tool = space_->tool->height(p.x, p.y);
+    const bool is_raised = std::any_of(around.cells.begin(), around.cells.end(), [&](std::size_t cell) {
+        return static_cast<double>(space_->tip_limit->height[cell]) > p.z &&
+               !is_of_tool(*space_->tip_limit, *space_->tool, cell);
+    });
+    return is_raised ? std::max(limit, of_tool) : of_tool;
 }
 
 // How far apart a way is held against the limit. An edge that is known between the middles of cells may lie between two
@@ -150,24 +182,6 @@ double RunBuilder::limit_spacing() const {
     const double cell = space_->tip_limit->cell;
     if (!space_->is_limit_between) return 0.5 * cell;
     return space_->tool != nullptr ? cell / 16 : cell;
-}
-
-// Whether nothing else keeps the tip above a point at the middles of the cells around it.
-bool RunBuilder::is_limit_of_tool(Vec3 p) const {
-    const HeightMap& limit = *space_->tip_limit;
-    const auto first = [&](double at, std::size_t count) {
-        return static_cast<std::size_t>(std::clamp(at / limit.cell - 0.5, 0.0, static_cast<double>(count - 1)));
-    };
-    const std::size_t column = first(p.x, limit.columns);
-    const std::size_t row = first(p.y, limit.rows);
-    for (const std::size_t c : {column, std::min(column + 1, limit.columns - 1)}) {
-        for (const std::size_t r : {row, std::min(row + 1, limit.rows - 1)}) {
-            const std::size_t cell = r * limit.columns + c;
-            const bool is_high = static_cast<double>(limit.height[cell]) > p.z;
-            if (is_high && !is_of_tool(limit, *space_->tool, cell)) return false;
-        }
-    }
-    return true;
 }
 
 double RunBuilder::holder_at(double x, double y) const {

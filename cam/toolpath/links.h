@@ -93,7 +93,6 @@ class RunBuilder {
     double over_flute(Vec3 at) const;
     double limit_at(Vec3 p) const;
     double limit_spacing() const;
-    bool is_limit_of_tool(Vec3 p) const;
     double holder_at(double x, double y) const;
     bool needs_ramp(Vec3 at) const;
 

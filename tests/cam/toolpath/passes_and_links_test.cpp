@@ -229,20 +229,22 @@ TEST(RunBuilder, NoLinkUpAlongAWallCutsIntoIt) {
     const CarvingTool tool = ball_tool(12);
     const HeightMap target = wall_map();
     const TipDilation dilation(target, tool);
-    Plate plate;
-    plate.tip = tip_surface(target, tool);
-    plate.space.tool = &dilation;
-    RunBuilder builder(plate.space, tool, plate.operation, {});
-    builder.add({line({106.05, 50, 20}, {106.05, 80, 20}), line({105.3, 80, 57.5}, {105.3, 50, 57.5})});
-    for (const PathRun& run : builder.finish()) {
-        Vec3 at = run.start;
-        for (const PathMove& move : run.moves) {
-            for (int i = 0; i <= 200; ++i) {
-                const Vec3 p = at + (i / 200.0) * (move.tip - at);
-                // As if the tool were 0.1 mm farther off.
-                ASSERT_LE(dilation.height(p.x + 0.1, p.y), p.z + 1e-3) << p.x << ' ' << p.y << ' ' << p.z;
+    for (const double low : {20.0, 40.0, 50.0}) {
+        Plate plate;
+        plate.tip = tip_surface(target, tool);
+        plate.space.tool = &dilation;
+        RunBuilder builder(plate.space, tool, plate.operation, {});
+        builder.add({line({106.02, 50, low}, {106.02, 80, low}), line({105.3, 80, 57.5}, {105.3, 50, 57.5})});
+        for (const PathRun& run : builder.finish()) {
+            Vec3 at = run.start;
+            for (const PathMove& move : run.moves) {
+                for (int i = 0; i <= 200; ++i) {
+                    const Vec3 p = at + (i / 200.0) * (move.tip - at);
+                    // As if the tool were 0.1 mm farther off.
+                    ASSERT_LE(dilation.height(p.x + 0.1, p.y), p.z + 1e-3) << p.x << ' ' << p.y << ' ' << p.z;
+                }
+                at = move.tip;
             }
-            at = move.tip;
         }
     }
 }
