@@ -281,7 +281,7 @@ std::vector<Pass> level_passes(const HeightMap& tip, const PassCells& cells, con
     const double step = sine * chord_for_scallop(options.radius, options.scallop);
     // A little above the lowest cell, where single precision may leave the floor uneven.
     const Levels levels{lowest + 1e-3, step / halvings};
-    const double jump = std::sqrt(options.radius * tip.cell);
+    const double jump = edge_rise(options.radius, tip.cell);
     const LevelContact contact(tip, ground, options.radius, step);
     std::vector<LevelLine> lines =
         parts_where(level_lines(tip, cells.allowed, levels, halvings, 0, jump, ground.tool), options.overlap,

@@ -166,7 +166,7 @@ double RunBuilder::limit_at(Vec3 p) const {
     const double limit = height_between(*space_->tip_limit, p.x, p.y);
     if (space_->tool == nullptr) return limit;
     const AroundPoint around(*space_->tip_limit, p.x, p.y);
-    const double jump = std::sqrt(0.5 * tool_->diameter * space_->tip_limit->cell);
+    const double jump = edge_rise(0.5 * tool_->diameter, space_->tip_limit->cell);
     if (around.highest <= p.z || around.highest - around.lowest <= jump) return limit;
     const double of_tool = space_->tool->height(p.x, p.y);
     const bool is_raised = std::any_of(around.cells.begin(), around.cells.end(), [&](std::size_t cell) {

@@ -212,6 +212,10 @@ HeightMap filled(const HeightMap& map, const TipDilation& dilation) {
 
 }  // namespace
 
+double edge_rise(double radius, double cell) {
+    return std::sqrt(radius * cell);
+}
+
 bool is_of_tool(const HeightMap& tip, const TipDilation& tool, std::size_t cell) {
     const std::size_t row = cell / tip.columns;
     const std::size_t column = cell % tip.columns;

@@ -82,6 +82,10 @@ class TipDilation {
     std::size_t blocks_ = 0;                // per row
 };
 
+// If the tip surface of a ball rises by more than this (mm) from the middle of a cell to that of the next, there is an
+// edge between them, and it is not linear.
+double edge_rise(double radius, double cell);
+
 // Whether over the middle of a cell a tip surface is what the tool alone asks for: neither holder nor foam has raised
 // it since. O((radius / cell)^2).
 bool is_of_tool(const HeightMap& tip, const TipDilation& tool, std::size_t cell);

@@ -192,7 +192,7 @@ TEST(ToolProfile, Shapes) {
     EXPECT_NEAR(tool_profile(cone, 5), 1 - tangent + 5 - tangent, 1e-9);
 }
 
-HeightMap random_map(std::size_t columns, std::size_t rows, double cell, unsigned seed) {
+HeightMap spiky_map(std::size_t columns, std::size_t rows, double cell, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(0, 1);
     HeightMap map;
@@ -235,7 +235,7 @@ TEST(TipSurface, EqualsTheDefinition) {
     cone.corner_radius = 0.5;
     cone.tip_angle = 1;
     for (const CarvingTool& tool : {ball_tool(12), flat_tool(6), bull, cone, ball_tool(0.4)}) {
-        const HeightMap map = random_map(163, 61, 0.5, 7);
+        const HeightMap map = spiky_map(163, 61, 0.5, 7);
         const HeightMap tip = tip_surface(map, tool);
         for (std::size_t row = 0; row < map.rows; row += 3) {
             for (std::size_t column = 0; column < map.columns; ++column) {
@@ -249,7 +249,7 @@ TEST(TipSurface, EqualsTheDefinition) {
 }
 
 TEST(TipSurface, ABorderOfCellsCutsIntoAPeakByItsDiagonalAtMost) {
-    HeightMap map = random_map(81, 81, 0.25, 7);
+    HeightMap map = spiky_map(81, 81, 0.25, 7);
     std::fill(map.height.begin(), map.height.end(), -100.0F);
     map.height[40 * map.columns + 40] = 0;
     const CarvingTool tool = ball_tool(12);
@@ -271,7 +271,7 @@ TEST(TipSurface, ABorderOfCellsCutsIntoAPeakByItsDiagonalAtMost) {
 }
 
 TEST(TipSurface, DoesNotDependOnThreads) {
-    const HeightMap map = random_map(300, 200, 0.5, 8);
+    const HeightMap map = spiky_map(300, 200, 0.5, 8);
     const HeightMap tip = tip_surface(map, ball_tool(12), {1.5});
     for (const std::size_t threads : {1, 2, 4}) {
         const ThreadLimit limit(threads);
