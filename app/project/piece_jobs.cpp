@@ -155,7 +155,7 @@ PiecePrograms programs_of(const JobOrders& orders, const JobInput& input, const 
                           const Context& context) {
     std::string none_because = no_programs_for(orders.cell);
     if (none_because.empty() && !orders.project.has_programs) none_because = "prepare was asked for none";
-    if (!none_because.empty()) return {{}, none_because, caps_by_hand(input.caps, none_because)};
+    if (!none_because.empty()) return {{}, none_because, {}, caps_by_hand(input.caps, none_because)};
     const ProgramSource source{input.piece, input.setup,        input.piece_no,
                                input.caps,  orders.cell_sha256, orders.program_version};
     if (std::optional<PiecePrograms> kept = kept_programs(orders.folder / "jobs", source)) return std::move(*kept);
@@ -177,6 +177,7 @@ MadeJob make_job(const JobOrders& orders, std::size_t index, const Carving& carv
     const PiecePrograms programs = programs_of(orders, input, carving, context);
     remove_jobs(orders.folder, piece.name);
     made.report.no_program_because = programs.none_because;
+    made.report.left_out = programs.left_out;
     input.caps = programs.caps;
     if (programs.parts.empty()) {
         input.no_program_because = programs.none_because;

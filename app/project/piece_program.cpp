@@ -8,6 +8,7 @@
 
 #include "app/project/deviation_picture.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "cam/job/job_caps.h"
 #include "cam/post/krl.h"
 #include "cam/program/hold_drilling.h"
@@ -63,13 +64,23 @@ MadePath make_path(const Piece& piece, const Carving& carving, const Cell& cell,
     return made;
 }
 
-std::vector<ProgramPart> post(const Toolpath& path, const Drilling& drilling, const Carving& carving,
-                              std::uint16_t piece_no, const Cell& cell, const Context& context) {
+struct PostedProgram {
+    std::vector<ProgramPart> parts;
+    std::string left_out;
+};
+
+PostedProgram post(const Toolpath& path, const Drilling& drilling, const Carving& carving, std::uint16_t piece_no,
+                   const Cell& cell, const Context& context) {
     Toolpath whole = path;
     const std::vector<Operation>& drilled = drilling.operations;
     whole.operations.insert(whole.operations.end(), drilled.begin(), drilled.end());
     const Setup setup = with_drill_directions(carving.setup(), drilling.directions);
-    return post_krl(make_program(whole, setup, carving.work_envelope, cell, context), cell, {piece_no});
+    const Program program = make_program(whole, setup, carving.work_envelope, cell, context);
+    PostedProgram posted{post_krl(program, cell, {piece_no}), {}};
+    if (program.left_out_mm > 0) {
+        posted.left_out = fixed(program.left_out_mm, 0) + " mm of its finishing: " + program.left_out_because;
+    }
+    return posted;
 }
 
 std::vector<std::size_t> drilled_holes(const Drilling& drilling) {
@@ -97,8 +108,8 @@ std::string refusal_alone(std::size_t number, const Drilling& drilling, const Ca
 
 // With the holes. Where the program cannot be made with them, without those with which alone none can be made; and
 // where that does not help, without any.
-std::vector<ProgramPart> make_parts(MadePath& made, const Carving& carving, std::uint16_t piece_no, const Cell& cell,
-                                    const Context& context) {
+PostedProgram make_parts(MadePath& made, const Carving& carving, std::uint16_t piece_no, const Cell& cell,
+                         const Context& context) {
     const auto posted = [&] { return post(made.toolpath, made.drilling, carving, piece_no, cell, context); };
     const auto leave = [&](std::size_t number, const std::string& why) {
         leave_to_hand(made.drilling, number, "the program cannot drill: " + why, carving.setup());
@@ -182,11 +193,11 @@ std::vector<DrawnCap> caps_by_hand(std::vector<DrawnCap> caps, const std::string
 PiecePrograms make_programs(const Piece& piece, const Carving& carving, std::uint16_t piece_no, const Cell& cell,
                             std::vector<DrawnCap> caps, const Context& context) {
     const Setup& setup = carving.setup();
-    std::vector<ProgramPart> parts;
+    PostedProgram posted;
     MadePath made;
     const auto make = [&](const ToolpathSettings& settings) {
         made = make_path(piece, carving, cell, caps, settings, context);
-        parts = make_parts(made, carving, piece_no, cell, context);
+        posted = make_parts(made, carving, piece_no, cell, context);
     };
     try {
         try {
@@ -198,18 +209,19 @@ PiecePrograms make_programs(const Piece& piece, const Carving& carving, std::uin
             make(narrow);
         }
     } catch (const InputError& error) {
-        return {{}, error.what(), caps_by_hand(std::move(caps), error.what())};
+        return {{}, error.what(), {}, caps_by_hand(std::move(caps), error.what())};
     }
     const TriangleMesh mesh = job_mesh(to_stl(apply(setup.piece_in_setup, *piece.mesh)), piece.name);
     const std::vector<Pose> frames = frames_of(setup, cell);
     PiecePrograms programs;
+    programs.left_out = posted.left_out;
     programs.caps = decided(std::move(caps), made.drilling);
     std::vector<JobCap> job_caps;
     for (const DrawnCap& drawn : programs.caps) job_caps.push_back(drawn.cap);
     Bytes stock;  // what the part before left
-    for (const ProgramPart& part : parts) {
+    for (const ProgramPart& part : posted.parts) {
         ProvenProgram proven;
-        proven.input = program_of(part, programs.parts.size() + 1, parts.size(), made);
+        proven.input = program_of(part, programs.parts.size() + 1, posted.parts.size(), made);
         proven.input.stock = std::move(stock);
         proven.proof = prove({cell, setup, frames, mesh, proven.input.program, proven.input.texts, &proven.input.stock,
                               holes_of(job_caps)},

@@ -152,6 +152,10 @@ std::vector<std::string> warnings(const PreparedProject& prepared) {
         }
         const std::string refusal = refusal_word(p, shell_word(prepared.folder));
         if (!refusal.empty()) text.push_back(refusal);
+        if (!p.left_out.empty()) {
+            text.push_back("piece " + p.name + ": no hold of the arm carries " + p.left_out +
+                           "; these cuts are left out, and the proof counts the foam that stays");
+        }
     }
     if (prepared.has_programs()) {
         for (const std::string& sentence : missing_programs(prepared)) text.push_back(sentence);

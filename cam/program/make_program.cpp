@@ -30,6 +30,7 @@ namespace {
 constexpr double full_turn = 2 * std::numbers::pi;
 constexpr std::size_t lines_around = 80;  // of a chunk, beside its runs
 constexpr std::size_t fewest_lines = 20;  // of a run
+constexpr double most_left_out = 0.02;    // of the cuts of a finishing operation, as a share of their length
 
 using JointExtents = std::array<AngleRange, axes_of_arm>;
 
@@ -89,6 +90,10 @@ class OperationHolder {
           most_lines_of_run_(most_lines(cell)),
           runs_(split_long_runs(operation.runs, most_lines_of_run_, search_.out(), operation.retract)) {}
 
+    // What was left out, of which sections() found that no hold carries it: the length of cuts, and why.
+    double left_out() const { return left_out_; }
+    const std::string& refusal() const { return refusal_; }
+
     std::vector<HeldSection> sections(const std::string& where) {
         std::vector<HeldSection> held;
         for (std::size_t first = 0; first < runs_.size();) {
@@ -97,8 +102,11 @@ class OperationHolder {
             const SampledPath path = sampled_path(rest);
             const HeldPath longest = search_.longest(rest, path);
             if (longest.runs == 0) {
-                divide(where, first, path, longest);
-                continue;
+                refusal_ = search_.refusal();
+                if (divide(first, path, longest) || leave_out(first, path, longest)) continue;
+                throw ProgramRefused(
+                    where + ", run " + std::to_string(first + 1) + ": no hold of the arm carries it: " + refusal_,
+                    "place the block otherwise, or carve from other directions");
             }
             held.push_back({search_.section(rest, path, longest), extents_of(longest.joints)});
             for (ProgramRun& run : held.back().section.runs) limit_speed_changes(run, most_lines_of_run_);
@@ -119,14 +127,10 @@ class OperationHolder {
     }
 
     // Divides a run that no hold carries where one carries its first part.
-    void divide(const std::string& where, std::size_t at, const SampledPath& path, const HeldPath& longest) {
-        const std::string refusal = search_.refusal();
+    bool divide(std::size_t at, const SampledPath& path, const HeldPath& longest) {
         const PathRun run = runs_[at];
         for (std::size_t count = moves_within(run, path, longest.poses); count > 0; count = count * 3 / 4) {
-            const auto end = run.moves.begin() + static_cast<std::ptrdiff_t>(count);
-            const bool has_cut =
-                std::any_of(run.moves.begin(), end, [](const PathMove& move) { return move.kind == MoveKind::cut; });
-            if (!has_cut) break;
+            if (!has_cut(run, count)) return false;
             if (count >= run.moves.size()) continue;
             auto [head, tail] = split_run(run, count, search_.out(), operation_.retract);
             const std::vector<PathRun> alone{head};
@@ -134,10 +138,66 @@ class OperationHolder {
             if (search_.longest(alone, head_path).runs == 0) continue;
             runs_[at] = std::move(head);
             runs_.insert(runs_.begin() + static_cast<std::ptrdiff_t>(at) + 1, std::move(tail));
-            return;
+            return true;
         }
-        throw ProgramRefused(where + ", run " + std::to_string(at + 1) + ": no hold of the arm carries it: " + refusal,
-                             "place the block otherwise, or carve from other directions");
+        return false;
+    }
+
+    // Leaves out what of a finishing run no hold carries, up to a place from which one carries a further cut. False if
+    // that would be too much.
+    bool leave_out(std::size_t at, const SampledPath& path, const HeldPath& longest) {
+        if (operation_.kind == OperationKind::roughing || operation_.kind == OperationKind::drilling) return false;
+        const PathRun run = runs_[at];
+        const std::size_t first = moves_within(run, path, longest.poses);
+        std::size_t end = std::min(first + 1, run.moves.size());
+        std::optional<PathRun> tail;
+        for (; end < run.moves.size() && !tail; ++end) {
+            context_.check_cancelled();
+            PathRun from_here = split_run(run, end, search_.out(), operation_.retract).second;
+            if (begins_held(from_here)) tail = std::move(from_here);
+        }
+        if (tail) --end;
+        double length = 0;
+        for (std::size_t i = first; i < end; ++i) {
+            const Vec3 from = i > 0 ? run.moves[i - 1].tip : run.start;
+            if (run.moves[i].kind == MoveKind::cut) length += norm(run.moves[i].tip - from);
+        }
+        if (left_out_ + length > most_left_out * cut_length(operation_.runs)) return false;
+        left_out_ += length;
+        std::vector<PathRun> kept;
+        if (has_cut(run, first)) {
+            PathRun head = run;
+            if (first < run.moves.size()) head = split_run(run, first, search_.out(), operation_.retract).first;
+            kept.push_back(std::move(head));
+        }
+        if (tail) kept.push_back(std::move(*tail));
+        const auto place = runs_.erase(runs_.begin() + static_cast<std::ptrdiff_t>(at));
+        runs_.insert(place, kept.begin(), kept.end());
+        return true;
+    }
+
+    // Whether a hold carries a run up to a part of its first cut.
+    bool begins_held(const PathRun& run) {
+        const std::vector<PathRun> alone{run};
+        const SampledPath path = sampled_path(alone);
+        return has_cut(run, moves_within(run, path, search_.longest(alone, path).poses));
+    }
+
+    static bool has_cut(const PathRun& run, std::size_t count) {
+        return std::any_of(run.moves.begin(), run.moves.begin() + static_cast<std::ptrdiff_t>(count),
+                           [](const PathMove& move) { return move.kind == MoveKind::cut; });
+    }
+
+    static double cut_length(const std::vector<PathRun>& runs) {
+        double length = 0;
+        for (const PathRun& run : runs) {
+            Vec3 from = run.start;
+            for (const PathMove& move : run.moves) {
+                if (move.kind == MoveKind::cut) length += norm(move.tip - from);
+                from = move.tip;
+            }
+        }
+        return length;
     }
 
     // Moves of the first run whose ends are among the first poses.
@@ -158,14 +218,22 @@ class OperationHolder {
     std::size_t most_lines_ = 0;  // of a section
     std::size_t most_lines_of_run_ = 0;
     std::vector<PathRun> runs_;
+    std::string refusal_;  // of the last run that no hold carried
+    double left_out_ = 0;
 };
 
-// All sections of all operations, in their order.
-std::vector<HeldSection> held_sections(const Toolpath& toolpath, const Setup& setup, const WorkEnvelope& envelope,
-                                       const Cell& cell, const Context& context) {
+struct HeldSections {
+    std::vector<HeldSection> all;  // of all operations, in their order
+    double left_out = 0;
+    std::string left_out_because;  // the first one
+};
+
+HeldSections held_sections(const Toolpath& toolpath, const Setup& setup, const WorkEnvelope& envelope, const Cell& cell,
+                           const Context& context) {
     const std::size_t count = toolpath.operations.size();
     std::vector<std::vector<HeldSection>> by_operation(count);
     std::vector<std::exception_ptr> refused(count);
+    std::vector<std::pair<double, std::string>> left_out(count);
     std::mutex mutex;
     std::size_t done = 0;
     context.progress("operations held", 0, count);
@@ -174,21 +242,24 @@ std::vector<HeldSection> held_sections(const Toolpath& toolpath, const Setup& se
         try {
             OperationHolder holder(setup, envelope, cell, toolpath.operations[i], context);
             by_operation[i] = holder.sections(where);
+            left_out[i] = {holder.left_out(), where + ": " + holder.refusal()};
         } catch (const ProgramRefused&) {
             refused[i] = std::current_exception();
         }
         const std::lock_guard lock(mutex);
         context.progress("operations held", ++done, count);
     });
-    std::vector<HeldSection> all;
+    HeldSections held_all;
     for (std::size_t i = 0; i < count; ++i) {
         if (refused[i]) std::rethrow_exception(refused[i]);
         for (HeldSection& held : by_operation[i]) {
             held.section.operation = i;
-            all.push_back(std::move(held));
+            held_all.all.push_back(std::move(held));
         }
+        if (left_out[i].first > 0 && held_all.left_out == 0) held_all.left_out_because = left_out[i].second;
+        held_all.left_out += left_out[i].first;
     }
-    return all;
+    return held_all;
 }
 
 // Where a setup's direction has the table, -pi..pi.
@@ -318,7 +389,8 @@ Program make_program(const Toolpath& toolpath, const Setup& setup, const WorkEnv
                      const Context& context) {
     assert(cell.machine);
     check_toolpath(toolpath, setup, cell);
-    std::vector<HeldSection> all = held_sections(toolpath, setup, envelope, cell, context);
+    HeldSections sections = held_sections(toolpath, setup, envelope, cell, context);
+    std::vector<HeldSection>& all = sections.all;
     for (HeldSection& held : all) {
         ProgramSection& section = held.section;
         section.table_angle = table_angle(setup, cell, section.direction);
@@ -327,6 +399,8 @@ Program make_program(const Toolpath& toolpath, const Setup& setup, const WorkEnv
     }
     if (cell.machine->robot) SectionJoiner(setup, cell).join(all, context);
     Program program = empty_program(setup, cell);
+    program.left_out_mm = sections.left_out;
+    program.left_out_because = std::move(sections.left_out_because);
     for (HeldSection& held : all) program.sections.push_back(std::move(held.section));
     return program;
 }

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/pose.h"
@@ -102,6 +103,8 @@ struct Program {
     Joints home{};
     std::vector<ProgramTool> tools;  // in the order of CellMachine::tools
     std::vector<ProgramSection> sections;
+    double left_out_mm = 0;        // of the cuts of finishing: no hold of the arm carries them
+    std::string left_out_because;  // of the first ones: operation, check, margin and pose
     bool operator==(const Program&) const = default;
 };
 

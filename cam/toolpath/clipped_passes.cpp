@@ -1,9 +1,11 @@
-// A pass is looked at in samples half a cell of the foam's map apart. O(length / cell * (radius / cell)^2).
+// A pass is looked at in samples half a cell of the foam's map apart; squares of cells tell of most of them that they
+// are free. O(cells + length / cell * (radius / cell)^2) at most.
 
 #include "cam/toolpath/clipped_passes.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "cam/toolpath/disc_max.h"
@@ -13,6 +15,8 @@ namespace {
 
 constexpr double least_part = 2;       // mm of a part of a pass that is worth a way there
 constexpr double touching = 1.5;       // mm
+constexpr double square = 8;           // cells of foam on each side
+constexpr float rounding = 1e-3F;      // mm, of heights in single precision
 constexpr double least_length = 1e-6;  // mm; rounding leaves less
 
 // Of a pass, in mm from its beginning.
@@ -136,11 +140,30 @@ double length_of(const std::vector<Pass>& passes) {
     return length;
 }
 
+namespace {
+
+// For squares of cells of foam, a height of the tip from which on neither the holder nor the flute is blocked anywhere
+// in the square.
+HeightMap free_above(const CarvingSpace& space, double radius, double flute) {
+    const HeightMap foam = coarser(space.middle_foam, square);
+    HeightMap free = coarser(space.holder_limit, square);
+    // From the middle of a square to a place in it, to a middle of a cell, and to the middle of its square.
+    const HeightMap highest = disc_max(foam, radius + std::numbers::sqrt2 * foam.cell);
+    for (std::size_t i = 0; i < free.height.size(); ++i) {
+        free.height[i] = std::max(free.height[i], highest.height[i] - static_cast<float>(flute) + rounding);
+    }
+    return free;
+}
+
+}  // namespace
+
 ClippedPasses clipped(const std::vector<Pass>& passes, const CarvingSpace& space, const CarvingTool& tool) {
     const double inner = std::max(0.0, 0.5 * tool.diameter - flute_rim);
+    const HeightMap free = free_above(space, inner, tool.flute_length);
     return divided(passes, 0.5 * space.foam.cell, [&](Vec3 p) {
+        if (least_height(free, p.x, p.y) <= p.z) return true;
         return least_height(space.holder_limit, p.x, p.y) <= p.z &&
-               static_cast<double>(disc_max_at(space.middle_foam, p.x, p.y, inner)) <= p.z + tool.flute_length;
+               !is_disc_above(space.middle_foam, p.x, p.y, inner, p.z + tool.flute_length);
     });
 }
 

@@ -3,6 +3,11 @@
 // of every other direction's map and one cell above it, and the answer is the step before. Along its own direction the
 // map of that direction tells where the ray begins, exactly. Above the highest cell of a square of another direction's
 // map all steps are over at once. O(cells * steps * directions) at most.
+//
+// A tool on a straight way comes lowest over a cell where the derivative of its height vanishes: on a level way where
+// it is nearest, and a ball of radius R on a slope m beside that, by m * sqrt((R^2 - d^2) / (1 + m^2)) for a cell d off
+// the line of the way. With the radius less what lies beside a cell that is not exactly the lowest place, but it is one
+// where the tool has been. Other tools on slopes are taken at places a cell apart. O(cells passed).
 
 #include "cam/toolpath/in_process_stock.h"
 
@@ -23,6 +28,8 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t sweep_rings = 1024;                    // of equal area under the tool
 constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
+constexpr double least_way = 1e-6;                           // mm, of one that is not straight down
+constexpr double least_sine = 1e-9;                          // of the angle of a way and a row
 constexpr std::size_t square = 16;                           // cells of a map of which the highest is known
 
 Box block_of(const Setup& setup) {
@@ -51,6 +58,20 @@ Span span_in(const Box& box, Vec3 point, Vec3 along) {
     }
     return span;
 }
+
+// The cells of a row or a column whose middles lie between two places.
+struct CellRange {
+    std::size_t first = 0;
+    std::size_t end = 0;
+
+    CellRange(double low, double high, double cell, std::size_t count) {
+        const auto within = [&](double at) {
+            return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(count)));
+        };
+        first = within(std::ceil(low / cell - 0.5));
+        end = within(std::floor(high / cell - 0.5) + 1);
+    }
+};
 
 // Whether a point of a map's frame lies above the map.
 bool is_above(const HeightMap& map, Vec3 p) {
@@ -180,6 +201,7 @@ ToolSweep::ToolSweep(const CarvingTool& tool, double cell, double slack, FoamCel
     : cell_(cell), above_(sweep_rings, 0) {
     const double beside = slack + (kind == FoamCells::whole ? half_diagonal * cell : 0);
     outer_ = 0.5 * tool.diameter - beside;
+    is_ball_ = tool.shape == ToolShape::ball;
     for (std::size_t i = 0; i < sweep_rings && outer_ > 0; ++i) {
         const double r = outer_ * std::sqrt(static_cast<double>(i + 1) / static_cast<double>(sweep_rings));
         above_[i] = static_cast<float>(tool_profile(tool, std::min(r + beside, 0.5 * tool.diameter)) + slack);
@@ -189,32 +211,51 @@ ToolSweep::ToolSweep(const CarvingTool& tool, double cell, double slack, FoamCel
 void ToolSweep::move(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) const {
     assert(map.cell == cell_ && other.height.size() == map.height.size());
     if (!(outer_ > 0)) return;
+    if (is_ball_ || from.z == to.z) return sweep(map, other, from, to);
     const double length = std::hypot(to.x - from.x, to.y - from.y);
     const auto parts = static_cast<std::size_t>(std::ceil(length / cell_)) + 1;
     for (std::size_t i = 0; i <= parts; ++i) {
-        stand(map, other, from + (static_cast<double>(i) / static_cast<double>(parts)) * (to - from));
+        const Vec3 tip = from + (static_cast<double>(i) / static_cast<double>(parts)) * (to - from);
+        sweep(map, other, tip, tip);
     }
 }
 
-void ToolSweep::stand(HeightMap& map, HeightMap& other, Vec3 tip) const {
-    const auto first = [&](double at) {
-        return static_cast<std::ptrdiff_t>(std::max(0.0, std::ceil((at - outer_) / cell_ - 0.5)));
-    };
-    const auto end = [&](double at, std::size_t count) {
-        return std::min(static_cast<std::ptrdiff_t>(count),
-                        static_cast<std::ptrdiff_t>(std::floor((at + outer_) / cell_ - 0.5)) + 1);
-    };
+void ToolSweep::sweep(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) const {
+    const double length = std::hypot(to.x - from.x, to.y - from.y);
+    if (!(length > least_way)) from = to = {to.x, to.y, std::min(from.z, to.z)};
+    const bool is_point = !(length > least_way);
+    const Vec3 along = is_point ? Vec3{1, 0, 0} : Vec3{(to.x - from.x) / length, (to.y - from.y) / length, 0};
+    const double end = is_point ? 0 : length;
+    const double slope = is_point ? 0 : (to.z - from.z) / length;
+    const double lag = -slope / std::sqrt(1 + slope * slope);
     const double rings_per_square = static_cast<double>(sweep_rings) / (outer_ * outer_);
-    const auto z = static_cast<float>(tip.z);
-    for (std::ptrdiff_t row = first(tip.y); row < end(tip.y, map.rows); ++row) {
-        const double y = cell_ * (static_cast<double>(row) + 0.5) - tip.y;
-        for (std::ptrdiff_t column = first(tip.x); column < end(tip.x, map.columns); ++column) {
-            const double x = cell_ * (static_cast<double>(column) + 0.5) - tip.x;
-            const auto ring = static_cast<std::size_t>(rings_per_square * (x * x + y * y));
+    const CellRange rows(std::min(from.y, to.y) - outer_, std::max(from.y, to.y) + outer_, cell_, map.rows);
+    for (std::size_t row = rows.first; row < rows.end; ++row) {
+        const double y = cell_ * (static_cast<double>(row) + 0.5) - from.y;
+        double low = std::min(from.x, to.x) - outer_;
+        double high = std::max(from.x, to.x) + outer_;
+        if (std::abs(along.y) > least_sine) {
+            // Farther off the line of the way no cell is near to it.
+            const double middle = from.x + y * along.x / along.y;
+            low = std::max(low, middle - outer_ / std::abs(along.y));
+            high = std::min(high, middle + outer_ / std::abs(along.y));
+        }
+        const CellRange columns(low, high, cell_, map.columns);
+        float* own = map.height.data() + row * map.columns;
+        float* others = other.height.data() + row * map.columns;
+        for (std::size_t column = columns.first; column < columns.end; ++column) {
+            const double x = cell_ * (static_cast<double>(column) + 0.5) - from.x;
+            const double at = x * along.x + y * along.y;
+            const double across = y * along.x - x * along.y;
+            const double chord = outer_ * outer_ - across * across;
+            if (!(chord > 0)) continue;
+            const double lowest = slope == 0 ? at : at + lag * std::sqrt(chord);
+            const double tip = std::clamp(lowest, 0.0, end);
+            const auto ring = static_cast<std::size_t>(rings_per_square * (across * across + (at - tip) * (at - tip)));
             if (ring >= sweep_rings) continue;
-            const std::size_t i = static_cast<std::size_t>(row) * map.columns + static_cast<std::size_t>(column);
-            map.height[i] = std::min(map.height[i], z + above_[ring]);
-            other.height[i] = std::min(other.height[i], z + above_[ring]);
+            const float height = static_cast<float>(from.z + slope * tip) + above_[ring];
+            own[column] = std::min(own[column], height);
+            others[column] = std::min(others[column], height);
         }
     }
 }

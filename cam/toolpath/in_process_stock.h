@@ -28,15 +28,17 @@ class ToolSweep {
     // For maps of a cell size. `slack`: how far the tool may pass beside its way, because a controller rounds corners.
     ToolSweep(const CarvingTool& tool, double cell, double slack = 0, FoamCells kind = FoamCells::whole);
 
-    // Along a straight line of the tip, in map coordinates, in two maps with the same cells. O(length / cell * (radius
-    // / cell)^2).
+    // Along a straight line of the tip, in map coordinates, in two maps with the same cells. O(cells passed), but for
+    // tools other than balls on a slope O(length / cell * (radius / cell)^2).
     void move(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) const;
 
  private:
-    void stand(HeightMap& map, HeightMap& other, Vec3 tip) const;
+    // Precondition: the tool is a ball or the line is level.
+    void sweep(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) const;
 
     double cell_;
-    double outer_;              // farthest middle of a cell that is under the tool
+    double outer_;  // farthest middle of a cell that is under the tool
+    bool is_ball_;
     std::vector<float> above_;  // by the square of the distance from the axis: the tool's highest point over the cell
 };
 

@@ -9,7 +9,6 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 
 #include "base/parallel.h"
@@ -17,8 +16,7 @@
 namespace qchopper {
 namespace {
 
-// A piece of a line in a square, between two sides. A side is numbered by the cell where it begins, times two, plus one
-// if it runs along a column.
+// A piece of a line in a square, between two sides (CellSide).
 struct LinePiece {
     std::uint32_t level = 0;
     std::uint64_t from = 0;
@@ -69,87 +67,9 @@ class SquareLines {
     const LevelRange& range_;
 };
 
-// The middles of the two cells of a side.
-struct SideEnds {
-    std::size_t cell;
-    std::size_t other;
-    Point2 from;
-    Point2 to;
-
-    SideEnds(const HeightMap& tip, std::uint64_t side) : cell(side / 2) {
-        const bool is_upright = side % 2 != 0;
-        other = is_upright ? cell + tip.columns : cell + 1;
-        from = middle(tip, cell);
-        to = middle(tip, other);
-    }
-    Point2 at(double share) const { return {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)}; }
-
- private:
-    static Point2 middle(const HeightMap& tip, std::size_t cell) {
-        const std::size_t row = cell / tip.columns;
-        const std::size_t column = cell % tip.columns;
-        return {(static_cast<double>(column) + 0.5) * tip.cell, (static_cast<double>(row) + 0.5) * tip.cell};
-    }
-};
-
-// How the surface rises along the sides on which an edge is: the highest so far at steps from the lower end.
-class FoundEdges {
- public:
-    FoundEdges(const HeightMap& tip, const LinePieces& pieces, double jump, const TipDilation* tool) : tip_(tip) {
-        if (tool == nullptr) return;
-        for (const LinePiece& piece : pieces) {
-            for (const std::uint64_t side : {piece.from, piece.to}) {
-                const SideEnds ends(tip, side);
-                if (std::abs(tip.height[ends.cell] - tip.height[ends.other]) > jump) sides_.push_back(side);
-            }
-        }
-        std::sort(sides_.begin(), sides_.end());
-        sides_.erase(std::unique(sides_.begin(), sides_.end()), sides_.end());
-        rises_.resize(sides_.size());
-        parallel_ranges(0, sides_.size(), sides_at_once, [&](std::size_t first, std::size_t end) {
-            for (std::size_t i = first; i < end; ++i) rises_[i] = rise_along(sides_[i], *tool);
-        });
-    }
-
-    // How far from the lower end, as a share, the surface is not above a height; nothing if the edge is not the tool's.
-    std::optional<double> share_below(std::uint64_t side, double z) const {
-        const auto found = std::lower_bound(sides_.begin(), sides_.end(), side);
-        if (found == sides_.end() || *found != side) return std::nullopt;
-        const Rise& rise = rises_[static_cast<std::size_t>(found - sides_.begin())];
-        if (rise.empty()) return std::nullopt;
-        const auto above = std::upper_bound(rise.begin(), rise.end(), static_cast<float>(z));
-        return static_cast<double>(above - rise.begin()) / steps;
-    }
-
- private:
-    static constexpr std::size_t steps = 16;
-    static constexpr std::size_t sides_at_once = 256;
-    using Rise = std::vector<float>;  // at the steps from the first on, but for the last
-
-    Rise rise_along(std::uint64_t side, const TipDilation& tool) const {
-        const SideEnds ends(tip_, side);
-        const bool is_up = tip_.height[ends.cell] < tip_.height[ends.other];
-        // Holder or foam may keep the tip off anywhere between.
-        if (!is_of_tool(tip_, tool, is_up ? ends.other : ends.cell)) return {};
-        Rise rise;
-        float highest = -std::numeric_limits<float>::infinity();
-        for (std::size_t k = 1; k < steps; ++k) {
-            const double share = static_cast<double>(k) / steps;
-            const Point2 p = ends.at(is_up ? share : 1 - share);
-            highest = std::max(highest, static_cast<float>(tool.height(p.x, p.y)));
-            rise.push_back(highest);
-        }
-        return rise;
-    }
-
-    const HeightMap& tip_;
-    std::vector<std::uint64_t> sides_;
-    std::vector<Rise> rises_;
-};
-
 class LineJoiner {
  public:
-    LineJoiner(const HeightMap& tip, double z, double jump, const FoundEdges& edges)
+    LineJoiner(const HeightMap& tip, double z, double jump, const EdgeRises* edges)
         : tip_(tip), z_(z), jump_(jump), edges_(edges) {}
 
     // Of the pieces of one level, sorted by where they begin.
@@ -189,11 +109,11 @@ class LineJoiner {
     }
 
     LevelPoint crossing(std::uint64_t side) const {
-        const SideEnds ends(tip_, side);
+        const CellSide ends(tip_, side);
         const double a = static_cast<double>(tip_.height[ends.cell]);
-        const double b = static_cast<double>(tip_.height[ends.other]);
+        const double b = static_cast<double>(tip_.height[ends.next]);
         if (std::abs(b - a) <= jump_) return {ends.at((z_ - a) / (b - a))};
-        const std::optional<double> share = edges_.share_below(side, z_);
+        const std::optional<double> share = edges_ != nullptr ? edges_->share_below(side, z_) : std::nullopt;
         const double from_low = share.value_or(0);
         return {ends.at(a < b ? from_low : 1 - from_low), !share, share.has_value()};
     }
@@ -201,13 +121,13 @@ class LineJoiner {
     const HeightMap& tip_;
     double z_;
     double jump_;
-    const FoundEdges& edges_;
+    const EdgeRises* edges_;
 };
 
 }  // namespace
 
 std::vector<LevelLine> level_lines(const HeightMap& tip, const CellMask& mask, const Levels& levels,
-                                   std::size_t divisor, std::size_t remainder, double jump, const TipDilation* tool) {
+                                   std::size_t divisor, std::size_t remainder, double jump, const EdgeRises* edges) {
     assert(levels.step > 0 && remainder < divisor && mask.size() == tip.height.size());
     if (tip.rows < 2 || tip.columns < 2) return {};
     const LevelRange range{levels, divisor, remainder};
@@ -226,7 +146,6 @@ std::vector<LevelLine> level_lines(const HeightMap& tip, const CellMask& mask, c
     std::sort(pieces.begin(), pieces.end(), [](const LinePiece& a, const LinePiece& b) {
         return a.level != b.level ? a.level < b.level : a.from < b.from;
     });
-    const FoundEdges edges(tip, pieces, jump, tool);
     std::vector<std::size_t> begins;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         if (i == 0 || pieces[i].level != pieces[i - 1].level) begins.push_back(i);

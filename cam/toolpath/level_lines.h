@@ -1,15 +1,15 @@
 // Lines of constant height of a tip surface.
 //
 // mm, in the map. The surface is linear between neighbouring middles of cells, but where it falls so far that an edge
-// may lie between them, all of the fall is at the lower one, or, where the tool is known, in front of the edge by at
-// most a sixteenth of a cell. On the left of a line the surface is not above it.
+// may lie between them, all of the fall is at the lower one, or, where the edge is known, in front of it by at most a
+// sixteenth of a cell. On the left of a line the surface is not above it.
 
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
-#include "cam/toolpath/tip_surface.h"
+#include "cam/toolpath/edge_rises.h"
 #include "cam/toolpath/tip_view.h"
 #include "segment/mesh/polygon.h"
 
@@ -36,12 +36,12 @@ struct Levels {
     double height(std::size_t level) const { return first + step * static_cast<double>(level); }
 };
 
-// `tool`, if there is one, is what the surface was made with; it may have been raised since, by holder or foam.
+// `edges`, if there are any, are those of the surface with the same mask and jump.
 // The lines of all levels whose number is `remainder` modulo `divisor`, where a square of four middles begins at a cell
 // of the mask; by level, and otherwise in an order that depends on the map alone. Preconditions: no level of the
 // surface in the mask is below the first one, step > 0, divisor > remainder. O(squares + crossings * log(crossings)).
 std::vector<LevelLine> level_lines(const HeightMap& tip, const CellMask& mask, const Levels& levels,
                                    std::size_t divisor, std::size_t remainder, double jump,
-                                   const TipDilation* tool = nullptr);
+                                   const EdgeRises* edges = nullptr);
 
 }  // namespace qchopper

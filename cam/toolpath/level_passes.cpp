@@ -8,8 +8,10 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <optional>
 
 #include "base/parallel.h"
+#include "cam/toolpath/edge_rises.h"
 #include "cam/toolpath/level_lines.h"
 #include "cam/toolpath/path_reduction.h"
 #include "cam/toolpath/scallop.h"
@@ -283,19 +285,21 @@ std::vector<Pass> level_passes(const HeightMap& tip, const PassCells& cells, con
     const Levels levels{lowest + 1e-3, step / halvings};
     const double jump = edge_rise(options.radius, tip.cell);
     const LevelContact contact(tip, ground, options.radius, step);
+    std::optional<EdgeRises> found;
+    if (ground.tool != nullptr) found.emplace(tip, cells.allowed, jump, *ground.tool);
+    const EdgeRises* edges = found ? &*found : nullptr;
     std::vector<LevelLine> lines =
-        parts_where(level_lines(tip, cells.allowed, levels, halvings, 0, jump, ground.tool), options.overlap,
+        parts_where(level_lines(tip, cells.allowed, levels, halvings, 0, jump, edges), options.overlap,
                     [&](Point2 p, std::size_t level) { return contact.holds(p, levels.height(level)); });
     const LevelNeed need(tip, cells.wanted, options);
     for (std::size_t gap = halvings / 2; gap > 0; gap /= 2) {
         context.check_cancelled();
         const double distance_up = levels.step * static_cast<double>(gap);
-        std::vector<LevelLine> between =
-            parts_where(level_lines(tip, cells.allowed, levels, 2 * gap, gap, jump, ground.tool), options.overlap,
-                        [&](Point2 p, std::size_t level) {
-                            const double z = levels.height(level);
-                            return need.holds(p, z, distance_up) && contact.holds(p, z);
-                        });
+        std::vector<LevelLine> between = parts_where(level_lines(tip, cells.allowed, levels, 2 * gap, gap, jump, edges),
+                                                     options.overlap, [&](Point2 p, std::size_t level) {
+                                                         const double z = levels.height(level);
+                                                         return need.holds(p, z, distance_up) && contact.holds(p, z);
+                                                     });
         std::move(between.begin(), between.end(), std::back_inserter(lines));
     }
     // From above.

@@ -100,17 +100,21 @@ double length_of(const Pass& pass) {
     return length;
 }
 
-HeightMap holder_limit_over(const HeightMap& foam, const ToolBody& body, const HolderGap& gap) {
-    HeightMap limit = foam;
-    std::fill(limit.height.begin(), limit.height.end(), HeightMap::nothing);
+HeightMap holder_limit_over(const HeightMap& foam, const ToolBody& body, const HolderGap& gap, double lowest) {
+    HeightMap limit{foam.piece_in_map, foam.cell, foam.columns, foam.rows, {}};
+    limit.height.assign(foam.height.size(), HeightMap::nothing);
+    const float highest =
+        foam.height.empty() ? HeightMap::nothing : *std::max_element(foam.height.begin(), foam.height.end());
     double above = body.stick_out;
     for (const HolderStep& step : body.steps) {
+        const auto drop = static_cast<float>(above - gap.clearance);
+        above += step.length;
+        if (static_cast<double>(highest - drop) < lowest) continue;
         // Foam may lie anywhere in its cell, and the tip in its own.
         const double factor = step.diameter > 80 * foam.cell ? gap.wide_cells : 1;
         const HeightMap wide = factor > 1 ? coarser(foam, factor) : foam;
         const double radius = 0.5 * step.diameter + gap.clearance + 2 * half_diagonal * wide.cell;
         const HeightMap top = disc_max(wide, radius);
-        const auto drop = static_cast<float>(above - gap.clearance);
         for (std::size_t row = 0; row < limit.rows; ++row) {
             const std::size_t under =
                 std::min(static_cast<std::size_t>((static_cast<double>(row) + 0.5) / factor), top.rows - 1);
@@ -121,7 +125,6 @@ HeightMap holder_limit_over(const HeightMap& foam, const ToolBody& body, const H
                 own = std::max(own, top.at(at, under) - drop);
             }
         }
-        above += step.length;
     }
     return limit;
 }

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "cam/cell/carving_tool.h"
@@ -54,9 +55,10 @@ struct HolderGap {
     double wide_cells = 1;   // cells of the foam, each way, that are taken as one for wide steps of the holder
 };
 
-// The least height of the tip at which holder and spindle stay clear of foam, for each cell of its map.
-// O(cells * widest radius / cell).
-HeightMap holder_limit_over(const HeightMap& foam, const ToolBody& body, const HolderGap& gap = {});
+// The least height of the tip at which holder and spindle stay clear of foam, for each cell of its map. For tips that
+// are never below `lowest`: limits below it may be lower than they are. O(cells * widest radius / cell) at most.
+HeightMap holder_limit_over(const HeightMap& foam, const ToolBody& body, const HolderGap& gap = {},
+                            double lowest = -std::numeric_limits<double>::infinity());
 
 struct LinkOptions {
     bool has_ramps = false;  // of roughing

@@ -56,7 +56,8 @@ class ToolpathMaker {
           tools_(choose_tools(machine_, settings)),
           stock_(setup),
           middle_stock_(setup, FoamCells::middles),
-          left_(mesh, setup.base, surface_spacing) {
+          left_(mesh, setup.base, surface_spacing),
+          coarse_targets_(setup.reach.directions.size()) {
         check_settings(settings, machine_, tools_);
         const double finest = 0.5 * machine_.tools[tools_.fine.value_or(tools_.finishing)].diameter;
         foam_cell_ = std::max(least_foam_cell, finest / cells_per_radius);
@@ -112,6 +113,13 @@ class ToolpathMaker {
         return target_map(setup_, mesh_, direction, {cell, floor_z, border_});
     }
 
+    // In the cells of foam, over the base plane.
+    const HeightMap& coarse_target(std::size_t direction) {
+        HeightMap& map = coarse_targets_[direction];
+        if (map.height.empty()) map = target(direction, foam_cell_, 0);
+        return map;
+    }
+
     ToolBody body_of(std::size_t tool) const { return tool_body(machine_.tools[tool], machine_.spindle); }
 
     // Fills what is the same for all kinds of operation.
@@ -136,7 +144,7 @@ class ToolpathMaker {
         operation.step_down = step_down_of(tool, settings_);
         operation.allowance = is_large ? settings_.allowance : settings_.fine_allowance;
         operation.rounding = std::min(settings_.roughing_rounding, operation.allowance / 1.5);
-        const HeightMap piece = target(direction, foam_cell_, 0);
+        const HeightMap& piece = coarse_target(direction);
         HeightMap tip = tip_surface(piece, tool, {operation.allowance});
         raise_to_holder(tip, piece, body_of(tool_index), setup_.piece_in_setup);
         raise_to_foam(tip, stock_.lowest(direction, tip), tool, operation.step_down);
@@ -217,12 +225,20 @@ class ToolpathMaker {
         std::size_t take = 0;  // of SurfaceLeft; 0: the surface was given back
     };
 
+    static double lowest_of(const std::vector<Pass>& passes) {
+        double lowest = std::numeric_limits<double>::infinity();
+        for (const Pass& pass : passes) {
+            for (const PassPoint& point : pass.points) lowest = std::min(lowest, point.tip.z);
+        }
+        return lowest;
+    }
+
     // Carves what foam does not block, again and again, because passes free others; the rest is left. The length in mm
     // of what was carved.
     double carve(PassesLeft& left) {
         const CarvingTool& tool = machine_.tools[left.operation.tool];
         const ToolBody body = body_of(left.operation.tool);
-        CarvingSpace space = space_of(target(left.operation.direction, foam_cell_, 0), left.operation);
+        CarvingSpace space = space_of(coarse_target(left.operation.direction), left.operation);
         space.tip_limit = &left.tip;
         space.tool = &left.over_piece->tool;
         LinkOptions links;
@@ -231,7 +247,8 @@ class ToolpathMaker {
         double carved = 0;
         while (!left.passes.empty()) {
             context_.check_cancelled();
-            space.holder_limit = holder_limit_over(space.middle_foam, body, finishing_gap(setup_, foam_cell_));
+            space.holder_limit =
+                holder_limit_over(space.middle_foam, body, finishing_gap(setup_, foam_cell_), lowest_of(left.passes));
             ClippedPasses parts = clipped(left.passes, space, tool);
             left.passes = std::move(parts.blocked);
             const double length = length_of(parts.free);
@@ -276,8 +293,8 @@ class ToolpathMaker {
         return is_any;
     }
 
-    HeightMap limit_now(const Operation& operation) const {
-        const HeightMap foam = middle_stock_.highest(operation.direction, target(operation.direction, foam_cell_, 0));
+    HeightMap limit_now(const Operation& operation) {
+        const HeightMap foam = middle_stock_.highest(operation.direction, coarse_target(operation.direction));
         return limit_over_foam(foam, machine_.tools[operation.tool], body_of(operation.tool),
                                finishing_gap(setup_, foam_cell_));
     }
@@ -286,11 +303,11 @@ class ToolpathMaker {
     double near(const Operation& operation) const { return operation.scallop + settings_.cell; }
 
     // A tip surface over the piece, raised for holder and spindle.
-    HeightMap finishing_tip(const Operation& operation, const HeightMap& piece, HeightMap tip) const {
+    HeightMap finishing_tip(const Operation& operation, const HeightMap& piece, HeightMap tip) {
         const ToolBody body = body_of(operation.tool);
         raise_to_holder(tip, piece, body, setup_.piece_in_setup);
         const double foam_left = operation.scallop + settings_.path_tolerance;
-        raise_to_limit(tip, limit_over_finished(target(operation.direction, foam_cell_, 0), foam_left, body,
+        raise_to_limit(tip, limit_over_finished(coarse_target(operation.direction), foam_left, body,
                                                 finishing_gap(setup_, foam_cell_)));
         return tip;
     }
@@ -340,6 +357,7 @@ class ToolpathMaker {
     SurfaceLeft left_;
     std::vector<PassesLeft> blocked_;
     double foam_cell_ = 1;
+    std::vector<HeightMap> coarse_targets_;  // of each direction; empty until it is asked for
     double border_ = 0;
     std::size_t done_ = 0;
     std::size_t total_ = 0;

@@ -1,6 +1,6 @@
 // Levels are evenly spaced from the highest foam that is to go to the lowest tip. A level's region is where the tip may
 // be at that height (ISO 14649-11, "plane milling strategy" contour-parallel and bidirectional), and of it what lies
-// near foam above the level. O(levels * cells * widest radius / cell).
+// near foam above the level. O(levels * cells * widest radius / cell) at most.
 
 #include "cam/toolpath/roughing.h"
 
@@ -20,12 +20,6 @@ constexpr double cells_beside = 2.5;  // by which a pass goes on beyond the foam
 
 constexpr HolderGap holder_gap{1, 4};  // roughing passes farther beside its way than finishing, and asks at each level
 
-struct LevelSpan {
-    double top = 0;
-    double bottom = 0;
-    bool is_empty() const { return !(top > bottom); }
-};
-
 class RoughingLevels {
  public:
     RoughingLevels(CarvingSpace& space, const CarvingTool& tool, double step_down, const RoughingOptions& options)
@@ -36,46 +30,77 @@ class RoughingLevels {
         beside_ = radius - core_radius_ + cells_beside * space.foam.cell;
     }
 
-    // From the highest foam that is to go, to the lowest tip over such foam.
-    LevelSpan heights() const {
+    // Evenly spaced from the highest foam that is to go, to the lowest tip over such foam; of these, from above, the
+    // ones at which there is anything to carve.
+    std::vector<double> heights() const {
         const HeightMap core = disc_max(space_.foam, core_radius_);
         const HeightMap whole = disc_max(space_.middle_foam, flute_radius_);
         const HeightMap& tip = *space_.tip_limit;
-        LevelSpan found{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        double top = -std::numeric_limits<double>::infinity();
+        double bottom = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < core.height.size(); ++i) {
             const auto low = static_cast<double>(tip.height[i]);
             const bool is_high = static_cast<double>(whole.height[i]) > low + highest_skin();
+            if (!is_high && !(static_cast<double>(core.height[i]) > low + least_above())) continue;
             const auto high = static_cast<double>(is_high ? std::max(core.height[i], whole.height[i]) : core.height[i]);
-            if (!is_high && !(high > low + least_above())) continue;
-            found.top = std::max(found.top, high);
-            found.bottom = std::min(found.bottom, low);
+            top = std::max(top, high);
+            bottom = std::min(bottom, low);
         }
-        return found;
+        if (!(top > bottom)) return {};
+        const double count = std::ceil((top - bottom) / step_down_ - 1e-6);
+        const double down = (top - bottom) / count;
+        // Cells that begin to have work at a level, less those that have none from there on.
+        std::vector<std::ptrdiff_t> begins(static_cast<std::size_t>(count) + 2, 0);
+        const auto level_of = [&](double height) {
+            return static_cast<std::size_t>(std::clamp((top - height) / down, 1.0, count + 1));
+        };
+        for (std::size_t i = 0; i < core.height.size(); ++i) {
+            const double high = std::max(static_cast<double>(core.height[i]) - least_above(),
+                                         static_cast<double>(whole.height[i]) - highest_skin());
+            if (!(high > static_cast<double>(tip.height[i]))) continue;
+            // One level more to both sides: heights are rounded.
+            ++begins[level_of(high)];
+            --begins[std::min(level_of(static_cast<double>(tip.height[i])) + 2, begins.size() - 1)];
+        }
+        std::vector<double> heights;
+        std::ptrdiff_t cells = 0;
+        for (std::size_t k = 1; static_cast<double>(k) <= count; ++k) {
+            cells += begins[k];
+            if (cells > 0)
+                heights.push_back(static_cast<double>(k) == count ? bottom : top - static_cast<double>(k) * down);
+        }
+        return heights;
     }
 
     LevelRegion region(double level) const {
         LevelRegion region{space_.foam.cell, space_.foam.columns, space_.foam.rows, {}, {}};
-        const HeightMap whole = disc_max(space_.middle_foam, flute_radius_);
-        HeightMap core = disc_max(space_.foam, core_radius_);
-        region.is_allowed.resize(whole.height.size());
         const auto height = static_cast<float>(level);
-        const auto flute_top = static_cast<float>(level + tool_.flute_length);
-        const auto skin_top = static_cast<float>(level + highest_skin());
-        const auto foam_top = static_cast<float>(level + least_above());
-        for (std::size_t i = 0; i < whole.height.size(); ++i) {
-            const bool is_allowed = space_.tip_limit->height[i] <= height && space_.holder_limit.height[i] <= height &&
-                                    whole.height[i] <= flute_top;
+        const std::vector<std::uint8_t> core =
+            near_foam(space_.foam, static_cast<float>(level + least_above()), core_radius_);
+        const std::vector<std::uint8_t> skin =
+            near_foam(space_.middle_foam, static_cast<float>(level + highest_skin()), flute_radius_);
+        const std::vector<std::uint8_t> over_flute =
+            near_foam(space_.middle_foam, static_cast<float>(level + tool_.flute_length), flute_radius_);
+        region.is_allowed.resize(core.size());
+        std::vector<std::uint8_t> work(core.size());
+        for (std::size_t i = 0; i < core.size(); ++i) {
+            const bool is_allowed =
+                space_.tip_limit->height[i] <= height && space_.holder_limit.height[i] <= height && over_flute[i] == 0;
             region.is_allowed[i] = is_allowed ? 1 : 0;
-            const bool has_work = core.height[i] > foam_top || whole.height[i] > skin_top;
-            core.height[i] = is_allowed && has_work ? 1.0F : 0.0F;
+            work[i] = is_allowed && (core[i] != 0 || skin[i] != 0) ? 1 : 0;
         }
-        const HeightMap near = disc_max(core, beside_);
-        region.is_wanted.resize(near.height.size());
-        for (std::size_t i = 0; i < near.height.size(); ++i) region.is_wanted[i] = near.height[i] > 0.5F ? 1 : 0;
+        region.is_wanted = marked_within(work, region.columns, region.rows, beside_ / region.cell);
         return region;
     }
 
  private:
+    // The cells that have foam above a height within a radius.
+    static std::vector<std::uint8_t> near_foam(const HeightMap& foam, float height, double radius) {
+        std::vector<std::uint8_t> above(foam.height.size());
+        for (std::size_t i = 0; i < above.size(); ++i) above[i] = foam.height[i] > height ? 1 : 0;
+        return marked_within(above, foam.columns, foam.rows, radius / foam.cell);
+    }
+
     // A higher skin is not left to finishing: at the next level but one it would be higher than the flute.
     double highest_skin() const { return std::max(0.5 * tool_.flute_length, tool_.flute_length - 2 * step_down_); }
     double least_above() const { return std::max(least_foam, options_.skin_height); }
@@ -94,19 +119,15 @@ class RoughingLevels {
 std::vector<PathRun> rough(CarvingSpace& space, const CarvingTool& tool, const ToolBody& body,
                            const Operation& operation, const RoughingOptions& options, const Context& context) {
     const RoughingLevels levels(space, tool, operation.step_down, options);
-    const LevelSpan heights = levels.heights();
-    if (heights.is_empty()) return {};
-    const auto count = static_cast<std::size_t>(std::ceil((heights.top - heights.bottom) / operation.step_down - 1e-6));
-    const double down = (heights.top - heights.bottom) / static_cast<double>(count);
+    const std::vector<double> heights = levels.heights();
     LinkOptions links;
     links.has_ramps = true;
     links.slack = 0.36 * operation.rounding;  // at a right angle the parabola passes 0.354 of it beside the corner
     RunBuilder runs(space, tool, operation, links);
-    for (std::size_t k = 1; k <= count; ++k) {
+    for (const double level : heights) {
         context.check_cancelled();
-        const double level = k == count ? heights.bottom : heights.top - static_cast<double>(k) * down;
         // The float of the lowest tip is not above the level.
-        space.holder_limit = holder_limit_over(space.foam, body, holder_gap);
+        space.holder_limit = holder_limit_over(space.foam, body, holder_gap, level);
         runs.add(roughing_passes(levels.region(level), level, operation.step));
     }
     return runs.finish();

@@ -22,6 +22,7 @@ namespace {
 constexpr std::size_t chunk = 64;        // cells of a row
 constexpr std::size_t block = 32;        // cells of a row of which the highest is known
 constexpr std::size_t rows_at_once = 8;  // of a map
+constexpr double above_tool = 1e-3;      // mm, by which a tip that is not raised may seem to lie above its tool's
 
 // A tool of any of the shapes, and the points within a distance of it.
 struct RoundProfile {
@@ -169,7 +170,7 @@ void TipDilation::fill(std::size_t row, std::size_t first, std::size_t end, floa
     }
 }
 
-double TipDilation::height(double x, double y) const {
+double TipDilation::height(double x, double y, const Bounds& asked) const {
     const HeightMap& map = *target_;
     const RoundProfile profile = profile_of(tool_, allowance_);
     const double past = profile.radius + inner_;
@@ -182,11 +183,16 @@ double TipDilation::height(double x, double y) const {
     const auto beside = [&](double at, std::size_t cell) {
         return std::max(0.0, std::abs(map.cell * (static_cast<double>(cell) + 0.5) - at) - inner_);
     };
-    double least = -std::numeric_limits<double>::infinity();
+    double least = asked.low;
     const std::size_t first_column = first(x);
     const std::size_t end_column = end(x, map.columns);
-    for (std::size_t row = first(y); row < end(y, map.rows); ++row) {
+    const std::size_t first_row = first(y);
+    const std::size_t end_row = end(y, map.rows);
+    if (first_column >= end_column || first_row >= end_row) return least;
+    const auto take_row = [&](std::size_t row) {
         const double v = beside(y, row);
+        const double top = static_cast<double>(highest(row, first_column, end_column)) + allowance_;
+        if (top - profile.height(v) <= least) return;
         const float* own = &map.height[row * map.columns];
         for (std::size_t column = first_column; column < end_column; ++column) {
             const double high = static_cast<double>(own[column]) + allowance_;
@@ -194,7 +200,11 @@ double TipDilation::height(double x, double y) const {
             const double u = beside(x, column);
             least = std::max(least, high - profile.height(std::sqrt(u * u + v * v)));
         }
-    }
+    };
+    // From the middle outwards, so that more of the rows are too low.
+    const std::size_t middle = std::clamp(static_cast<std::size_t>(std::max(0.0, y / map.cell)), first_row, end_row);
+    for (std::size_t row = middle; row < end_row && least < asked.high; ++row) take_row(row);
+    for (std::size_t row = middle; row > first_row && least < asked.high; --row) take_row(row - 1);
     return least;
 }
 
@@ -221,7 +231,8 @@ bool is_of_tool(const HeightMap& tip, const TipDilation& tool, std::size_t cell)
     const std::size_t column = cell % tip.columns;
     const double x = tip.cell * (static_cast<double>(column) + 0.5);
     const double y = tip.cell * (static_cast<double>(row) + 0.5);
-    return static_cast<double>(tip.height[cell]) <= tool.height(x, y) + 1e-3;
+    const double least = static_cast<double>(tip.height[cell]) - above_tool;
+    return tool.height(x, y, {least - above_tool, least}) >= least;
 }
 
 HeightMap tip_surface(const HeightMap& target, const CarvingTool& tool, const TipOptions& options) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "cam/cell/carving_tool.h"
@@ -59,9 +60,16 @@ class TipDilation {
     // cannot be the largest are left out.
     void fill(std::size_t row, std::size_t first, std::size_t end, float* tip) const;
 
+    // Heights of which the exact one is asked for: one below `low` counts as `low`, and any from `high` on will do.
+    struct Bounds {
+        double low = -std::numeric_limits<double>::infinity();
+        double high = std::numeric_limits<double>::infinity();
+    };
+
     // The least height of the tip over any point of the map; over the middle of a cell that of fill().
-    // O((radius / cell)^2).
-    double height(double x, double y) const;
+    // O((radius / cell)^2) at most; rows whose highest cell could not raise it are left out.
+    double height(double x, double y) const { return height(x, y, Bounds()); }
+    double height(double x, double y, const Bounds& asked) const;
 
     // What remains where the tip stands over the middle of every cell: fill() then gives its height at the middles of
     // cells, and map and result are both the negative of heights.

@@ -261,6 +261,38 @@ TEST(MakeProgram, RefusesWhatIsOutOfReach) {
     }
 }
 
+TEST(MakeProgram, LeavesOutTheLittleOfFinishingThatNoHoldCarries) {
+    Job job = kr60_job(2);
+    job.envelope = {};
+    const Toolpath good = job.toolpath;
+    std::vector<PathMove>& moves = job.toolpath.operations[1].runs[2].moves;
+    moves[500].tip.z -= 170;  // through the table
+    moves[501].tip.z -= 170;
+    const Program program = program_of(job);
+    EXPECT_EQ(cuts_of(program, 0), cuts_of(good.operations[0]));
+    double length = 0;
+    for (std::size_t i = 500; i <= 502; ++i) length += norm(moves[i].tip - moves[i - 1].tip);
+    EXPECT_NEAR(program.left_out_mm, length, 1e-9);
+    EXPECT_NE(program.left_out_because.find("operation 2 of the toolpath: "), std::string::npos);
+    std::vector<Vec3> expected;
+    for (const PathRun& run : job.toolpath.operations[1].runs) {
+        for (const PathMove& move : run.moves) {
+            const bool is_left_out = &move >= &moves[500] && &move <= &moves[502];
+            if (move.kind == MoveKind::cut && !is_left_out) expected.push_back(move.tip);
+        }
+    }
+    EXPECT_EQ(cuts_of(program, 1), expected);
+    expect_held(job, program);
+
+    Job rough = job;
+    std::swap(rough.toolpath.operations[1].kind, rough.toolpath.operations[0].kind);
+    EXPECT_THROW(program_of(rough), ProgramRefused) << "roughing is carried whole";
+    for (PathMove& move : moves) {
+        if (move.kind == MoveKind::cut) move.tip.z -= 170;
+    }
+    EXPECT_THROW(program_of(job), ProgramRefused) << "too much to leave out";
+}
+
 TEST(MakeProgram, RefusesBadToolpathsByName) {
     const Job good = kr60_job();
     const auto refusal = [&](const auto& spoil) {

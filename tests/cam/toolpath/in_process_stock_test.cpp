@@ -46,6 +46,25 @@ TEST(DiscMax, IsThatOfAPlainLoop) {
     }
 }
 
+TEST(MarkedWithin, IsWhereTheHighestOfDiscsIsMarked) {
+    for (const std::size_t columns : {1U, 63U, 64U, 65U, 150U}) {
+        HeightMap map = random_map(columns, 23, 1, 5);
+        std::vector<std::uint8_t> marks(map.height.size());
+        std::mt19937 random(3);
+        for (std::size_t i = 0; i < marks.size(); ++i) {
+            marks[i] = random() % 40 == 0 && i / columns % 7 != 3 ? 1 : 0;
+            map.height[i] = marks[i];
+        }
+        for (const double cells : {0.0, 1.0, 2.9, 12.0, 64.0, 130.5}) {
+            const HeightMap highest = disc_max(map, cells);
+            const std::vector<std::uint8_t> found = marked_within(marks, columns, 23, cells);
+            for (std::size_t i = 0; i < marks.size(); ++i) {
+                ASSERT_EQ(found[i], highest.height[i] == 1 ? 1 : 0) << columns << ' ' << cells << ' ' << i;
+            }
+        }
+    }
+}
+
 // A way of a tool in the map of a direction, and whether it removes a point.
 struct Way {
     std::size_t direction;
@@ -129,6 +148,55 @@ TEST(InProcessStock, NeverTellsLessFoamThanThereIs) {
         }
         EXPECT_GT(foam, 1000U);
         EXPECT_LT(static_cast<double>(told), 1.35 * static_cast<double>(foam)) << "but not much more either";
+    }
+}
+
+// The lowest point of a tool over a cell, at many places of a straight way.
+double lowest_over(const CarvingTool& tool, double x, double y, double beside, Vec3 from, Vec3 to) {
+    const double radius = 0.5 * tool.diameter;
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i <= 4000; ++i) {
+        const Vec3 tip = from + (i / 4000.0) * (to - from);
+        const double r = std::hypot(x - tip.x, y - tip.y) + beside;
+        if (r <= radius) least = std::min(least, tip.z + tool_profile(tool, r));
+    }
+    return least;
+}
+
+TEST(ToolSweep, LowersCellsAsPlacesAlongTheWayDo) {
+    constexpr double cell = 0.8;
+    constexpr double slack = 0.2;
+    const double beside = slack + cell * std::sqrt(0.5);
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (int k = 0; k < 30; ++k) {
+        const CarvingTool tool = k % 3 == 0 ? flat_tool(8) : ball_tool(12);
+        const auto place = [&] { return Vec3{40 * unit(random) - 4, 36 * unit(random) - 4, 40 * unit(random)}; };
+        const Vec3 from = place();
+        Vec3 to = k % 4 == 0 ? from + Vec3{unit(random), 0.1 * unit(random), 10 * unit(random)} : place();
+        if (k % 5 == 0) to.x = from.x;
+        if (k % 10 == 0) to.y = from.y;
+        if (k % 3 == 0 && k % 2 == 0) to.z = from.z;
+        HeightMap map = random_map(41, 35, cell, 1);
+        std::fill(map.height.begin(), map.height.end(), std::numeric_limits<float>::infinity());
+        HeightMap other = map;
+        ToolSweep(tool, cell, slack).move(map, other, from, to);
+        EXPECT_EQ(map.height, other.height);
+        // Places a cell apart, where the tool is flat and the way is not.
+        const double slope = std::abs(to.z - from.z) / std::max(cell, std::hypot(to.x - from.x, to.y - from.y));
+        const double more = k % 3 == 0 ? 1e-3 + slope * cell : 0.06;
+        for (std::size_t row = 0; row < map.rows; ++row) {
+            for (std::size_t column = 0; column < map.columns; ++column) {
+                const double x = cell * (static_cast<double>(column) + 0.5);
+                const double y = cell * (static_cast<double>(row) + 0.5);
+                const auto found = static_cast<double>(map.at(column, row));
+                ASSERT_GE(found,
+                          lowest_over(tool, x, y, beside, from, to) + slack - 2e-3 - std::abs(to.z - from.z) / 4000)
+                    << k;
+                // The rim of the tool lies between places.
+                ASSERT_LE(found, lowest_over(tool, x, y, beside + 0.1, from, to) + slack + more) << k;
+            }
+        }
     }
 }
 
