@@ -4,9 +4,9 @@
 // map of that direction tells where the ray begins, exactly. Above the highest cell of a square of another direction's
 // map all steps are over at once. O(cells * steps * directions) at most.
 //
-// A tool on a straight way comes lowest over a cell where the derivative of its height vanishes: on a level way where
-// it is nearest, and a ball of radius R on a slope m beside that, by m * sqrt((R^2 - d^2) / (1 + m^2)) for a cell d off
-// the line of the way. With the radius less what lies beside a cell that is not exactly the lowest place, but it is one
+// A tool that moves along a line comes lowest over a cell where the derivative of its height vanishes: on a level way
+// where it is nearest, and a ball of radius R on a slope m beside that, by m * sqrt((R^2 - d^2) / (1 + m^2)) for a cell
+// d off the line. With the radius less what lies beside a cell that is not exactly the lowest place, but it is one
 // where the tool has been. Other tools on slopes are taken at places a cell apart. O(cells passed).
 
 #include "cam/toolpath/in_process_stock.h"
@@ -60,11 +60,11 @@ Span span_in(const Box& box, Vec3 point, Vec3 along) {
 }
 
 // The cells of a row or a column whose middles lie between two places.
-struct CellRange {
+struct CellSpan {
     std::size_t first = 0;
     std::size_t end = 0;
 
-    CellRange(double low, double high, double cell, std::size_t count) {
+    CellSpan(double low, double high, double cell, std::size_t count) {
         const auto within = [&](double at) {
             return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(count)));
         };
@@ -229,7 +229,7 @@ void ToolSweep::sweep(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) cons
     const double slope = is_point ? 0 : (to.z - from.z) / length;
     const double lag = -slope / std::sqrt(1 + slope * slope);
     const double rings_per_square = static_cast<double>(sweep_rings) / (outer_ * outer_);
-    const CellRange rows(std::min(from.y, to.y) - outer_, std::max(from.y, to.y) + outer_, cell_, map.rows);
+    const CellSpan rows(std::min(from.y, to.y) - outer_, std::max(from.y, to.y) + outer_, cell_, map.rows);
     for (std::size_t row = rows.first; row < rows.end; ++row) {
         const double y = cell_ * (static_cast<double>(row) + 0.5) - from.y;
         double low = std::min(from.x, to.x) - outer_;
@@ -240,7 +240,7 @@ void ToolSweep::sweep(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) cons
             low = std::max(low, middle - outer_ / std::abs(along.y));
             high = std::min(high, middle + outer_ / std::abs(along.y));
         }
-        const CellRange columns(low, high, cell_, map.columns);
+        const CellSpan columns(low, high, cell_, map.columns);
         float* own = map.height.data() + row * map.columns;
         float* others = other.height.data() + row * map.columns;
         for (std::size_t column = columns.first; column < columns.end; ++column) {

@@ -151,7 +151,7 @@ TEST(InProcessStock, NeverTellsLessFoamThanThereIs) {
     }
 }
 
-// The lowest point of a tool over a cell, at many places of a straight way.
+// The lowest point of a tool over a cell, at many places of a line.
 double lowest_over(const CarvingTool& tool, double x, double y, double beside, Vec3 from, Vec3 to) {
     const double radius = 0.5 * tool.diameter;
     double least = std::numeric_limits<double>::infinity();
