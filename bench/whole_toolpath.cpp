@@ -12,7 +12,9 @@
 #include "bench/clock.h"
 #include "bench/figures.h"
 #include "bench/other_readers.h"
+#include "cam/post/krl.h"
 #include "cam/post/krl_text.h"
+#include "cam/program/make_program.h"
 #include "cam/setup/choose_setup.h"
 #include "cam/toolpath/make_toolpath.h"
 #include "cam/toolpath/time_estimate.h"
@@ -123,11 +125,8 @@ void record(const std::string& name, const Setup& setup, const Toolpath& path, F
                            number_text(static_cast<double>(totals.cuts)) + ", " + std::to_string(totals.runs));
         const std::string what = std::string(word_of(kind)) + ": megabytes of KRL per m2";
         const double megabytes = 1e-6 * static_cast<double>(totals.bytes) / area;
-        if (kind == OperationKind::finishing) {
-            figures.at_most(name, what, megabytes, 4);
-        } else {
-            figures.record(name, what, number_text(megabytes));
-        }
+        // One direction alone; scripts/prove has the figure of all directions of all pieces, which may be at most 4.
+        figures.record(name, what, number_text(megabytes));
     }
     const TimeEstimate time = time_estimate(path);
     figures.record(name, "time estimated: all, cuts, links",
@@ -146,21 +145,30 @@ void measure_one(const Choice& choice, const std::string& name, const std::strin
     options.samples = 1000;
     options.mapped = 1;
     const SetupChoice chosen = choose_setup(piece, machine, options);
+    const Setup& setup = chosen.setups.front();
     ToolpathSettings settings;
     settings.cell = cell;
-    const double before = process_cpu_s();
-    const Toolpath path = make_toolpath(chosen.setups.front(), *piece.mesh, machine, settings);
-    const double spent = process_cpu_s() - before;
-    const std::string at = "at cells of " + number_text(cell) + " mm";
     figures.record(name, "faces", number_text(static_cast<double>(piece.mesh->triangles.size())));
-    figures.record(name, "toolpath " + at + ", CPU time", time_text(spent));
-    const std::string ratio = "toolpath " + at + " / reading by OpenMesh";
-    if (mesh->triangles.size() > 1'000'000) {
-        figures.at_most(name, ratio, spent / reading, 100);
-    } else {
-        figures.record(name, ratio, number_text(spent / reading));
+    figures.record(name, "reading by OpenMesh, CPU time", time_text(reading));
+    Toolpath path;
+    for (const bool has_fine : {false, true}) {
+        settings.has_fine_finishing = has_fine;
+        const double before = process_cpu_s();
+        path = make_toolpath(setup, *piece.mesh, machine, settings);
+        const double made = process_cpu_s();
+        const std::vector<ProgramPart> parts = post_krl(make_program(path, setup, {}, machine), machine, {1});
+        const double spent = process_cpu_s() - before;
+        const std::string what = std::string("roughing, finishing") + (has_fine ? ", fine finishing" : "") +
+                                 " and post, cells of " + number_text(cell) + " mm";
+        figures.record(name, what + ", CPU time (of that the post)",
+                       time_text(spent) + " (" + time_text(spent - (made - before)) + ")");
+        if (mesh->triangles.size() > 1'000'000 && !has_fine) {
+            figures.at_most(name, what + " / reading by OpenMesh", spent / reading, 100);
+        } else {
+            figures.record(name, what + " / reading by OpenMesh", number_text(spent / reading));
+        }
     }
-    record(name, chosen.setups.front(), path, figures);
+    record(name, setup, path, figures);
 }
 
 double peak_megabytes() {

@@ -43,6 +43,8 @@ EdgeRises::EdgeRises(const HeightMap& tip, const CellMask& mask, double jump, co
     }
     std::sort(sides_.begin(), sides_.end());
     sides_.erase(std::unique(sides_.begin(), sides_.end()), sides_.end());
+    number_.assign(2 * tip.height.size(), none);
+    for (std::size_t i = 0; i < sides_.size(); ++i) number_[sides_[i]] = static_cast<std::uint32_t>(i);
     is_known_.resize(sides_.size());
     rises_.resize(sides_.size() * (steps - 1));
     parallel_ranges(0, sides_.size(), sides_at_once, [&](std::size_t first, std::size_t end) {
@@ -53,10 +55,8 @@ EdgeRises::EdgeRises(const HeightMap& tip, const CellMask& mask, double jump, co
 }
 
 std::optional<double> EdgeRises::share_below(std::uint64_t side, double z) const {
-    const auto found = std::lower_bound(sides_.begin(), sides_.end(), side);
-    if (found == sides_.end() || *found != side) return std::nullopt;
-    const auto i = static_cast<std::size_t>(found - sides_.begin());
-    if (is_known_[i] == 0) return std::nullopt;
+    const std::size_t i = number_[side];
+    if (i == none || is_known_[i] == 0) return std::nullopt;
     const float* rise = &rises_[i * (steps - 1)];
     const float* above = std::upper_bound(rise, rise + (steps - 1), static_cast<float>(z));
     return static_cast<double>(above - rise) / steps;

@@ -32,7 +32,8 @@ class EdgeRises {
  public:
     // Of the sides, with a rise above `jump`, of all squares of four middles that begin at a cell of the mask. `tool`
     // is what the surface was made with; it may have been raised since, by holder or foam. The map must outlive it. On
-    // several threads; the result does not depend on them. O(cells + sides * (radius / cell)^2), 72 bytes a side.
+    // several threads; the result does not depend on them. O(cells + sides * (radius / cell)^2), 72 bytes a side and 8
+    // a cell.
     EdgeRises(const HeightMap& tip, const CellMask& mask, double jump, const TipDilation& tool);
 
     // How far from its lower end, as a share in steps of a sixteenth, the surface over a side is not above a height
@@ -47,7 +48,10 @@ class EdgeRises {
     bool rise_along(std::uint64_t side, const TipDilation& tool, float* rise) const;
 
     const HeightMap& tip_;
-    std::vector<std::uint64_t> sides_;  // ascending
+    static constexpr std::uint32_t none = 0xFFFFFFFF;
+
+    std::vector<std::uint64_t> sides_;   // ascending
+    std::vector<std::uint32_t> number_;  // of each side of the map: its index in sides_, or none
     std::vector<std::uint8_t> is_known_;
     std::vector<float> rises_;  // steps - 1 of each side
 };

@@ -12,8 +12,10 @@
 #include "cam/toolpath/in_process_stock.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -28,6 +30,7 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t sweep_rings = 1024;                    // of equal area under the tool
 constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
+constexpr std::size_t cells_at_once = 64;                    // of a row
 constexpr double least_way = 1e-6;                           // mm, of one that is not straight down
 constexpr double least_sine = 1e-9;                          // of the angle of a way and a row
 constexpr std::size_t square = 16;                           // cells of a map of which the highest is known
@@ -71,6 +74,64 @@ struct CellSpan {
         first = within(std::ceil(low / cell - 0.5));
         end = within(std::floor(high / cell - 0.5) + 1);
     }
+};
+
+// Where a tool on a line comes lowest over cells of a row, in single precision and without branches, so that several
+// are computed at once. Coordinates are relative to the beginning of the line.
+struct LowestPlaces {
+    std::array<float, cells_at_once> rise;         // of the tip there
+    std::array<std::int32_t, cells_at_once> ring;  // of the tool, over the cell; sweep_rings: it is not over the cell
+
+    LowestPlaces(Vec3 along, double end, double slope, double cell, double outer)
+        : along_x_(static_cast<float>(along.x)),
+          along_y_(static_cast<float>(along.y)),
+          end_(static_cast<float>(end)),
+          slope_(static_cast<float>(slope)),
+          lag_(static_cast<float>(-slope / std::sqrt(1 + slope * slope))),
+          cell_(static_cast<float>(cell)),
+          square_(static_cast<float>(outer * outer)),
+          rings_per_square_(static_cast<float>(static_cast<double>(sweep_rings) / (outer * outer))) {}
+
+    // Of cells from a place on.
+    void find(float first_x, float y, std::size_t count) {
+        // Rounding must not find a place nearer than it is.
+        constexpr float rounding = 0.05F;  // rings
+        constexpr auto most = static_cast<float>(sweep_rings);
+        // Values that the arrays do not share memory with: else the compiler computes one cell after the other.
+        const float along_x = along_x_;
+        const float along_y = along_y_;
+        const float end = end_;
+        const float slope = slope_;
+        const float cell = cell_;
+        const float rings_per_square = rings_per_square_;
+        const auto cells = static_cast<std::int32_t>(count);
+        std::array<float, cells_at_once> lag{};
+        if (slope != 0) {
+            for (std::int32_t k = 0; k < cells; ++k) {
+                const float across = y * along_x - (first_x + cell * static_cast<float>(k)) * along_y;
+                lag[static_cast<std::size_t>(k)] = lag_ * std::sqrt(std::max(0.0F, square_ - across * across));
+            }
+        }
+        for (std::int32_t k = 0; k < cells; ++k) {
+            const auto i = static_cast<std::size_t>(k);
+            const float x = first_x + cell * static_cast<float>(k);
+            const float at = x * along_x + y * along_y;
+            const float across = y * along_x - x * along_y;
+            const float behind = at + lag[i];
+            const float from_first = behind > 0 ? behind : 0;
+            const float tip = from_first < end ? from_first : end;
+            const float rings = (across * across + (at - tip) * (at - tip)) * rings_per_square + rounding;
+            ring[i] = static_cast<std::int32_t>(rings < most ? rings : most);
+            rise[i] = slope * tip;
+        }
+    }
+
+ private:
+    float along_x_, along_y_, end_, slope_;
+    float lag_;  // behind the nearest place, per half chord
+    float cell_;
+    float square_;  // of the outer radius
+    float rings_per_square_;
 };
 
 // Whether a point of a map's frame lies above the map.
@@ -227,8 +288,8 @@ void ToolSweep::sweep(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) cons
     const Vec3 along = is_point ? Vec3{1, 0, 0} : Vec3{(to.x - from.x) / length, (to.y - from.y) / length, 0};
     const double end = is_point ? 0 : length;
     const double slope = is_point ? 0 : (to.z - from.z) / length;
-    const double lag = -slope / std::sqrt(1 + slope * slope);
-    const double rings_per_square = static_cast<double>(sweep_rings) / (outer_ * outer_);
+    LowestPlaces places(along, end, slope, cell_, outer_);
+    const auto base = static_cast<float>(from.z);
     const CellSpan rows(std::min(from.y, to.y) - outer_, std::max(from.y, to.y) + outer_, cell_, map.rows);
     for (std::size_t row = rows.first; row < rows.end; ++row) {
         const double y = cell_ * (static_cast<double>(row) + 0.5) - from.y;
@@ -243,19 +304,17 @@ void ToolSweep::sweep(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) cons
         const CellSpan columns(low, high, cell_, map.columns);
         float* own = map.height.data() + row * map.columns;
         float* others = other.height.data() + row * map.columns;
-        for (std::size_t column = columns.first; column < columns.end; ++column) {
-            const double x = cell_ * (static_cast<double>(column) + 0.5) - from.x;
-            const double at = x * along.x + y * along.y;
-            const double across = y * along.x - x * along.y;
-            const double chord = outer_ * outer_ - across * across;
-            if (!(chord > 0)) continue;
-            const double lowest = slope == 0 ? at : at + lag * std::sqrt(chord);
-            const double tip = std::clamp(lowest, 0.0, end);
-            const auto ring = static_cast<std::size_t>(rings_per_square * (across * across + (at - tip) * (at - tip)));
-            if (ring >= sweep_rings) continue;
-            const float height = static_cast<float>(from.z + slope * tip) + above_[ring];
-            own[column] = std::min(own[column], height);
-            others[column] = std::min(others[column], height);
+        for (std::size_t first = columns.first; first < columns.end; first += cells_at_once) {
+            const std::size_t count = std::min(cells_at_once, columns.end - first);
+            const double x = cell_ * (static_cast<double>(first) + 0.5) - from.x;
+            places.find(static_cast<float>(x), static_cast<float>(y), count);
+            for (std::size_t k = 0; k < count; ++k) {
+                const auto ring = static_cast<std::size_t>(places.ring[k]);
+                if (ring >= sweep_rings) continue;
+                const float height = base + places.rise[k] + above_[ring];
+                own[first + k] = std::min(own[first + k], height);
+                others[first + k] = std::min(others[first + k], height);
+            }
         }
     }
 }

@@ -23,6 +23,7 @@ constexpr std::size_t most_moves = 900;                      // a run ends in th
 constexpr double ramp_slope = 0.364;                         // tangent of 20 degrees
 constexpr double highest_lift = 5;                           // over a ridge between two passes, at the feed of cuts
 constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
+constexpr double rounding = 1e-3;                            // mm, of heights in single precision
 constexpr double ramp_penalty = 60;                          // mm of way that an entry beside the foam is worth
 
 // Linear between the middles of four cells.
@@ -127,6 +128,11 @@ HeightMap holder_limit_over(const HeightMap& foam, const ToolBody& body, const H
         }
     }
     return limit;
+}
+
+bool is_holder_limiting(double highest, const ToolBody& body, const HolderGap& gap, double lowest) {
+    // The first step is the lowest.
+    return !body.steps.empty() && highest - (body.stick_out - gap.clearance) >= lowest - rounding;
 }
 
 // What is on a straight line from the tip to another place.

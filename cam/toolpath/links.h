@@ -60,6 +60,9 @@ struct HolderGap {
 HeightMap holder_limit_over(const HeightMap& foam, const ToolBody& body, const HolderGap& gap = {},
                             double lowest = -std::numeric_limits<double>::infinity());
 
+// Whether any of these limits over foam that is nowhere higher than `highest` can be as high as `lowest`.
+bool is_holder_limiting(double highest, const ToolBody& body, const HolderGap& gap, double lowest);
+
 struct LinkOptions {
     bool has_ramps = false;  // of roughing
     double stay_down = 300;  // longest straight line to the next pass that is looked at

@@ -120,6 +120,9 @@ std::vector<PathRun> rough(CarvingSpace& space, const CarvingTool& tool, const T
                            const Operation& operation, const RoughingOptions& options, const Context& context) {
     const RoughingLevels levels(space, tool, operation.step_down, options);
     const std::vector<double> heights = levels.heights();
+    double highest = -std::numeric_limits<double>::infinity();  // foam only gets lower
+    for (const float height : space.foam.height) highest = std::max(highest, static_cast<double>(height));
+    space.holder_limit = {};
     LinkOptions links;
     links.has_ramps = true;
     links.slack = 0.36 * operation.rounding;  // at a right angle the parabola passes 0.354 of it beside the corner
@@ -127,7 +130,9 @@ std::vector<PathRun> rough(CarvingSpace& space, const CarvingTool& tool, const T
     for (const double level : heights) {
         context.check_cancelled();
         // The float of the lowest tip is not above the level.
-        space.holder_limit = holder_limit_over(space.foam, body, holder_gap, level);
+        if (space.holder_limit.height.empty() || is_holder_limiting(highest, body, holder_gap, level)) {
+            space.holder_limit = holder_limit_over(space.foam, body, holder_gap, level);
+        }
         runs.add(roughing_passes(levels.region(level), level, operation.step));
     }
     return runs.finish();

@@ -39,9 +39,9 @@ class Rims {
     std::vector<std::vector<CellPlace>> all() {
         std::vector<std::vector<CellPlace>> rims;
         for (std::size_t i = 0; i < is_done_.size(); ++i) {
+            if (region_.is_allowed[i] == 0) continue;
             const CellPlace cell{static_cast<std::ptrdiff_t>(i % region_.columns),
                                  static_cast<std::ptrdiff_t>(i / region_.columns)};
-            if (!is_in(cell)) continue;
             for (std::size_t side = 0; side < 4; ++side) {
                 if (!is_in(cell + across[side]) && (is_done_[i] >> side & 1) == 0) rims.push_back(from(cell, side));
             }
