@@ -71,7 +71,7 @@ void measure_piece(const Measured& measured, Figures& figures) {
     figures.record(name, "bases", time_text(best_of(runs, cpu_s, [&] { return bases_of(piece); })));
     figures.record(name, "reach from one base, 4,000 samples", time_text(best_of(runs, cpu_s, reach_all)));
     const PieceReach reach = reach_all();
-    const JudgedPiece judged = reach.samples.judged();
+    const JudgedPiece judged = reach.samples->judged();
     const TiltBase& base = bases[0].base;
     const std::vector<std::uint32_t> possible = allowed_directions(judged.scan.directions, base.up, options.tilt_deg);
     std::vector<Vec3> dense = dense_directions();
