@@ -162,6 +162,8 @@ class OperationHolder {
             const Vec3 from = i > 0 ? run.moves[i - 1].tip : run.start;
             if (run.moves[i].kind == MoveKind::cut) length += norm(run.moves[i].tip - from);
         }
+        // Without a cut less, the same run would be asked for again.
+        if (!tail && length == 0) return false;
         if (left_out_ + length > most_left_out * cut_length(operation_.runs)) return false;
         left_out_ += length;
         std::vector<PathRun> kept;

@@ -42,14 +42,13 @@ class EdgeRises {
 
  private:
     static constexpr std::size_t steps = 16;
+    static constexpr std::uint32_t none = 0xFFFFFFFF;
 
     // The highest so far at the steps from the lower end on, but for the first and the last: as far as it lies below
     // the higher end. False if the edge is not the tool's.
     bool rise_along(std::uint64_t side, const TipDilation& tool, float* rise) const;
 
     const HeightMap& tip_;
-    static constexpr std::uint32_t none = 0xFFFFFFFF;
-
     std::vector<std::uint64_t> sides_;   // ascending
     std::vector<std::uint32_t> number_;  // of each side of the map: its index in sides_, or none
     std::vector<std::uint8_t> is_known_;

@@ -4,7 +4,7 @@
 // map of that direction tells where the ray begins, exactly. Above the highest cell of a square of another direction's
 // map all steps are over at once. O(cells * steps * directions) at most.
 //
-// A tool that moves along a line comes lowest over a cell where the derivative of its height vanishes: on a level way
+// A tool that moves along a line comes lowest over a cell where the derivative of its height vanishes: on a level line
 // where it is nearest, and a ball of radius R on a slope m beside that, by m * sqrt((R^2 - d^2) / (1 + m^2)) for a cell
 // d off the line. With the radius less what lies beside a cell that is not exactly the lowest place, but it is one
 // where the tool has been. Other tools on slopes are taken at places a cell apart. O(cells passed).
@@ -31,8 +31,8 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t sweep_rings = 1024;                    // of equal area under the tool
 constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
 constexpr std::size_t cells_at_once = 64;                    // of a row
-constexpr double least_way = 1e-6;                           // mm, of one that is not straight down
-constexpr double least_sine = 1e-9;                          // of the angle of a way and a row
+constexpr double least_way = 1e-6;                           // mm across; a shorter line goes straight down
+constexpr double least_sine = 1e-9;                          // of the angle of a line and a row
 constexpr std::size_t square = 16;                           // cells of a map of which the highest is known
 
 Box block_of(const Setup& setup) {
@@ -283,8 +283,8 @@ void ToolSweep::move(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) const
 
 void ToolSweep::sweep(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) const {
     const double length = std::hypot(to.x - from.x, to.y - from.y);
-    if (!(length > least_way)) from = to = {to.x, to.y, std::min(from.z, to.z)};
     const bool is_point = !(length > least_way);
+    if (is_point) from = to = {to.x, to.y, std::min(from.z, to.z)};
     const Vec3 along = is_point ? Vec3{1, 0, 0} : Vec3{(to.x - from.x) / length, (to.y - from.y) / length, 0};
     const double end = is_point ? 0 : length;
     const double slope = is_point ? 0 : (to.z - from.z) / length;
@@ -296,7 +296,7 @@ void ToolSweep::sweep(HeightMap& map, HeightMap& other, Vec3 from, Vec3 to) cons
         double low = std::min(from.x, to.x) - outer_;
         double high = std::max(from.x, to.x) + outer_;
         if (std::abs(along.y) > least_sine) {
-            // Farther off the line of the way no cell is near to it.
+            // The columns that are near to the line in this row.
             const double middle = from.x + y * along.x / along.y;
             low = std::max(low, middle - outer_ / std::abs(along.y));
             high = std::min(high, middle + outer_ / std::abs(along.y));

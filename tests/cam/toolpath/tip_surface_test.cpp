@@ -125,6 +125,23 @@ TEST(TargetMap, RowsLieAlongTheSidesOfTheBlock) {
     }
 }
 
+TEST(TipDilation, LeavesOutOnlyWhatBoundsSay) {
+    const TriangleMesh mesh = bumpy(40, 20, 50, 2);
+    const HeightMap target = target_map(setup_of(mesh, 8), mesh, 0, {1, -6, 0});
+    const TipDilation dilation(target, ball_tool(9), {0, 0.1});
+    double x = 0;
+    double y = 0;
+    for (int k = 0; k < 500; ++k) {
+        x = std::fmod(x + 17.23, static_cast<double>(target.columns) + 6) - 3;
+        y = std::fmod(y + 7.61, static_cast<double>(target.rows) + 6) - 3;
+        const double height = dilation.height(x, y);
+        EXPECT_EQ(dilation.height(x, y, {height - 1, height + 1}), height);
+        EXPECT_EQ(dilation.height(x, y, {height + 1, height + 2}), height + 1);
+        const double bounded = dilation.height(x, y, {height - 3, height - 2});
+        EXPECT_TRUE(height - 2 <= bounded && bounded <= height);
+    }
+}
+
 TEST(TipDilation, TellsHeightsBetweenTheMiddlesOfCellsToo) {
     const TriangleMesh mesh = bumpy(40, 20, 50, 2);
     const HeightMap target = target_map(setup_of(mesh, 8), mesh, 0, {1, -6, 0});
