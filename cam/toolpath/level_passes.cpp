@@ -13,6 +13,7 @@
 #include "base/parallel.h"
 #include "cam/toolpath/edge_rises.h"
 #include "cam/toolpath/level_lines.h"
+#include "cam/toolpath/middles_around.h"
 #include "cam/toolpath/path_reduction.h"
 #include "cam/toolpath/scallop.h"
 
@@ -26,14 +27,7 @@ class SmoothTip {
  public:
     explicit SmoothTip(const HeightMap& tip) : tip_(tip) {}
 
-    double height(Point2 p) const {
-        const Place at = place(p);
-        const auto z = [&](std::size_t dx, std::size_t dy) {
-            return static_cast<double>(
-                tip_.at(std::min(at.column + dx, tip_.columns - 1), std::min(at.row + dy, tip_.rows - 1)));
-        };
-        return (1 - at.v) * ((1 - at.u) * z(0, 0) + at.u * z(1, 0)) + at.v * ((1 - at.u) * z(0, 1) + at.u * z(1, 1));
-    }
+    double height(Point2 p) const { return MiddlesAround(tip_, p.x, p.y).height(tip_); }
 
     Point2 gradient(Point2 p) const {
         const double c = tip_.cell;
@@ -49,18 +43,6 @@ class SmoothTip {
     }
 
  private:
-    struct Place {
-        std::size_t column = 0, row = 0;
-        double u = 0, v = 0;
-    };
-    Place place(Point2 p) const {
-        const double x = std::clamp(p.x / tip_.cell - 0.5, 0.0, static_cast<double>(tip_.columns - 1));
-        const double y = std::clamp(p.y / tip_.cell - 0.5, 0.0, static_cast<double>(tip_.rows - 1));
-        const auto column = static_cast<std::size_t>(x);
-        const auto row = static_cast<std::size_t>(y);
-        return {column, row, x - static_cast<double>(column), y - static_cast<double>(row)};
-    }
-
     const HeightMap& tip_;
 };
 

@@ -5,7 +5,6 @@
 #include "cam/toolpath/links.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -13,6 +12,7 @@
 #include <optional>
 
 #include "cam/toolpath/disc_max.h"
+#include "cam/toolpath/middles_around.h"
 #include "cam/toolpath/pass_order.h"
 
 namespace qchopper {
@@ -25,47 +25,6 @@ constexpr double highest_lift = 5;                           // over a ridge bet
 constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;  // of a cell
 constexpr double rounding = 1e-3;                            // mm, of heights in single precision
 constexpr double ramp_penalty = 60;                          // mm of way that an entry beside the foam is worth
-
-// Linear between the middles of four cells.
-double height_between(const HeightMap& map, double x, double y) {
-    const auto place = [](double at, double cell, std::size_t count, double& part) {
-        const double cells = std::clamp(at / cell - 0.5, 0.0, static_cast<double>(count - 1));
-        const auto first = std::min(static_cast<std::size_t>(cells), count < 2 ? 0 : count - 2);
-        part = cells - static_cast<double>(first);
-        return first;
-    };
-    double u = 0;
-    double v = 0;
-    const std::size_t c = place(x, map.cell, map.columns, u);
-    const std::size_t r = place(y, map.cell, map.rows, v);
-    const auto at = [&](std::size_t i, std::size_t k) {
-        return static_cast<double>(map.at(std::min(c + i, map.columns - 1), std::min(r + k, map.rows - 1)));
-    };
-    return (1 - v) * ((1 - u) * at(0, 0) + u * at(1, 0)) + v * ((1 - u) * at(0, 1) + u * at(1, 1));
-}
-
-// The four cells between whose middles a point lies.
-struct AroundPoint {
-    std::array<std::size_t, 4> cells{};
-    double lowest = std::numeric_limits<double>::infinity();
-    double highest = -std::numeric_limits<double>::infinity();
-
-    AroundPoint(const HeightMap& map, double x, double y) {
-        const auto first = [&](double at, std::size_t count) {
-            return static_cast<std::size_t>(std::clamp(at / map.cell - 0.5, 0.0, static_cast<double>(count - 1)));
-        };
-        const std::size_t column = first(x, map.columns);
-        const std::size_t row = first(y, map.rows);
-        const std::size_t next_column = std::min(column + 1, map.columns - 1);
-        const std::size_t next_row = std::min(row + 1, map.rows - 1);
-        cells = {row * map.columns + column, row * map.columns + next_column, next_row * map.columns + column,
-                 next_row * map.columns + next_column};
-        for (const std::size_t cell : cells) {
-            lowest = std::min(lowest, static_cast<double>(map.height[cell]));
-            highest = std::max(highest, static_cast<double>(map.height[cell]));
-        }
-    }
-};
 
 Vec3 raised(Vec3 point, double z) {
     return {point.x, point.y, z};
@@ -172,15 +131,18 @@ double RunBuilder::over_flute(Vec3 at) const {
 // Across an edge the limit between the middles of cells is no straight line: there the tool tells.
 double RunBuilder::limit_at(Vec3 p) const {
     if (!space_->is_limit_between) return least_height(*space_->tip_limit, p.x, p.y);
-    const double limit = height_between(*space_->tip_limit, p.x, p.y);
+    const HeightMap& tip = *space_->tip_limit;
+    const MiddlesAround around(tip, p.x, p.y);
+    const double limit = around.height(tip);
     if (space_->tool == nullptr) return limit;
-    const AroundPoint around(*space_->tip_limit, p.x, p.y);
-    const double jump = edge_rise(0.5 * tool_->diameter, space_->tip_limit->cell);
-    if (around.highest <= p.z || around.highest - around.lowest <= jump) return limit;
+    const auto height_of = [&](std::size_t cell) { return static_cast<double>(tip.height[cell]); };
+    const auto is_lower = [&](std::size_t a, std::size_t b) { return tip.height[a] < tip.height[b]; };
+    const auto [lowest, highest] = std::minmax_element(around.cells.begin(), around.cells.end(), is_lower);
+    const double rise = height_of(*highest) - height_of(*lowest);
+    if (height_of(*highest) <= p.z || rise <= edge_rise(0.5 * tool_->diameter, tip.cell)) return limit;
     const double of_tool = space_->tool->height(p.x, p.y);
     const bool is_raised = std::any_of(around.cells.begin(), around.cells.end(), [&](std::size_t cell) {
-        return static_cast<double>(space_->tip_limit->height[cell]) > p.z &&
-               !is_of_tool(*space_->tip_limit, *space_->tool, cell);
+        return height_of(cell) > p.z && !is_of_tool(tip, *space_->tool, cell);
     });
     return is_raised ? std::max(limit, of_tool) : of_tool;
 }
