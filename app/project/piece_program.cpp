@@ -78,7 +78,7 @@ PostedProgram post(const Toolpath& path, const Drilling& drilling, const Carving
     const Program program = make_program(whole, setup, carving.work_envelope, cell, context);
     PostedProgram posted{post_krl(program, cell, {piece_no}), {}};
     if (program.left_out_mm > 0) {
-        posted.left_out = fixed(program.left_out_mm, 0) + " mm of its finishing: " + program.left_out_because;
+        posted.left_out = fixed(program.left_out_mm, 0) + " mm of its cuts: " + program.left_out_because;
     }
     return posted;
 }

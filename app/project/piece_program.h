@@ -25,7 +25,7 @@ struct ProvenProgram {
 struct PiecePrograms {
     std::vector<ProvenProgram> parts;  // in their order; empty: no program
     std::string none_because;          // for people, without a full stop
-    std::string left_out;              // likewise, what of finishing the arm does not carry; empty: nothing
+    std::string left_out;              // likewise, which cuts the arm does not carry; empty: nothing
     std::vector<DrawnCap> caps;        // of the piece, with who drills each hole (decide_holes())
 };
 

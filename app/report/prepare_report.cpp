@@ -154,7 +154,7 @@ std::vector<std::string> warnings(const PreparedProject& prepared) {
         if (!refusal.empty()) text.push_back(refusal);
         if (!p.left_out.empty()) {
             text.push_back("piece " + p.name + ": no hold of the arm carries " + p.left_out +
-                           "; these cuts are left out, and the proof counts the foam that stays");
+                           "; they are left out, and the proof counts the foam that stays");
         }
     }
     if (prepared.has_programs()) {

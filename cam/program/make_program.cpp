@@ -30,7 +30,7 @@ namespace {
 constexpr double full_turn = 2 * std::numbers::pi;
 constexpr std::size_t lines_around = 80;  // of a chunk, beside its runs
 constexpr std::size_t fewest_lines = 20;  // of a run
-constexpr double most_left_out = 0.02;    // of the cuts of a finishing operation, as a share of their length
+constexpr double most_left_out = 0.02;    // of the cuts of an operation, as a share of their length
 
 using JointExtents = std::array<AngleRange, axes_of_arm>;
 
@@ -143,10 +143,10 @@ class OperationHolder {
         return false;
     }
 
-    // Leaves out what of a finishing run no hold carries, up to a place from which one carries a further cut. False if
+    // Leaves out what of a run no hold carries, up to a place from which one carries a further cut. False if
     // that would be too much.
     bool leave_out(std::size_t at, const SampledPath& path, const HeldPath& longest) {
-        if (operation_.kind == OperationKind::roughing || operation_.kind == OperationKind::drilling) return false;
+        if (operation_.kind == OperationKind::drilling) return false;
         const PathRun run = runs_[at];
         const std::size_t first = moves_within(run, path, longest.poses);
         std::size_t end = std::min(first + 1, run.moves.size());

@@ -103,7 +103,7 @@ struct Program {
     Joints home{};
     std::vector<ProgramTool> tools;  // in the order of CellMachine::tools
     std::vector<ProgramSection> sections;
-    double left_out_mm = 0;        // of the cuts of finishing: no hold of the arm carries them
+    double left_out_mm = 0;        // of cuts: no hold of the arm carries them
     std::string left_out_because;  // of the first ones: operation, check, margin and pose
     bool operator==(const Program&) const = default;
 };
