@@ -29,10 +29,10 @@ struct PieceReport {
     std::size_t faces = 0;
     double volume_mm3 = 0;
     Carving carving;
-    std::filesystem::path job;             // empty: it does not fit the cell and has no job
-    std::vector<ReachAdvice> advice = {};  // of a piece of which more is out of reach than may be
-    std::string no_program_because = {};   // empty: its jobs hold robot programs
-    std::string left_out = {};  // of the program, when it was made: cuts that no hold of the arm carries, and why
+    std::filesystem::path job;              // empty: it does not fit the cell and has no job
+    std::vector<ReachAdvice> advice = {};   // of a piece of which more is out of reach than may be
+    std::string no_program_because = {};    // empty: its jobs hold robot programs
+    std::string left_out = {};              // of a program made now: what no hold of the arm carries, and why
     std::vector<JobVerdict> verdicts = {};  // one per part of its program
     double time_s = 0;                      // of all its parts, as the replay finds it
     double length_mm = 0;

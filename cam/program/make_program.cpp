@@ -90,9 +90,9 @@ class OperationHolder {
           most_lines_of_run_(most_lines(cell)),
           runs_(split_long_runs(operation.runs, most_lines_of_run_, search_.out(), operation.retract)) {}
 
-    // What was left out, of which sections() found that no hold carries it: the length of cuts, and why.
+    // What sections() left out: the length of cuts, and why no hold carries the first of them.
     double left_out() const { return left_out_; }
-    const std::string& refusal() const { return refusal_; }
+    const std::string& left_out_because() const { return left_out_because_; }
 
     std::vector<HeldSection> sections(const std::string& where) {
         std::vector<HeldSection> held;
@@ -165,6 +165,7 @@ class OperationHolder {
         // Without a cut less, the same run would be asked for again.
         if (!tail && length == 0) return false;
         if (left_out_ + length > most_left_out * cut_length(operation_.runs)) return false;
+        if (left_out_ == 0) left_out_because_ = refusal_;
         left_out_ += length;
         std::vector<PathRun> kept;
         if (has_cut(run, first)) {
@@ -222,6 +223,7 @@ class OperationHolder {
     std::vector<PathRun> runs_;
     std::string refusal_;  // of the last run that no hold carried
     double left_out_ = 0;
+    std::string left_out_because_;
 };
 
 struct HeldSections {
@@ -244,7 +246,7 @@ HeldSections held_sections(const Toolpath& toolpath, const Setup& setup, const W
         try {
             OperationHolder holder(setup, envelope, cell, toolpath.operations[i], context);
             by_operation[i] = holder.sections(where);
-            left_out[i] = {holder.left_out(), where + ": " + holder.refusal()};
+            left_out[i] = {holder.left_out(), where + ": " + holder.left_out_because()};
         } catch (const ProgramRefused&) {
             refused[i] = std::current_exception();
         }

@@ -30,8 +30,8 @@ class ProgramRefused : public InputError {
 // carries it (docs/decisions/0036-what-no-hold-carries-is-left-out.md). Runs that would not fit in a chunk
 // (ProgramSettings::lines_per_chunk) are divided too, and sections that would fill more than a quarter of
 // ProgramSettings::memory_bytes. Preconditions: the cell has a machine, the envelope is of this setup (its regions are
-// tried first; it may have none). Throws ProgramRefused; InputError (use) as check_toolpath() does; Cancelled. O(length
-// / 10 mm + moves).
+// tried first; it may have none). Throws ProgramRefused; InputError (use) as check_toolpath() does; Cancelled.
+// O(length / 10 mm + moves).
 Program make_program(const Toolpath& toolpath, const Setup& setup, const WorkEnvelope& envelope, const Cell& cell,
                      const Context& context = {});
 
