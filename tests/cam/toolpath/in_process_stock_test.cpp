@@ -41,6 +41,9 @@ TEST(DiscMax, IsThatOfAPlainLoop) {
                 const double x = 0.7 * (static_cast<double>(c) + 0.5);
                 const double y = 0.7 * (static_cast<double>(r) + 0.5);
                 ASSERT_GE(disc_max_at(map, x, y, radius + 1e-9), most);
+                const auto highest = static_cast<double>(disc_max_at(map, x, y, radius));
+                ASSERT_TRUE(is_disc_above(map, x, y, radius, highest - 0.01));
+                ASSERT_FALSE(is_disc_above(map, x, y, radius, highest));
             }
         }
     }
