@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/huge_pages.h"
+#include "base/regular_file.h"
 #include "base/unfinished.h"
 
 namespace qchopper {
@@ -61,13 +62,6 @@ void write_bytes(const std::filesystem::path& path, const std::uint8_t* data, st
     if (directory.fd >= 0) ::fsync(directory.fd);
 }
 
-const char* kind_of(mode_t mode) {
-    if (S_ISDIR(mode)) return "a folder";
-    if (S_ISFIFO(mode)) return "a pipe";
-    if (S_ISSOCK(mode)) return "a socket";
-    return "a device";
-}
-
 std::string describe(std::uint64_t bytes) {
     const bool is_large = bytes + 1 >= std::uint64_t{1} << 30;
     return std::to_string((bytes + 1) >> (is_large ? 30U : 20U)) + (is_large ? " GB" : " MB");
@@ -111,10 +105,7 @@ Bytes read_file(const std::filesystem::path& path, SizeLimit limit) {
     if (::fstat(file.fd, &info) != 0) {
         throw InputError(InputFault::missing, path.string() + " cannot be read: " + reason());
     }
-    if (!S_ISREG(info.st_mode)) {
-        throw InputError(InputFault::missing, path.string() + " is " + kind_of(info.st_mode) + ", not a file",
-                         "name the file itself");
-    }
+    refuse_irregular(path, info.st_mode);
     const auto size = static_cast<std::uint64_t>(info.st_size);
     if (size > limit.bytes) refuse_size(path.string(), limit);
     return read_to_end(file.fd, size, path.string(), limit);

@@ -4,11 +4,12 @@
 #include "devices/cell_control.h"
 
 #include <chrono>
-#include <cstdio>
 #include <thread>
 
 #include "devices/codec.h"
+#include "devices/command_number.h"
 #include "devices/first_contact.h"
+#include "devices/operator_words.h"
 #include "devices/random.h"
 #include "devices/seen_store.h"
 
@@ -41,20 +42,56 @@ class Control {
     }
 
     ControlEnd run() {
-        if (refuse_here()) return end_;
+        command_the_cell();
+        const bool may_move = end_.kind == Kind::unknown && has_active_job(end_.status.state);
+        end_.why += std::string("; ") + (may_move ? "the cell may be cutting foam" : foam_in(end_.status.state));
+        end_.to_do = to_do();
+        return end_;
+    }
+
+ private:
+    void command_the_cell() {
+        if (refuse_here()) return;
         const bool is_claim = order_.command == CellCommand::claim;
-        if (needs_lease(order_.command) && !claim()) return end_;
+        if (needs_lease(order_.command) && !claim()) return;
         if (!is_claim) send(order_.command, order_.timings.consent_s);
-        if (!is_leased_) return end_;
+        if (!is_leased_) return;
         const ControlEnd wanted = end_;
         send(CellCommand::release, order_.timings.leave_s);
         const Status last = end_.status;
         end_ = wanted;
         end_.status = last;
-        return end_;
     }
 
- private:
+    std::string to_do() const {
+        const std::string ask = cell_command(order_.address, "status");
+        const bool stops = !needs_lease(order_.command);  // Stop, Hold, Abort
+        if (end_.kind == Kind::done) return {};
+        if (end_.kind == Kind::unknown && stops) {
+            return "If the machine must stop now, press the red button at the cell. Then ask the cell: " + ask;
+        }
+        if (end_.kind == Kind::unknown) return "Look at the cell, then ask it: " + ask;
+        if (is_store_lost_) {
+            return "Look at the cell, then accept its memory: " + cell_command(order_.address, "accept-store");
+        }
+        switch (end_.result) {
+            case AckResult::local_control:
+                return stops ? "Stop the machine by its panel, in danger by the red button: it takes no commands from "
+                               "here."
+                             : "Use the panel of the cell, or set it to remote.";
+            case AckResult::lease_busy:
+                return "Wait until the other dispatcher has finished (" + ask +
+                       "), or end its lease by the code of the panel: " +
+                       cell_command(order_.address, "take-over --code N");
+            case AckResult::no_consent:
+                return "Ask the operator at the cell, then send it again.";
+            case AckResult::safety_open:
+                return "Close the door and release the emergency stop, then send it again.";
+            default:
+                return "See what the cell shows: " + ask;
+        }
+    }
+
     bool is_cancelled() const { return context_.cancelled != nullptr && context_.cancelled->load(); }
 
     bool refuse(AckResult result, const std::string& why) {
@@ -76,6 +113,7 @@ class Control {
         }
         if (!needs_lease(order_.command)) return false;
         if (const std::string lost = loss_of_store(); !lost.empty()) {
+            is_store_lost_ = true;
             return refuse(AckResult::none, "CELL_STORE_LOST: " + lost + "; nothing was sent");
         }
         return false;
@@ -103,13 +141,18 @@ class Control {
     }
 
     bool claim() {
-        epoch_ = std::max(order_.past.epoch, end_.status.epoch_held) + 1;
-        send(CellCommand::claim, order_.timings.answer_s);
+        constexpr int most_claims = 4;
+        for (int claims = 1;; ++claims) {
+            epoch_ = std::max(order_.past.epoch, end_.status.epoch_held) + 1;
+            seq_ = number_after(end_.status, owner_, seq_);
+            bad_frames_ = end_.status.bad_frames;
+            send(CellCommand::claim, order_.timings.answer_s);
+            if (!has_stale_number_ || claims == most_claims) break;
+            seq_ += skipped_numbers;
+        }
         is_leased_ = end_.kind == Kind::done;
         if (end_.result == AckResult::lease_busy) {
-            char holder[48];
-            std::snprintf(holder, sizeof holder, "; dispatcher 0x%08X holds the cell", end_.status.owner_held);
-            end_.why += holder;
+            end_.why += "; " + dispatcher_name(end_.status.owner_held) + " holds the cell";
         }
         return is_leased_;
     }
@@ -144,7 +187,7 @@ class Control {
         const Command frame = command_for(command);
         end_.kind = Kind::unknown;
         end_.result = AckResult::none;
-        end_.why = std::string("the cell has not acknowledged ") + name(command) + ": ask the cell";
+        end_.why = "the cell has not acknowledged " + in_words(command) + ", and may have done it";
         const Clock::time_point began = Clock::now();
         Clock::time_point sent;
         bool is_pending = false;
@@ -159,6 +202,8 @@ class Control {
             const HandOffInput input = read_status_block(bus_);
             if (input.status) end_.status = *input.status;
             if (input.status && note_answer(frame, is_pending)) return;
+            has_stale_number_ = command == CellCommand::claim && has_refused_number(bad_frames_, end_.status);
+            if (has_stale_number_) return;
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
         }
     }
@@ -169,6 +214,7 @@ class Control {
         if (status.ack_owner != owner_ || status.ack_seq != frame.seq || status.ack_command != frame.command) {
             return false;
         }
+        if (frame.command == CellCommand::claim && !is_answer_to_claim(status, frame.epoch)) return false;
         if (status.ack_result == AckResult::pending && !is_pending) {
             is_pending = true;
             context_.message("waiting for consent at the cell");
@@ -196,7 +242,10 @@ class Control {
     std::uint32_t seq_ = 0;
     std::uint32_t epoch_ = 0;
     std::uint16_t counter_ = 0;
+    std::uint16_t bad_frames_ = 0;   // BAD_FRAMES of the cell before CLAIM
+    bool has_stale_number_ = false;  // the cell took the number of CLAIM for an old one
     bool is_leased_ = false;
+    bool is_store_lost_ = false;
     Clock::time_point beat_at_;
 };
 

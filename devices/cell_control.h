@@ -19,6 +19,7 @@ namespace qchopper {
 struct ControlOrder {
     CellCommand command = CellCommand::hold;  // Hold, Unhold, Stop, Abort, Clear, Reset; CLAIM: take over, then RELEASE
     std::uint32_t takeover_code = 0;          // of CLAIM, given at the cell's panel
+    std::string address;                      // HOST:PORT for the commands that the operator is told to run
     HandOffPast past;                         // of the journal, for commands with a lease
     std::function<void(const JournalEvent&)> journal;  // before each command with a lease; may be empty
     HandOffTimings timings;
@@ -34,7 +35,8 @@ struct ControlEnd {
     };
     Kind kind = Kind::unknown;
     AckResult result = AckResult::none;  // of the cell, or the one that it would give
-    std::string why;                     // one sentence
+    std::string why;                     // one sentence: what happened, and whether foam is being cut
+    std::string to_do;                   // one sentence; empty after `done`
     Status status;                       // the last one read
 };
 

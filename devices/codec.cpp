@@ -74,6 +74,18 @@ Decoded<T> decoded(const Block& block, std::span<const std::uint16_t> registers)
     return {BlockFault::none, read_values<T>(registers)};
 }
 
+template <class T>
+std::optional<std::uint16_t> used_reserved(std::span<const std::uint16_t> registers) {
+    const std::span<const LayoutRow<T>> rows = rows_of<T>();
+    for (const LayoutRow<T>& row : rows) {
+        if (row.role != FieldRole::reserved) continue;
+        for (std::uint16_t at = row.field.address; at < row.field.address + row.field.count; ++at) {
+            if (registers[at - rows.front().field.address] != 0) return at;
+        }
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 const char* describe(BlockFault fault) {
@@ -113,6 +125,14 @@ Registers encode(const Command& command) {
 }
 Decoded<Command> decode_command(std::span<const std::uint16_t> block) {
     return decoded<Command>(command_block, block);
+}
+std::optional<std::uint16_t> used_reserved_of_command(std::span<const std::uint16_t> block) {
+    assert(block.size() == command_block.count);
+    return used_reserved<Command>(block);
+}
+std::optional<std::uint16_t> used_reserved_of_ticket(std::span<const std::uint16_t> block) {
+    assert(block.size() == ticket_block.count);
+    return used_reserved<WireTicket>(block);
 }
 std::uint32_t command_crc(std::span<const std::uint16_t> block) {
     assert(block.size() == command_block.count);

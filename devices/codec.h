@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -45,6 +46,10 @@ Registers encode(const Command& command);
 Decoded<Command> decode_command(std::span<const std::uint16_t> block);
 // The checksum that stands in `block`, which must have the size of COMMAND.
 std::uint32_t command_crc(std::span<const std::uint16_t> block);
+
+// Address of the first register of a COMMAND or a TICKET that the map reserves and that is not zero.
+std::optional<std::uint16_t> used_reserved_of_command(std::span<const std::uint16_t> block);
+std::optional<std::uint16_t> used_reserved_of_ticket(std::span<const std::uint16_t> block);
 
 Registers encode(const WireTicket& ticket);
 Decoded<WireTicket> decode_ticket(std::span<const std::uint16_t> block);

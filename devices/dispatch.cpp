@@ -158,8 +158,7 @@ class Dispatcher {
             case Kind::write_chunk:
                 return write_chunk(action.offset, state.epoch);
             case Kind::stage_file:
-                staged_.stage(plan_.options.drop_folder, file_name_, plan_.ticket.job_id, file_);
-                return {};
+                return stage_file();
             case Kind::put_file:
                 return put_file();
             case Kind::wait:
@@ -184,15 +183,17 @@ class Dispatcher {
         return write(chunk_block.base, encode(chunk));
     }
 
+    HandOffInput stage_file() {
+        HandOffInput input;
+        input.why = staged_.stage(plan_.options.drop_folder, file_name_, plan_.ticket.job_id, file_);
+        return input;
+    }
+
     HandOffInput put_file() {
         HandOffInput input;
-        try {
-            // After a lost link this is the second time, and the cell may have removed the first file.
-            if (!staged_.is_staged()) staged_.stage(plan_.options.drop_folder, file_name_, plan_.ticket.job_id, file_);
-            input.why = staged_.put();
-        } catch (const InputError& error) {
-            input.why = error.what();
-        }
+        // After a lost link this is the second time, and the cell may have removed the first file.
+        if (!staged_.is_staged()) input = stage_file();
+        if (input.why.empty()) input.why = staged_.put();
         return input;
     }
 

@@ -17,10 +17,9 @@
 namespace qchopper {
 
 // `file` holds the bytes of the job file. Throws DeviceError while nothing was started: unreachable, no cell of this
-// register map, another cell, busy. Throws InputError if `file` does not match the ticket's size and SHA-256, if the
-// ticket cannot be encoded, or if the file cannot be written into the drop folder. If options.journal throws
-// an InputError before START, the job is cancelled and the error passed on. Refusals of the job and everything after
-// START are a JobOutcome.
+// register map, another cell, busy. Throws InputError if `file` does not match the ticket's size and SHA-256, or if the
+// ticket cannot be encoded. If options.journal throws an InputError before START, the job is cancelled and the error
+// passed on. Refusals of the job, a drop folder that cannot be written to, and everything after START are a JobOutcome.
 //
 // Once context.cancelled is set this returns within timings.leave_s. Before START the job is cancelled and the lease
 // released, and the outcome states whether the cell has confirmed that. After START the job runs on by itself, unless

@@ -8,9 +8,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <system_error>
 #include <vector>
 
+#include "base/error.h"
 #include "base/portable_name.h"
 #include "devices/codec.h"
 
@@ -51,6 +54,15 @@ std::string staging_name(const std::string& file_name, const Uuid& job_id) {
     return "." + file_name + "." + to_text(job_id);
 }
 
+std::string fault_of_drop_folder(const fs::path& folder) {
+    std::error_code error;
+    const fs::file_status status = fs::status(folder, error);
+    if (!fs::exists(status)) return "there is no drop folder " + folder.string();
+    if (!fs::is_directory(status)) return "the drop folder " + folder.string() + " is not a folder";
+    if (::access(folder.c_str(), W_OK | X_OK) == 0) return {};
+    return "the drop folder " + folder.string() + " cannot be written to: " + std::strerror(errno);
+}
+
 DropFolderUse::DropFolderUse(const fs::path& folder)
     : lock_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
     if (lock_ < 0) return;
@@ -68,17 +80,28 @@ StagedFile::~StagedFile() {
     if (!staged_.empty()) fs::remove(staged_, ignored);
 }
 
-void StagedFile::stage(const fs::path& folder, const std::string& file_name, const Uuid& job_id, const Bytes& bytes) {
+std::string StagedFile::stage(const fs::path& folder, const std::string& file_name, const Uuid& job_id,
+                              const Bytes& bytes) {
+    if (std::string fault = fault_of_drop_folder(folder); !fault.empty()) return fault;
     use_.emplace(folder);
     staged_ = folder / staging_name(file_name, job_id);
     target_ = folder / file_name;
-    write_file(staged_, bytes);
+    try {
+        write_file(staged_, bytes);
+    } catch (const InputError& error) {
+        staged_.clear();
+        return std::string("the job file cannot be written into the drop folder: ") + error.what();
+    }
+    return {};
 }
 
 std::string StagedFile::put() {
     std::error_code error;
     fs::rename(staged_, target_, error);
-    if (error) return "cannot put " + target_.string() + " into the drop folder: " + error.message();
+    if (error) {
+        const std::string fault = fault_of_drop_folder(target_.parent_path());
+        return fault.empty() ? "cannot put " + target_.string() + " into the drop folder: " + error.message() : fault;
+    }
     staged_.clear();
     return {};
 }

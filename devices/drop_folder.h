@@ -18,6 +18,10 @@ namespace qchopper {
 // ".C.qjob.<job id>" for the job file "C.qjob".
 std::string staging_name(const std::string& file_name, const Uuid& job_id);
 
+// Why no job file can be written into the folder, as a clause: it is not there, is no folder, or may not be written to.
+// "" if nothing speaks against it.
+std::string fault_of_drop_folder(const std::filesystem::path& folder);
+
 // Holds a shared lock on the folder as long as it lives.
 class DropFolderUse {
  public:
@@ -41,9 +45,9 @@ class StagedFile {
     StagedFile(const StagedFile&) = delete;
     StagedFile& operator=(const StagedFile&) = delete;
 
-    // Throws what write_file throws.
-    void stage(const std::filesystem::path& folder, const std::string& file_name, const Uuid& job_id,
-               const Bytes& bytes);
+    // Returns why the file cannot be written, else "".
+    std::string stage(const std::filesystem::path& folder, const std::string& file_name, const Uuid& job_id,
+                      const Bytes& bytes);
     // Renames it to its name. Returns the reason if that fails, else "".
     std::string put();
     bool is_staged() const { return !staged_.empty(); }

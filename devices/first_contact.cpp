@@ -68,8 +68,8 @@ HandOffInput read_identity_block(RegisterBus& bus) {
 }
 
 std::optional<double> pause_before_next_contact(const HandOffInput& failed, int tries, double since_s) {
-    const bool is_foreign = failed.fault == BlockFault::magic || failed.fault == BlockFault::version;
-    if (is_foreign || lacks_registers(failed)) return std::nullopt;
+    // A block with a wrong MAGIC or VERSION may have been damaged on the way, as one with a wrong checksum.
+    if (lacks_registers(failed)) return std::nullopt;
     const double pause_s = pauses_s[std::min<std::size_t>(static_cast<std::size_t>(tries), std::size(pauses_s) - 1)];
     if (since_s + pause_s > patience_s) return std::nullopt;
     return pause_s;

@@ -12,6 +12,7 @@
 
 #include "devices/first_contact.h"
 #include "devices/hand_off_context.h"
+#include "devices/operator_words.h"
 
 namespace qchopper::hand_off {
 
@@ -78,10 +79,13 @@ HandOffAction finish(StepContext& context, StartVerdict verdict, const std::stri
         context.h.why = why;
         context.h.to_do = to_do;
     }
+    context.h.why += "; " + foam(context);
+    if (context.h.to_do.empty()) context.h.to_do = usual_remedy(context, verdict);
+    if (verdict == StartVerdict::unknown) context.h.to_do = look_first(context) + " " + context.h.to_do;
     if (context.h.is_cancelled && verdict == StartVerdict::not_started && context.h.claim_sent &&
         !context.h.is_given_back) {
         context.h.why += "; the cell did not confirm that it dropped the job";
-        context.h.to_do = "It cannot start: the cell holds no valid START for it.";
+        context.h.to_do = "Nothing has to be done: the cell holds no valid START for it.";
     }
     context.h.step = HandOffStep::finished;
     context.report(std::string(describe(verdict)) + ": " + context.h.why);
@@ -94,7 +98,7 @@ HandOffAction finish(StepContext& context, StartVerdict verdict, const std::stri
 HandOffAction give_up(StepContext& context, const std::string& why, const std::string& to_do) {
     if (context.h.contradicts_itself) return finish(context, StartVerdict::unknown, why, to_do);
     if (context.h.is_started) return finish(context, StartVerdict::started, why, to_do);
-    if (context.h.start_sent) return finish(context, StartVerdict::unknown, why, look_first);
+    if (context.may_have_started()) return finish(context, StartVerdict::unknown, why, to_do);
     return finish(context, StartVerdict::not_started, why, to_do);
 }
 
@@ -112,14 +116,21 @@ HandOffAction withdraw(StepContext& context, const std::string& why, const std::
 
 HandOffAction fence(StepContext& context, const std::string& why) {
     if (context.is_leaving()) return leave_at_once(context);
-    if (++context.h.fences > most_fences) return give_up(context, why + ", repeatedly");
-    end_request(context, why + ": ask the cell");
-    context.report(why + "; claiming the cell again, then querying the job");
+    if (++context.h.fences > most_fences) {
+        return give_up(context,
+                       "the hand-off was interrupted " + std::to_string(context.h.fences) +
+                           " times and is given up, the last time because " + why,
+                       "Mend the link, or what ends the lease, then dispatch again: first it asks the cell.");
+    }
+    end_request(context, why + "; whether the cell has done it is not known: ask the cell");
+    context.report(why + "; claiming the cell again, then querying the job; " + foam(context));
     return enter(context, HandOffStep::claim);
 }
 
 namespace {
 
+constexpr const char* mend_drop_folder =
+    "See that the drop folder of the cell is there and can be written to (is its share mounted?), then dispatch again.";
 constexpr double back_off_s[] = {0.25, 0.5, 1, 2, 4, 5};
 constexpr int most_busy_answers = 10;
 constexpr double busy_pause_s = 0.5;
@@ -136,7 +147,8 @@ HandOffAction try_contact_again(StepContext& context) {
         const ContactFailure failure = contact_failure(context.in);
         return fail(context, failure.fault, failure.why, failure.to_do);
     }
-    return wait_until(context.now_s + *pause_s);
+    const double until_s = context.now_s + *pause_s;
+    return wait_until(context.is_leaving() ? std::min(until_s, h.leave_by_s) : until_s);
 }
 
 // After a refusal that does not concern the job: CANCEL and RELEASE as far as that is still possible.
@@ -159,18 +171,22 @@ HandOffAction on_lost(StepContext& context) {
     HandOff& h = context.h;
     h.deferred.reset();
     if (!h.status) return try_contact_again(context);
+    if (h.last.kind == Kind::read_identity && context.in.fault != BlockFault::none) {
+        if (const std::optional<HandOffAction> end = on_bad_identity(context)) return *end;
+    }
     if (h.step == HandOffStep::release) return give_up(context, "the link was lost during RELEASE");
-    if (context.is_leaving() && (h.is_started || h.start_sent)) return leave_at_once(context);
+    if (context.is_leaving() && (h.is_started || context.may_have_started())) return leave_at_once(context);
     if (h.lost_since_s < 0) {
         h.lost_since_s = context.now_s;
         h.lost_times = 0;
-        context.report("the link to the cell is lost (" + context.in.why + "); trying again");
+        context.report("the link to the cell is lost (" + context.in.why + "); trying again; " + foam(context));
     }
     if (context.now_s - h.lost_since_s > context.timings().link_patience_s) {
         return give_up(context,
                        h.is_started ? "the link to the cell was lost; the job runs on by itself"
                                     : "the link to the cell was lost and did not come back",
-                       "Dispatch again when the link is back: first it asks the cell what became of the job.");
+                       "Look at the cell. Dispatch again when the link is back: first it asks the cell what became of "
+                       "the job.");
     }
     const double pause_s = back_off_s[std::min<std::size_t>(h.lost_times++, std::size(back_off_s) - 1)];
     if (context.is_leaving()) return wait_until(std::min(context.now_s + back_off_s[0], h.leave_by_s));
@@ -194,8 +210,7 @@ HandOffAction on_exception(StepContext& context) {
     }
     const std::string why =
         "the cell refused a request: exception " + std::to_string(context.in.exception) + " (" + context.in.why + ")";
-    const bool may_have_started = h.start_sent && !h.is_started;
-    if (may_have_started && h.fences < most_fences) return fence(context, why);
+    if (h.start_sent && !h.is_started && h.fences < most_fences) return fence(context, why);
     return back_out(context, why, "Tell the integrator of the cell.");
 }
 
@@ -222,7 +237,7 @@ void note_status(StepContext& context) {
 }
 
 HandOffAction drop_request(StepContext& context) {
-    end_request(context, "the cell did not answer in time: ask the cell");
+    end_request(context, "the cell did not answer in time; whether it has done it is not known: ask the cell");
     context.h.waits_for_ack = false;
     return watch(context);
 }
@@ -235,7 +250,9 @@ HandOffAction wait_for_ack(StepContext& context) {
                              h.command.command == CellCommand::unhold;
     const bool works_long = h.command.command == CellCommand::verify || h.command.command == CellCommand::rehearse;
     const double bound_s = works_long ? 10 * context.timings().answer_s : context.timings().answer_s;
-    if (status.ack_owner == context.plan.owner && status.ack_seq == h.seq) {
+    const bool is_claim = h.command.command == CellCommand::claim;
+    const bool has_our_number = status.ack_owner == context.plan.owner && status.ack_seq == h.seq;
+    if (has_our_number && (!is_claim || answers_claim(context))) {
         if (status.ack_command != h.command.command) {
             const std::string what = std::string("it acknowledged command ") + std::to_string(h.seq) + " as " +
                                      name(status.ack_command) + ", and that was " + name(h.command.command);
@@ -243,21 +260,30 @@ HandOffAction wait_for_ack(StepContext& context) {
         }
         if (is_refusal(status.ack_result)) return refused(context, status.ack_result);
         if (status.ack_result == AckResult::ok || status.ack_result == AckResult::already) return acknowledged(context);
-        if (!h.has_pending && asks_person) context.report("waiting for consent at the cell");
+        if (!h.has_pending && asks_person) context.report("waiting for consent at the cell; nothing moves before");
         h.has_pending = true;
         if (waited_s > (asks_person ? context.timings().consent_s : bound_s)) {
             if (h.request != CellCommand::none) return drop_request(context);
-            return withdraw(context, std::string(name(h.command.command)) + " was not completed at the cell in time",
-                            "Make sure that an operator is at the cell.");
+            const std::string waited = " within " + std::to_string(static_cast<int>(waited_s)) + " s";
+            return asks_person ? back_out(context, "nobody at the cell consented" + waited,
+                                          "Make sure that an operator is at the cell, then dispatch again.")
+                               : back_out(context, "the cell did not complete " + in_words(h.command.command) + waited,
+                                          "Look at the panel of the cell, then dispatch again.");
         }
         return pause(context);
+    }
+    if (is_claim) {
+        if (std::optional<HandOffAction> again = claim_past_stale_number(context)) return *again;
     }
     // STATUS may hold the acknowledgement of another client by now; the state of the job proves the start as well.
     if (h.step == HandOffStep::start && h.is_started) return acknowledged(context);
     if (waited_s > bound_s && !(h.has_pending && asks_person)) {
         if (h.request != CellCommand::none) return drop_request(context);
-        if (h.step == HandOffStep::start) return fence(context, "the cell does not acknowledge START");
-        return give_up(context, std::string("the cell does not acknowledge ") + name(h.command.command));
+        const std::string waited = " for " + std::to_string(static_cast<int>(waited_s)) + " s";
+        if (h.step == HandOffStep::start) return fence(context, "the cell has not acknowledged START" + waited);
+        return give_up(context,
+                       "the cell shows its state, but has not acknowledged " + in_words(h.command.command) + waited,
+                       "Look at the panel of the cell for a fault, then dispatch again.");
     }
     double resend_s = context.timings().resend_s;
     if (context.is_leaving()) resend_s = std::min(resend_s, context.timings().leave_s / 4);
@@ -268,19 +294,29 @@ HandOffAction wait_for_ack(StepContext& context) {
     return again;
 }
 
+// The heartbeat of the cell stands still although STATUS is read: nothing is sent. A job that runs is followed all the
+// same; one that STATUS shows as ended, and one that was not started, are waited for no longer than for a lost link.
+HandOffAction wait_for_heartbeat(StepContext& context) {
+    HandOff& h = context.h;
+    const double unchanged_s = context.now_s - h.cell_heartbeat_s;
+    const bool is_new = !h.is_frozen;
+    h.is_frozen = true;
+    const std::string what = has_ended(context) ? "the job has ended, and then the heartbeat of the cell stopped"
+                                                : "CELL FROZEN: the heartbeat of the cell has stopped";
+    if (is_new) context.report(what + "; no command is sent while it stands still; " + foam(context));
+    const bool is_followed = h.is_started && !has_ended(context);
+    if (is_followed || unchanged_s <= context.timings().link_patience_s) return pause(context);
+    return give_up(context, what + " and did not go on within " + std::to_string(static_cast<int>(unchanged_s)) + " s",
+                   "Look at the controller of the cell: it answers, but its program stands still.");
+}
+
 HandOffAction on_status(StepContext& context) {
     HandOff& h = context.h;
     if (h.step == HandOffStep::check_cell) return check_identity(context);
     // A hand-off that is to end does not wait for the heartbeat: CANCEL and RELEASE do no harm, whenever they take
     // effect.
-    const double unchanged_s = context.now_s - h.cell_heartbeat_s;
-    if (!context.is_leaving() && unchanged_s > context.timings().frozen_s) {
-        if (!h.is_frozen) context.report("CELL FROZEN: its heartbeat does not change; no command is sent");
-        h.is_frozen = true;
-        if (!h.is_started && unchanged_s > context.timings().link_patience_s) {
-            return give_up(context, "the cell is frozen: its heartbeat does not change");
-        }
-        return pause(context);
+    if (!context.is_leaving() && context.now_s - h.cell_heartbeat_s > context.timings().frozen_s) {
+        return wait_for_heartbeat(context);
     }
     if (h.waits_for_ack) return wait_for_ack(context);
     switch (h.step) {
@@ -299,6 +335,7 @@ HandOffAction after_answer(StepContext& context) {
     HandOff& h = context.h;
     switch (h.last.kind) {
         case Kind::stage_file:
+            if (!context.in.why.empty()) return give_up(context, context.in.why, mend_drop_folder);
             h.file_is_staged = true;
             return enter(context, HandOffStep::claim);
         case Kind::write_ticket:
@@ -306,7 +343,7 @@ HandOffAction after_answer(StepContext& context) {
         case Kind::write_signature:
             return enter(context, HandOffStep::store);
         case Kind::put_file:
-            if (!context.in.why.empty()) return withdraw(context, context.in.why, "Check that the drop folder exists.");
+            if (!context.in.why.empty()) return withdraw(context, context.in.why, mend_drop_folder);
             return enter(context, HandOffStep::verify);
         case Kind::write_chunk:
             return send_file(context);
@@ -340,7 +377,10 @@ HandOffAction next_action(StepContext& context) {
     }
     const std::uint32_t boots = h.status ? h.status->boot_count : 0;
     const bool was_lost = h.lost_since_s >= 0;
-    if (context.in.status) note_status(context);
+    if (context.in.status) {
+        if (const std::optional<HandOffAction> end = compare_cell(context)) return *end;
+        note_status(context);
+    }
     if (context.in.status && h.step > HandOffStep::check_cell) {
         if (const std::optional<HandOffAction> end = compare_counters(context)) return *end;
     }
@@ -358,7 +398,7 @@ HandOffAction next_action(StepContext& context) {
     if (context.in.status && h.step > HandOffStep::claim && !context.is_leaving()) {
         if (was_lost) {
             h.lost_since_s = -1;
-            h.claim_reason = "the effect of the last request is unknown";
+            h.claim_reason = "the link to the cell was lost";
             if (h.step != HandOffStep::release) return ask_identity(context);
         }
         if (context.in.status->boot_count != boots && h.step != HandOffStep::release) {

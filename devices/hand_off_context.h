@@ -38,18 +38,17 @@ struct StepContext {
     const Uuid& job_id() const { return plan.ticket.job_id; }
     const Status& status() const { return *h.status; }  // after the first one only
     bool is_leaving() const { return h.leave_by_s >= 0; }
+    // START may have arrived. Of a job that is taken up that holds until QUERY has answered after a CLAIM, whatever the
+    // journal says: it may have lost its last rows.
+    bool may_have_started() const { return !h.is_started && (h.start_sent || (plan.adopts && !h.is_excluded)); }
     bool shows_our_job() const { return h.status && h.status->job_id == plan.ticket.job_id; }
 };
 
 using Kind = HandOffAction::Kind;
 
-constexpr const char* look_first = "Look at the cell before anything else.";  // to_do of UNKNOWN
-// The same, where asking again would give the same answer.
-constexpr const char* look_and_accept =
-    "Look at the cell before anything else, then accept its memory: qchopper cell accept-store";
-
 constexpr int most_fences = 3;
 constexpr int most_claims = 10;
+constexpr int most_bad_identities = 4;  // in a row, each read three times
 constexpr int most_odd_answers = 10;    // RESULTs in a row that do not help
 constexpr int most_ready_commands = 8;  // Reset, Clear, CANCEL and CLEAR_RESULT until the cell is idle
 constexpr int most_tokenless = 3;       // acknowledged PREPAREs without a token
@@ -60,6 +59,20 @@ constexpr bool has_started(JobState state) {
            state == JobState::aborted;
 }
 
+// hand_off_words.cpp
+// What is known of the foam now, as a clause: "the cell may be cutting foam".
+std::string foam(const StepContext& context);
+// The cell has shown our job as ended or aborted.
+bool has_ended(const StepContext& context);
+// "qchopper cell status --to HOST:PORT", for `words` "status".
+std::string cell_command(const StepContext& context, const std::string& words);
+// What to do first at UNKNOWN.
+std::string look_first(const StepContext& context);
+// What to do where asking the cell again would give the same answer.
+std::string accept_memory(const StepContext& context);
+// What to do after this verdict where nothing better is known; "" after a complete end.
+std::string usual_remedy(const StepContext& context, StartVerdict verdict);
+
 // hand_off.cpp
 HandOffAction next_action(StepContext& context);
 HandOffAction plain(Kind kind);
@@ -69,7 +82,8 @@ HandOffAction pause(StepContext& context);
 // `command` with the members of h.command that were set before, under a new CMD_SEQ.
 HandOffAction send(StepContext& context, CellCommand command);
 HandOffAction finish(StepContext& context, StartVerdict verdict, const std::string& why, const std::string& to_do = {});
-// Finishes with the verdict that the state proves: STARTED, UNKNOWN if a START may have arrived, else NOT STARTED.
+// Finishes with the verdict that the state proves: STARTED, UNKNOWN if a START may have arrived, else NOT STARTED. The
+// reason is completed by what is known of the foam, and by what to do if `to_do` is empty.
 HandOffAction give_up(StepContext& context, const std::string& why, const std::string& to_do = {});
 // Finishes with an error, before anything was started.
 HandOffAction fail(StepContext& context, DeviceFault fault, const std::string& why, const std::string& to_do);
@@ -78,11 +92,25 @@ HandOffAction withdraw(StepContext& context, const std::string& why, const std::
 // CLAIM with a new epoch, which makes every earlier command void, then QUERY. Gives up after most_fences.
 HandOffAction fence(StepContext& context, const std::string& why);
 
+// hand_off_claim.cpp
+// CLAIM with a higher epoch than any before.
+HandOffAction send_claim(StepContext& context);
+// Whether the acknowledgement of our last CMD_SEQ is that of CLAIM.
+bool answers_claim(const StepContext& context);
+// CLAIM under a higher CMD_SEQ if the cell took the last one for an old command; else nothing.
+std::optional<HandOffAction> claim_past_stale_number(StepContext& context);
+HandOffAction claim_refused(StepContext& context, AckResult result, const std::string& answer);
+
 // hand_off_identity.cpp
 // Reads IDENTITY, or compares the counters of STATUS with a cell of map 1.0; then continues with the step, or claims
 // the cell again if context.h.claim_reason is set.
 HandOffAction ask_identity(StepContext& context);
 HandOffAction on_identity(StepContext& context);
+// IDENTITY came damaged, several times: the end, if that was so most_bad_identities times in a row.
+std::optional<HandOffAction> on_bad_identity(StepContext& context);
+// The end, if the STATUS that has come is of another cell than the one before: CELL_ID or "simulated" differ. Nothing
+// more is sent then. To be called before it is noted.
+std::optional<HandOffAction> compare_cell(StepContext& context);
 // CELL_STORE_LOST, if the counters of the last STATUS are lower than those seen before; otherwise they are noted.
 std::optional<HandOffAction> compare_counters(StepContext& context);
 // CELL_STORE_LOST, if the answer to QUERY shows that the cell does not know the CLAIM before, or the job that has

@@ -14,7 +14,7 @@ HandOffAction end_with_lost_store(StepContext& context, const SeenStore& now, co
     context.keep(JournalKind::store_lost).store = now;
     h.claim_sent = h.is_owner = false;
     h.why = "CELL_STORE_LOST: the cell has not the memory that it had before; " + what;
-    h.to_do = "Look at the cell, then accept its new memory: qchopper cell accept-store";
+    h.to_do = accept_memory(context);
     return give_up(context, h.why, h.to_do);
 }
 
@@ -42,9 +42,35 @@ HandOffAction ask_identity(StepContext& context) {
     return compare(context, seen_store(context.status(), {}));
 }
 
+std::optional<HandOffAction> on_bad_identity(StepContext& context) {
+    HandOff& h = context.h;
+    if (++h.bad_identities < most_bad_identities) return std::nullopt;
+    const std::string why = "the cell's IDENTITY cannot be read: it is " + std::string(describe(context.in.fault)) +
+                            ", " + std::to_string(h.bad_identities) + " times in a row";
+    const std::string to_do = "Check gateway and cable; tell the integrator of the cell.";
+    return h.claim_sent ? give_up(context, why, to_do) : fail(context, DeviceFault::protocol, why, to_do);
+}
+
 HandOffAction on_identity(StepContext& context) {
+    context.h.bad_identities = 0;
     context.h.checks_store = context.in.identity->checks_store == 1;
     return compare(context, seen_store(*context.in.identity));
+}
+
+std::optional<HandOffAction> compare_cell(StepContext& context) {
+    HandOff& h = context.h;
+    const Status& fresh = *context.in.status;
+    if (!h.status || h.step == HandOffStep::check_cell) return std::nullopt;
+    const auto shown = [](const Status& status) {
+        return std::string("CELL_ID ") + std::to_string(status.cell_id) + " and " +
+               (status.has(flag::simulated) ? "simulated" : "real");
+    };
+    if (shown(fresh) == shown(*h.status)) return std::nullopt;
+    h.claim_sent = h.is_owner = false;
+    return give_up(
+        context,
+        "another cell answers now: " + shown(fresh) + ", and before " + shown(*h.status) + "; nothing more was sent",
+        "Find out which cell is at this address, then dispatch again.");
 }
 
 std::optional<HandOffAction> compare_counters(StepContext& context) {

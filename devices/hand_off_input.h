@@ -15,7 +15,7 @@ struct HandOffInput {
     BusEnd end = BusEnd::ok;
     int exception = 0;                        // Modbus exception code if end is exception
     BlockFault fault = BlockFault::none;      // with `lost`: registers came, but not a right block
-    std::string why;                          // if end is not ok, or if put_file failed
+    std::string why;                          // if end is not ok, or if stage_file or put_file failed
     bool is_alien = false;                    // with `lost`: bytes came that are no answer to the request
     std::optional<Status> status;             // after read_status that ended ok
     std::optional<ResultRecord> result;       // after read_result that ended ok

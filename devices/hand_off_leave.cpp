@@ -8,18 +8,24 @@
 namespace qchopper::hand_off {
 namespace {
 
-constexpr const char* stop_there = "Stop it at the cell if it must not run; the next dispatch follows it to its end.";
+std::string stop_there(const StepContext& context) {
+    return "If it must not run on: " + cell_command(context, "stop") +
+           ", or the panel of the cell. The next dispatch follows it to its end.";
+}
 
-void set_reason_of_request(HandOff& h) {
+void set_reason_of_request(StepContext& context) {
+    HandOff& h = context.h;
     h.is_cancelled = true;
-    if (!h.is_started && h.start_sent) {
-        h.why = "stopped on request; START was sent, and the cell has not reported whether it started the job";
-        h.to_do = look_first;
+    if (context.may_have_started()) {
+        h.why = h.start_sent
+                    ? "stopped on request; START was sent, and the cell has not reported whether it started the job"
+                    : "stopped on request before the cell reported what became of the job of the earlier dispatcher";
+        h.to_do = {};
     }
     if (h.is_started && h.why.empty()) {
         h.why = std::string("stopped monitoring on request; the last job state read is ") + name(h.status->job_state) +
                 ", and the cell continues by itself";
-        h.to_do = stop_there;
+        h.to_do = stop_there(context);
     }
 }
 
@@ -27,7 +33,7 @@ void set_reason_of_request(HandOff& h) {
 
 HandOffAction leave_at_once(StepContext& context) {
     assert(context.is_leaving());
-    set_reason_of_request(context.h);
+    set_reason_of_request(context);
     return give_up(context, "stopped on request");
 }
 
@@ -36,14 +42,14 @@ std::optional<HandOffAction> leave(StepContext& context) {
     if (!context.is_leaving()) h.leave_by_s = context.now_s - context.in.cancelled_for_s + context.timings().leave_s;
     if (context.now_s >= h.leave_by_s) return leave_at_once(context);
     const bool half_over = context.now_s >= h.leave_by_s - context.timings().leave_s / 2;
-    const bool may_have_started = h.start_sent && !h.is_started;
+    const bool may_have_started = context.may_have_started();
     if (half_over && h.claim_sent && h.step < HandOffStep::release && !may_have_started) {
         // A cell that answers nothing else may still execute RELEASE, which makes the token of a job void as well.
-        set_reason_of_request(h);
+        set_reason_of_request(context);
         h.deferred.reset();
         return enter(context, HandOffStep::release);
     }
-    if (h.start_sent || h.is_started || !h.why.empty()) return std::nullopt;
+    if (may_have_started || h.is_started || !h.why.empty()) return std::nullopt;
     h.is_cancelled = true;
     h.deferred.reset();
     return withdraw(context, "stopped on request before the start", "");
@@ -53,7 +59,7 @@ HandOffAction leave_running_job(StepContext& context) {
     HandOff& h = context.h;
     h.is_cancelled = true;
     if (!context.plan.options.stop_when_cancelled) {
-        context.set_reason("stopped monitoring on request; the job runs on by itself", stop_there);
+        context.set_reason("stopped monitoring on request; the job runs on by itself", stop_there(context));
         return enter(context, HandOffStep::release);
     }
     context.report("stopping the machine on request");

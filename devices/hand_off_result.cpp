@@ -99,7 +99,7 @@ HandOffAction query_again(StepContext& context) {
     const std::string why = "the cell answers QUERY repeatedly with the result of job " +
                             to_text(context.in.result->job_id) + " for the query of another client";
     if (!h.start_sent && !h.is_started) return withdraw(context, why, "Stop other programs that query the cell.");
-    context.set_reason(why, look_first);
+    context.set_reason(why, "");
     return enter(context, release);
 }
 
@@ -114,14 +114,18 @@ std::optional<HandOffAction> check_state_before(StepContext& context) {
     }
     if (started) context.report("the cell has started this job before; continuing with its result");
     if (const std::string how = started ? "" : how_it_may_have_forgotten(context); !how.empty()) {
-        context.set_reason(how, look_and_accept);
+        context.set_reason(how, accept_memory(context));
         return enter(context, release);
     }
+    if (!started) h.is_excluded = true;
     if (!started && h.start_sent) {
         h.start_sent = false;
         context.keep(JournalKind::start_void);
-        if (++h.attempts > 2) return withdraw(context, "START did not reach the cell, three times", "");
-        context.report("START did not reach the cell and no longer can; preparing the job again");
+        if (++h.attempts > 2)
+            return withdraw(context, "START did not reach the cell, three times",
+                            "Mend the link to the cell, then dispatch again.");
+        context.report(std::string("START did not reach the cell and no longer can") +
+                       (context.plan.adopts ? "" : "; preparing the job again"));
     }
     if (result.state == JobState::cancelled) {
         h.refusal = AckResult::cancelled;
@@ -132,7 +136,8 @@ std::optional<HandOffAction> check_state_before(StepContext& context) {
                       "Try again when it has finished.");
     }
     if (!started && context.plan.adopts && !h.is_started) {
-        return withdraw(context, "an earlier dispatcher ended before the job was started", "");
+        return withdraw(context, "an earlier dispatcher ended before the job was started",
+                        "Nothing has to be done: the piece is dispatched as a new job.");
     }
     return std::nullopt;
 }
@@ -142,7 +147,7 @@ std::optional<HandOffAction> check_state_before(StepContext& context) {
 HandOffAction contradict(StepContext& context, const std::string& what) {
     HandOff& h = context.h;
     h.contradicts_itself = true;
-    context.set_reason("the cell contradicts itself: " + what, look_first);
+    context.set_reason("the cell contradicts itself: " + what, "");
     return h.claim_sent ? enter(context, release) : give_up(context, h.why, h.to_do);
 }
 
@@ -159,7 +164,7 @@ HandOffAction on_result(StepContext& context) {
     }
     if (!has_started(result.state) && h.is_started) {
         h.why = "the job has started, but the cell no longer has a record of it";
-        h.to_do = "Look at the cell: its memory was lost.";
+        h.to_do = accept_memory(context);
         return enter(context, release);
     }
     if (!has_started(result.state)) return enter(context, h.step == ask_before ? ask_file : make_ready);

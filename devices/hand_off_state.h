@@ -83,6 +83,7 @@ struct HandOff {
     bool waits_for_ack = false;
     std::uint32_t epoch = 0;
     std::uint32_t seq = 0;
+    std::uint16_t bad_frames = 0;  // BAD_FRAMES of the cell when CLAIM was sent
     std::uint32_t receipt = 0;     // of the rehearsal
     std::uint32_t chunk_next = 0;  // offset of the next chunk, in bytes
     std::uint32_t chunk_done = 0;  // XFER_NEXT of the last STATUS that was used
@@ -107,6 +108,7 @@ struct HandOff {
     int attempts = 0;             // STARTs that turned out not to have arrived
     int claims = 0;
     int ready_commands = 0;  // acknowledged since the cell was to be made ready
+    int bad_identities = 0;  // since the last good one
     int odd_answers = 0;     // RESULTs since the last one that helped
     int tokenless = 0;       // PREPAREs that were acknowledged without a token
     double progress_s = -1;  // when progress was last kept
@@ -117,6 +119,7 @@ struct HandOff {
     bool is_stored = false;         // STORE was sent: the cell may hold our job
     bool start_sent = false;        // under the present epoch; the start may have happened
     std::uint32_t start_boots = 0;  // BOOT_COUNT when START was sent first
+    bool is_excluded = false;       // QUERY after a CLAIM has shown that an adopted job has not started
     bool start_acknowledged = false;
     bool is_started = false;                    // STATUS or RESULT has shown it
     bool contradicts_itself = false;            // the cell: the verdict is UNKNOWN

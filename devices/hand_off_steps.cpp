@@ -4,10 +4,10 @@
 // each turn, and O(bytes / 232) turns for a file in chunks.
 
 #include <algorithm>
-#include <cstdio>
 
 #include "devices/hand_off.h"
 #include "devices/hand_off_context.h"
+#include "devices/operator_words.h"
 
 namespace qchopper::hand_off {
 namespace {
@@ -51,13 +51,6 @@ HandOffAction send_step(StepContext& context, const StepRow& row) {
         h.command.file_sha256 = context.plan.ticket.file_sha256;
     }
     switch (row.step) {
-        case claim:
-            if (++h.claims > most_claims) return give_up(context, "the link is lost at every CLAIM");
-            h.epoch = std::max(h.epoch, context.status().epoch_held) + 1;
-            h.command.arg0 = context.plan.options.takeover_code;
-            h.command.arg1 = context.plan.secret;
-            h.claim_sent = true;
-            break;
         case ask_before:
         case ask_after:
             h.command.arg0 = has_identity(context.status().version) ? h.grant : 0;
@@ -80,14 +73,6 @@ HandOffAction send_step(StepContext& context, const StepRow& row) {
             break;
     }
     return send(context, row.command);
-}
-
-// ", held by dispatcher 0x1234ABCD", or nothing if the cell shows no lease.
-std::string holder(const Status& status) {
-    if (status.owner_held == 0) return {};
-    char text[48];
-    std::snprintf(text, sizeof text, ", held by dispatcher 0x%08X", status.owner_held);
-    return text;
 }
 
 // After the end of the job: Reset and RELEASE. Nothing here changes the verdict.
@@ -129,8 +114,10 @@ HandOffAction clear_other_job(StepContext& context) {
         return send(context, CellCommand::cancel);
     }
     context.h.fault = DeviceFault::busy;
-    return withdraw(context, "the cell is busy with job " + to_text(status.job_id) + "; nothing was started",
-                    "Try again when it has ended.");
+    return withdraw(context,
+                    "the cell has job " + to_text(status.job_id) + " of another dispatcher, which is " +
+                        name(status.job_state) + ": " + foam_in(status.state),
+                    "Try again when it has ended: " + cell_command(context, "status"));
 }
 
 }  // namespace
@@ -147,6 +134,8 @@ HandOffAction enter(StepContext& context, HandOffStep step) {
         case ask_file:
             if (!has_identity(context.status().version)) return enter(context, make_ready);
             return send_step(context, *row_of(ask_file));
+        case claim:
+            return send_claim(context);
         case make_ready:
             // A decision to withdraw holds also after a lost link.
             if (!h.why.empty()) return enter(context, h.is_stored ? cancel : release);
@@ -202,10 +191,10 @@ HandOffAction make_idle(StepContext& context) {
     const bool foreign = status.job_id != Uuid{} && status.job_id != context.job_id();
     if (h.ready_commands > most_ready_commands) {
         h.fault = DeviceFault::busy;
-        return withdraw(context,
-                        std::string("the cell acknowledges ") + name(h.command.command) + " and stays in " +
-                            name(status.state) + "; nothing was started",
-                        "Look at the cell.");
+        return withdraw(
+            context,
+            std::string("the cell acknowledges ") + name(h.command.command) + " and stays in " + name(status.state),
+            "Look at the panel of the cell for a fault, then dispatch again.");
     }
     if (foreign) return clear_other_job(context);
     switch (status.state) {
@@ -224,8 +213,9 @@ HandOffAction make_idle(StepContext& context) {
     }
     if (context.now_s - context.h.step_since_s > context.timings().answer_s) {
         context.h.fault = DeviceFault::busy;
-        return withdraw(context, std::string("the cell stays in ") + name(status.state) + "; nothing was started",
-                        "Try again when it is idle.");
+        return withdraw(
+            context, std::string("the cell stays in ") + name(status.state) + ": " + foam_in(status.state),
+            "Look at the panel of the cell. Dispatch again when it is in Idle: " + cell_command(context, "status"));
     }
     return pause(context);
 }
@@ -318,7 +308,8 @@ HandOffAction acknowledged(StepContext& context) {
         case prepare:
             if (context.status().token != 0) break;
             if (++h.tokenless <= most_tokenless) return pause(context);
-            return withdraw(context, "the cell acknowledges PREPARE and gives no token", "Look at the cell.");
+            return withdraw(context, "the cell acknowledges PREPARE and gives no token",
+                            "Tell the integrator of the cell.");
         case start:
             h.start_acknowledged = true;
             break;
@@ -338,28 +329,6 @@ HandOffAction acknowledged(StepContext& context) {
     if (row.message[0] != '\0') context.report(row.message);
     return enter(context, row.next);
 }
-
-namespace {
-
-HandOffAction claim_refused(StepContext& context, AckResult result, const std::string& answer) {
-    HandOff& h = context.h;
-    const bool is_busy = result == AckResult::lease_busy;
-    if (!h.start_sent && !h.is_stored && !h.is_started) {
-        if (result == AckResult::stale_epoch) return fence(context, "another dispatcher claimed the cell first");
-        return fail(context, is_busy ? DeviceFault::busy : DeviceFault::refused,
-                    "the cell cannot be claimed: " + answer + (is_busy ? holder(context.status()) : "") +
-                        "; nothing was started",
-                    is_busy ? "Try again when the other one has finished." : "");
-    }
-    h.is_owner = h.claim_sent = false;
-    if (!is_busy) return give_up(context, "the cell cannot be claimed again: " + answer);
-    // The lease of the other one has a higher epoch than our START: that is void, and QUERY needs no lease.
-    h.is_taken_over = true;
-    context.report("the cell was taken over by another dispatcher" + holder(context.status()) + "; querying the job");
-    return enter(context, ask_before);
-}
-
-}  // namespace
 
 HandOffAction refused(StepContext& context, AckResult result) {
     HandOff& h = context.h;

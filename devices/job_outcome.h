@@ -29,6 +29,7 @@ struct JobOutcome {
     bool cancelled = false;               // ended because the caller asked to stop
     bool carved_before = false;           // not started, because the cell has started a job with this file before
     bool carved_complete = false;         // and the last of these ended complete
+    bool may_be_carved = false;           // not started, because whether the cell has carved this file is UNKNOWN
     bool store_is_lost = false;           // CELL_STORE_LOST
     std::uint16_t cell_id = 0;
     bool simulated = false;
@@ -38,8 +39,10 @@ struct JobOutcome {
     std::string to_do;             // one sentence, may be empty
     std::vector<std::string> log;  // the steps, one line each
 
+    // Nothing is left to look at: not if the cell lost its memory, whatever became of the job.
     bool is_complete() const {
-        return verdict == StartVerdict::started && job_state == JobState::ended && job_result == JobResult::complete;
+        return verdict == StartVerdict::started && job_state == JobState::ended && job_result == JobResult::complete &&
+               !store_is_lost;
     }
 };
 

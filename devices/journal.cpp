@@ -1,6 +1,8 @@
 // SQLite with a write-ahead log and synchronous=FULL: a commit ends with fdatasync() of the log. flock() on a file
-// beside it, because SQLite lets a second writer wait and not refuse. All rows are read and verified when it is opened,
-// O(rows), and kept.
+// beside it, because SQLite lets a second writer wait and not refuse. That file also holds the number of rows: it is
+// written after the sync of the row and never synced itself, so that a loss of power leaves it at most too small. A new
+// journal is made aside with its tables and renamed: one without tables has lost its log. All rows are read and
+// verified when it is opened, O(rows), and kept.
 
 #include "devices/journal.h"
 
@@ -10,10 +12,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
+#include <charconv>
 #include <chrono>
+#include <cstdio>
 
 #include "base/error.h"
+#include "base/file.h"
+#include "base/regular_file.h"
 #include "base/sha256.h"
 
 namespace qchopper {
@@ -52,8 +57,10 @@ std::string first_hash(const JournalCell& cell) {
 
 class Database {
  public:
-    Database(const fs::path& folder, int flags) : folder_(folder) {
-        if (sqlite3_open_v2(file_in(folder).c_str(), &handle_, flags, nullptr) != SQLITE_OK) {
+    Database(const fs::path& folder, int flags) : Database(folder, file_in(folder), flags) {}
+    Database(const fs::path& folder, const fs::path& file, int flags) : folder_(folder) {
+        check_regular_file(file);
+        if (sqlite3_open_v2(file.c_str(), &handle_, flags, nullptr) != SQLITE_OK) {
             const std::string why = sqlite3_errmsg(handle_);
             sqlite3_close(handle_);
             throw InputError(InputFault::create, file_in(folder).string() + ": " + why,
@@ -149,7 +156,23 @@ JournalRow checked_row(Statement& statement, const fs::path& folder, std::int64_
     return row;
 }
 
+// 0 if it is not known.
+std::size_t counted_rows(const fs::path& folder) {
+    try {
+        const Bytes bytes = read_file(folder / "lock", settings_limit);
+        std::size_t rows = 0;
+        std::from_chars(reinterpret_cast<const char*>(bytes.data()),
+                        reinterpret_cast<const char*>(bytes.data() + bytes.size()), rows);
+        return rows;
+    } catch (const InputError&) {
+        return 0;
+    }
+}
+
 JournalContent read_content(Database& database) {
+    if (!has_tables(database))
+        refuse_damaged(database.folder(), "it is no journal, or its log journal.sqlite-wal is gone");
+    const std::size_t counted = counted_rows(database.folder());  // read first: a writer may add rows meanwhile
     JournalContent content;
     content.cell = read_cell_of(database);
     content.hash = first_hash(content.cell);
@@ -157,6 +180,12 @@ JournalContent read_content(Database& database) {
     while (statement.step()) {
         const auto number = static_cast<std::int64_t>(content.rows.size()) + 1;
         content.rows.push_back(checked_row(statement, database.folder(), number, content.hash));
+    }
+    if (content.rows.size() < counted) {
+        refuse_damaged(database.folder(), "row " + std::to_string(content.rows.size() + 1) + " is missing, and " +
+                                              std::to_string(counted) +
+                                              " were written: its log journal.sqlite-wal is gone, or an older copy was "
+                                              "put back");
     }
     return content;
 }
@@ -209,6 +238,14 @@ class WriterLock {
     WriterLock(const WriterLock&) = delete;
     WriterLock& operator=(const WriterLock&) = delete;
 
+    // In one write, and of a fixed length. A number that cannot be written stays too small, which does no harm.
+    void note_rows(std::size_t rows) const {
+        char text[24];
+        const int length = std::snprintf(text, sizeof text, "%020zu\n", rows);
+        const ssize_t ignored = ::pwrite(descriptor_, text, static_cast<std::size_t>(length), 0);
+        static_cast<void>(ignored);
+    }
+
  private:
     int descriptor_;
 };
@@ -218,6 +255,22 @@ void sync_folder(const fs::path& folder) {
     if (descriptor < 0) return;
     ::fsync(descriptor);
     ::close(descriptor);
+}
+
+void make_journal(const fs::path& folder, const JournalCell& cell) {
+    const fs::path aside = folder / "journal.sqlite.new";
+    std::error_code error;
+    for (const char* rest : {"", "-journal"}) fs::remove(aside.string() + rest, error);  // of one that was killed
+    for (const char* rest : {"-wal", "-shm"}) fs::remove(file_in(folder).string() + rest, error);  // of one removed
+    {
+        Database database(folder, aside, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX);
+        database.run("PRAGMA synchronous=FULL");
+        make_tables(database, cell);
+    }
+    ::chmod(aside.c_str(), 0600);
+    fs::rename(aside, file_in(folder), error);
+    if (error) refuse_write(folder, error.message());
+    sync_folder(folder);
 }
 
 const fs::path& made(const fs::path& folder) {
@@ -246,8 +299,17 @@ std::string folder_name(const JournalCell& cell) {
 
 struct Journal::Store {
     Store(const fs::path& folder, const JournalCell& cell)
-        : lock(made(folder), cell),
-          database(folder, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX) {}
+        : lock(made(folder), cell), database(with_journal(folder, cell), SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX) {}
+    // Under the lock.
+    static const fs::path& with_journal(const fs::path& folder, const JournalCell& cell) {
+        std::error_code error;
+        if (fs::exists(fs::symlink_status(file_in(folder), error))) return folder;
+        if (const std::size_t rows = counted_rows(folder); rows > 0) {
+            refuse_damaged(folder, "it is gone, and " + std::to_string(rows) + " rows were written");
+        }
+        make_journal(folder, cell);
+        return folder;
+    }
     WriterLock lock;
     Database database;
     JournalContent content;
@@ -260,7 +322,6 @@ JournalContent read_journal(const fs::path& folder) {
                          "It is made by the first dispatch to the cell.");
     }
     Database database(folder, SQLITE_OPEN_READONLY | SQLITE_OPEN_NOMUTEX);
-    if (!has_tables(database)) refuse_damaged(folder, "it is no journal");
     return read_content(database);
 }
 
@@ -268,11 +329,6 @@ Journal::Journal(const fs::path& folder, const JournalCell& cell) : store_(std::
     Database& database = store_->database;
     database.run("PRAGMA journal_mode=WAL");
     database.run("PRAGMA synchronous=FULL");
-    ::chmod(file_in(folder).c_str(), 0600);
-    if (!has_tables(database)) {
-        make_tables(database, cell);
-        sync_folder(folder);
-    }
     store_->content = read_content(database);
     if (store_->content.cell != cell) {
         throw InputError(InputFault::config,
@@ -303,6 +359,7 @@ void Journal::append(const JournalEvent& event) {
     statement.step();
     content.hash = hash;
     content.rows.push_back(std::move(row));
+    store_->lock.note_rows(content.rows.size());
 }
 
 }  // namespace qchopper

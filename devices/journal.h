@@ -3,8 +3,8 @@
 //
 // A row that append() has written is on the disk when it returns. Rows are hash-chained: each holds the SHA-256 over
 // itself and the hash of the row before, the first over the cell the journal is of. A changed, missing or inserted row
-// is found; rows that were cut off at the end are not. One process writes; others may read meanwhile
-// (tests/devices/journal_test.cpp).
+// is found; rows that are missing at the end are found by their number, which stands in the file `lock` beside the
+// journal. One process writes; others may read meanwhile (tests/devices/journal_test.cpp).
 
 #pragma once
 
@@ -42,14 +42,15 @@ struct JournalContent {
 };
 
 // Reads and verifies the journal in `folder`, also while another process writes it. Throws InputError: missing if there
-// is none, config with the number of the row if the chain or a row is damaged.
+// is none or it is no regular file, config with the number of the row if the chain or a row is damaged or missing.
 JournalContent read_journal(const std::filesystem::path& folder);
 
 // The only writer.
 class Journal {
  public:
     // Opens the journal in `folder`, or makes both. Throws InputError: busy if another process writes it, config if it
-    // is damaged or the journal of another cell, create or io if it cannot be made or read.
+    // is damaged as for read_journal() or the journal of another cell, missing if it is no regular file, create or io
+    // if it cannot be made or read.
     Journal(const std::filesystem::path& folder, const JournalCell& cell);
     ~Journal();
     Journal(const Journal&) = delete;

@@ -89,8 +89,9 @@ void note_of_job(JournalJob& job, const JournalEvent& event, std::uint32_t boots
 }  // namespace
 
 const JournalJob* JournalHistory::last_start_of(const Sha256& file) const {
-    const auto found = std::find_if(jobs.rbegin(), jobs.rend(),
-                                    [&](const JournalJob& job) { return job.is_started && job.file_sha256 == file; });
+    const auto found = std::find_if(jobs.rbegin(), jobs.rend(), [&](const JournalJob& job) {
+        return job.may_have_started() && job.file_sha256 == file;
+    });
     return found == jobs.rend() ? nullptr : &*found;
 }
 

@@ -1,7 +1,7 @@
 // What a journal says about its cell and its jobs, for the next dispatcher.
 //
-// A pure function of the rows (tests/devices/journal_history_test.cpp). Where rows were lost at the end it errs to the
-// safe side as long as the intent of a START is there: then the START may have arrived.
+// A pure function of the rows (tests/devices/journal_history_test.cpp). It says what the rows say: where the last ones
+// were lost, an open job may have started all the same, and the numbers are too low. adopt_job() reckons with that.
 
 #pragma once
 
@@ -28,11 +28,12 @@ struct JournalJob {
     bool has_ended = false;  // ended or aborted in the cell
     JobResult job_result = JobResult::none;
     std::optional<StartVerdict> verdict;  // of the last hand-off that came to its end
-    bool is_settled = false;              // the cell lost its memory of it, and the operator has looked
+    bool is_settled = false;              // it was open when the cell lost its memory: what became of it is UNKNOWN
     bool is_forgotten = false;            // it is older than the memory of the cell
 
     bool may_have_started() const {
-        return is_started || (start_may_have_arrived && verdict != StartVerdict::not_started);
+        return is_started || is_settled || verdict == StartVerdict::unknown ||
+               (start_may_have_arrived && verdict != StartVerdict::not_started);
     }
     bool is_complete() const { return has_ended && job_result == JobResult::complete; }
     // Its hand-off did not come to an end: the cell is to be asked.
@@ -50,7 +51,7 @@ struct JournalHistory {
     std::uint32_t seq = 0;  // the last CMD_SEQ of that owner
     std::vector<JournalJob> jobs;
 
-    // The last job with this file that has started; nullptr if none.
+    // The last job with this file that has started or may have; nullptr if none.
     const JournalJob* last_start_of(const Sha256& file) const;
 };
 

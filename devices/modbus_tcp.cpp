@@ -65,6 +65,24 @@ Endpoints resolve(const std::string& host, std::uint16_t port, int flags) {
     return endpoints;
 }
 
+// In a thread of its own, which is left to end by itself where a name server takes too long.
+std::future<Endpoints> resolve_aside(const TcpAddress& address) {
+    auto answer = std::make_shared<std::promise<Endpoints>>();
+    std::future<Endpoints> future = answer->get_future();
+    std::thread([answer, where = address] { answer->set_value(resolve(where.host, where.port, 0)); }).detach();
+    return future;
+}
+
+// "127.0.0.1:15020", "[::1]:15020"; "" if it is neither.
+std::string numeric_text(const Endpoint& endpoint) {
+    char host[NI_MAXHOST];
+    char port[NI_MAXSERV];
+    const auto* address = reinterpret_cast<const sockaddr*>(&endpoint.address);
+    const int flags = NI_NUMERICHOST | NI_NUMERICSERV;
+    if (getnameinfo(address, endpoint.length, host, sizeof host, port, sizeof port, flags) != 0) return {};
+    return (endpoint.family == AF_INET6 ? "[" + std::string(host) + "]" : std::string(host)) + ":" + port;
+}
+
 const char* const not_in_time = "no answer in time";
 
 BusAnswer wrong_count() {
@@ -117,13 +135,10 @@ struct ModbusTcpBus::Link {
         }
     }
 
-    // A name server may take much longer than the deadline: then its thread is left to end by itself.
     Endpoints find(Deadline deadline) {
         Endpoints numeric = resolve(address.host, address.port, AI_NUMERICHOST);
         if (numeric.fault == 0) return numeric;
-        auto answer = std::make_shared<std::promise<Endpoints>>();
-        std::future<Endpoints> future = answer->get_future();
-        std::thread([answer, where = address] { answer->set_value(resolve(where.host, where.port, 0)); }).detach();
+        std::future<Endpoints> future = resolve_aside(address);
         for (;;) {
             const Deadline until = bounded(deadline);
             const auto slice = std::chrono::milliseconds(slice_ms(until));
@@ -167,7 +182,9 @@ struct ModbusTcpBus::Link {
         std::string why = not_in_time;
         for (const Endpoint& endpoint : endpoints.list) {
             fd = connect_one(endpoint, deadline, why);
-            if (fd >= 0) return {};
+            if (fd < 0) continue;
+            peer = numeric_text(endpoint);
+            return {};
         }
         return why;
     }
@@ -253,6 +270,7 @@ struct ModbusTcpBus::Link {
     std::uint8_t unit;
     ModbusTimings timings;
     int fd = -1;
+    std::string peer;  // of the last connection
     std::uint16_t transaction = 0;
     const std::atomic<bool>* cancelled = nullptr;
     double leave_s = 0;
@@ -268,6 +286,10 @@ void ModbusTcpBus::connect() {
     if (why.empty()) return;
     throw DeviceError(DeviceFault::unreachable, "no cell at " + link_->text() + ": " + why + "; nothing was sent",
                       "Check that the cell is switched on and that this is its address.");
+}
+
+std::string ModbusTcpBus::peer() const {
+    return link_->peer;
 }
 
 BusAnswer ModbusTcpBus::read_input(std::uint16_t address, std::uint16_t count) {
@@ -294,6 +316,18 @@ void ModbusTcpBus::leave_when(const std::atomic<bool>* cancelled, double within_
 
 double ModbusTcpBus::leaving_for_s() const {
     return link_->leaving_for_s();
+}
+
+std::vector<std::string> numeric_addresses(const TcpAddress& address, double within_s) {
+    Endpoints found = resolve(address.host, address.port, AI_NUMERICHOST);
+    if (found.fault != 0) {
+        std::future<Endpoints> future = resolve_aside(address);
+        if (future.wait_until(after(within_s)) != std::future_status::ready) return {};
+        found = future.get();
+    }
+    std::vector<std::string> texts;
+    for (const Endpoint& endpoint : found.list) texts.push_back(numeric_text(endpoint));
+    return texts;
 }
 
 TcpAddress parse_tcp_address(const std::string& text) {

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "devices/bus.h"
 
@@ -22,6 +23,10 @@ struct TcpAddress {
 
 // "127.0.0.1:15020", "cell-3:502", "[::1]:502"; without a port 502. Throws InputError (use) if `text` is no address.
 TcpAddress parse_tcp_address(const std::string& text);
+
+// The numeric addresses that a name stands for, "127.0.0.1:15020", in the order in which they are tried; those that
+// are numeric already are written in one form. Empty if the name is not resolved within so many seconds.
+std::vector<std::string> numeric_addresses(const TcpAddress& address, double within_s = 2);
 
 // Upper bounds in seconds.
 struct ModbusTimings {
@@ -40,6 +45,8 @@ class ModbusTcpBus : public RegisterBus {
 
     // Connects now. Throws DeviceError (unreachable) within connect_s.
     void connect();
+    // The numeric address to which the last connection was made, as by numeric_addresses(); "" before the first.
+    std::string peer() const;
 
     BusAnswer read_input(std::uint16_t address, std::uint16_t count) override;
     BusAnswer read_holding(std::uint16_t address, std::uint16_t count) override;

@@ -123,7 +123,10 @@ std::string print_registers() {
         "3, 4 and 16 only. Addresses are 0-based. Numbers of 32 and 64 bits have the high word first; text has two "
         "characters a register, the first in the high byte, padded with zero bytes; there are no floats. CRC-32 is "
         "that of IEEE 802.3 over the bytes in wire order. Reads stay inside one block; holding registers read as "
-        "zero. Blocks of zeros do nothing.\n\nVersion 1.1 added IDENTITY, the command QUERY_FILE, GRANT_EPOCH of "
+        "zero. Blocks of zeros do nothing.\n\nReserved registers are written as 0. What a cell publishes there is "
+        "ignored: a later version may use it. A cell does nothing of a COMMAND or TICKET with another value there, "
+        "because it may ask for more than the cell knows: it answers UNKNOWN_CMD or TICKET_FIELD, with the address in "
+        "ACK_DETAIL.\n\nVersion 1.1 added IDENTITY, the command QUERY_FILE, GRANT_EPOCH of "
         "RESULT and the fields PART and PARTS of TICKET. A cell of 1.0 answers the read of IDENTITY with exception 2 "
         "and QUERY_FILE with "
         "UNKNOWN_CMD, and wants zeros in PART and PARTS.\n";

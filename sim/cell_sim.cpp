@@ -338,8 +338,9 @@ std::int64_t CellSim::steady_ms() const {
 }
 
 // In steps, so that what is due on the way is done in its order.
-void CellSim::pass(double seconds) {
+void CellSim::pass(double seconds, const std::function<bool()>& is_stopped) {
     for (auto left_ms = static_cast<std::int64_t>(1000 * seconds); left_ms > 0; left_ms -= clock_step_ms) {
+        if (is_stopped && is_stopped()) return;
         const std::lock_guard lock(parts_->mutex);
         parts_->clock.pass(std::min(left_ms, clock_step_ms));
         parts_->tick_now();

@@ -56,7 +56,8 @@ class CellSim {
     bool holds(std::size_t choice) const;  // see panel.h
     bool is_clock_virtual() const;
     std::int64_t steady_ms() const;
-    void pass(double seconds);  // precondition: the clock is virtual
+    // Precondition: the clock is virtual. Ends early once `is_stopped` says so; it may be empty.
+    void pass(double seconds, const std::function<bool()>& is_stopped = {});
 
  private:
     struct Parts;

@@ -426,7 +426,10 @@ void receive_command(CellState& cell, std::span<const std::uint16_t> block, Cell
         cell.ack = last;
         return;
     }
-    const cell::Answer answer = cell::execute(cell, command, now, hooks);
+    // What a later version of the map asks for there is not done by half.
+    const std::optional<std::uint16_t> used = used_reserved_of_command(block);
+    const cell::Answer answer =
+        used ? cell::Answer{AckResult::unknown_cmd, *used} : cell::execute(cell, command, now, hooks);
     const Acknowledgement ack{command.owner, command.seq, crc, command.command, answer.result, answer.detail};
     cell::keep_acknowledgement(cell, ack);
     cell.ack = ack;

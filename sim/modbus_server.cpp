@@ -48,8 +48,9 @@ struct Connection {
     std::string peer;
     Bytes input;
     Bytes output;
-    std::deque<Held> held;  // after what stands in `output`
-    bool ends = false;      // to be closed as soon as the output is sent
+    std::deque<Held> held;           // after what stands in `output`
+    bool ends = false;               // to be closed as soon as the output is sent
+    Clock::time_point last_request;  // when the last whole request came, or the connection began
     Clock::time_point last_byte;
     Clock::time_point frame_began;   // of the frame that is not complete yet
     Clock::time_point output_moved;  // when something was last sent, or the output began to fill
@@ -176,7 +177,8 @@ struct ModbusServer::Loop {
         out.insert(out.end(), pdu.begin(), pdu.end());
         connection.input.erase(connection.input.begin(),
                                connection.input.begin() + static_cast<std::ptrdiff_t>(6 + length));
-        connection.frame_began = Clock::now();
+        connection.last_request = Clock::now();
+        connection.frame_began = connection.last_request;
         if (pdu.empty()) return hold(connection, {{0, {}, true}});
         hold(connection, options.deliver ? options.deliver(std::move(out)) : std::vector<Delivery>{{0, out, false}});
     }
@@ -239,11 +241,28 @@ struct ModbusServer::Loop {
         }
     }
 
-    bool may_stay(const std::string& peer) const {
+    bool may_stay(const std::string& peer) {
         const bool is_listed = std::find(options.allow.begin(), options.allow.end(), peer) != options.allow.end();
         if (!is_listed && !is_loopback(peer)) return false;
         // With a list, the last place is kept for those on it.
-        return connections.size() + (!options.allow.empty() && !is_listed ? 1 : 0) < most_connections;
+        const std::size_t places = most_connections - (!options.allow.empty() && !is_listed ? 1 : 0);
+        return connections.size() < places || make_room(connections.size() + 1 - places);
+    }
+
+    // A connection without a whole request for frame_s gives up its place to one that comes; of several the one that
+    // has been without for the longest. None does unless there are enough of them.
+    bool make_room(std::size_t wanted) {
+        const auto now = Clock::now();
+        const auto yields = [&](const Connection& one) { return since(one.last_request, now) > options.frame_s; };
+        if (static_cast<std::size_t>(std::count_if(connections.begin(), connections.end(), yields)) < wanted) {
+            return false;
+        }
+        for (; wanted > 0; --wanted) {
+            const auto longest = std::ranges::min_element(connections, {}, &Connection::last_request);
+            report(longest->peer + " has sent no whole request for too long; closed, because another needs its place");
+            drop(longest);
+        }
+        return true;
     }
 
     // Counted and reported together, so that repeated attempts do not fill the log.
@@ -289,7 +308,7 @@ struct ModbusServer::Loop {
             const int on = 1;
             setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
             const auto now = Clock::now();
-            connections.push_back({fd, peer, {}, {}, {}, false, now, now, now});
+            connections.push_back({fd, peer, {}, {}, {}, false, now, now, now, now});
         }
     }
 

@@ -1,8 +1,9 @@
 // A strict Modbus TCP server: passes the PDU of each request to a function and sends its answer.
 //
 // A slow client never delays another. A connection is closed for a protocol id other than 0, a length outside 2..254, a
-// frame not complete after frame_s, an answer not read for drain_s, nothing received for idle_s, and if it is the 9th
-// (tests/sim/server_test.cpp). Memory is bounded for each connection.
+// frame not complete after frame_s, an answer not read for drain_s, nothing received for idle_s, and if it is the 9th;
+// but one without a whole request for frame_s, since its last or its beginning, is closed in place of the 9th: of
+// several the one that has been without for the longest. Memory is bounded for each connection.
 
 #pragma once
 

@@ -25,7 +25,7 @@ bool ScriptRun::is_done(const ScriptLine& line) {
             return true;
         case Act::wait: {
             if (cell_.is_clock_virtual()) {
-                cell_.pass(line.number);
+                cell_.pass(line.number, is_stopped_);
                 return true;
             }
             const std::int64_t now_ms = cell_.steady_ms();
@@ -42,7 +42,7 @@ bool ScriptRun::is_done(const ScriptLine& line) {
 }
 
 bool ScriptRun::step() {
-    while (!lines_.empty()) {
+    while (!lines_.empty() && !(is_stopped_ && is_stopped_())) {
         const ScriptLine line = lines_.front();
         if (line.act == Act::quit) return false;
         if (!is_done(line)) return true;

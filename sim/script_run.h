@@ -15,8 +15,10 @@ namespace qchopper {
 
 class ScriptRun {
  public:
-    // `show` prints what the command show asks for.
-    ScriptRun(CellSim& cell, std::function<void(const std::string&)> show) : cell_(cell), show_(std::move(show)) {}
+    // `show` prints what the command show asks for. Once `is_stopped` says so, step() does no more, also in the middle
+    // of a wait on a virtual clock; it may be empty.
+    ScriptRun(CellSim& cell, std::function<void(const std::string&)> show, std::function<bool()> is_stopped = {})
+        : cell_(cell), show_(std::move(show)), is_stopped_(std::move(is_stopped)) {}
     void add(const ScriptLine& line) { lines_.push_back(line); }
     void add(const std::vector<ScriptLine>& lines) { lines_.insert(lines_.end(), lines.begin(), lines.end()); }
     bool is_idle() const { return lines_.empty(); }
@@ -30,6 +32,7 @@ class ScriptRun {
 
     CellSim& cell_;
     std::function<void(const std::string&)> show_;
+    std::function<bool()> is_stopped_;
     std::deque<ScriptLine> lines_;
     std::int64_t waits_until_ms_ = -1;  // of the cell's clock; below 0: the first line has not begun to wait
 };

@@ -25,18 +25,6 @@ std::uint16_t axis_address(const char* vector, int axis) {
     return address_of(ticket_block, name.c_str());
 }
 
-// The address of the first reserved register between two fields that is not zero.
-std::optional<std::uint16_t> nonzero_reserved(std::span<const std::uint16_t> block, const char* from, const char* to) {
-    for (const Field& field : ticket_block.fields) {
-        if (std::string(field.name) != "reserved") continue;
-        if (field.address < address_of(ticket_block, from) || field.address > address_of(ticket_block, to)) continue;
-        for (std::uint16_t at = field.address; at < field.address + field.count; ++at) {
-            if (block[at - ticket_block.base] != 0) return at;
-        }
-    }
-    return std::nullopt;
-}
-
 // Characters behind the first NUL, where the text ends.
 bool has_hidden_text(const std::string& text, const Field& field, std::span<const std::uint16_t> block) {
     std::size_t characters = 0;
@@ -88,21 +76,23 @@ std::optional<TicketFault> wrong_field(const WireTicket& t, std::span<const std:
     if (is_divided && (t.part < 1 || t.part > t.parts)) return fault_in("PART");
     if (!is_divided && t.part != 0) return fault_in("PART");
     if (!is_divided && t.parts != 0) return fault_in("PARTS");
-    if (const auto used = nonzero_reserved(block, "REQUIREMENTS", "CELL_ID")) return fault_at(*used);
+    const std::optional<std::uint16_t> used = used_reserved_of_ticket(block);
+    if (used && *used < address_of(ticket_block, "CELL_ID")) return fault_at(*used);
     if (t.cell_id != limits.cell_id) return fault_in("CELL_ID");
     if (t.made_for != 1) return fault_in("MADE_FOR");  // not for a real cell: this one is simulated
-    if (const auto used = nonzero_reserved(block, "KEY_ID", "CRC")) return fault_at(*used);
+    if (used) return fault_at(*used);
     return std::nullopt;
 }
 
 std::optional<TicketFault> does_not_fit(const WireTicket& t, const CellLimits& limits) {
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
-        if (t.box_min[a] < 100 * limits.reach.min[axis])
+        // Rounded as the ticket is.
+        if (t.box_min[a] < std::round(100 * limits.reach.min[axis]))
             return TicketFault{AckResult::envelope, axis_address("BOX_MIN", axis)};
-        if (t.box_max[a] > 100 * limits.reach.max[axis])
+        if (t.box_max[a] > std::round(100 * limits.reach.max[axis]))
             return TicketFault{AckResult::envelope, axis_address("BOX_MAX", axis)};
-        if (t.stock[a] > 100 * limits.max_stock[axis])
+        if (t.stock[a] > std::round(100 * limits.max_stock[axis]))
             return TicketFault{AckResult::envelope, axis_address("STOCK", axis)};
         // In 64 bits: two opposite ends of the range do not fit into 32.
         if (std::int64_t{t.box_max[a]} - t.box_min[a] > t.stock[a]) {

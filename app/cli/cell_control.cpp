@@ -13,6 +13,7 @@
 #include "cam/cell/cell.h"
 #include "devices/first_contact.h"
 #include "devices/journal_history.h"
+#include "devices/operator_words.h"
 #include "devices/request_socket.h"
 #include "devices/seen_store.h"
 
@@ -26,17 +27,34 @@ constexpr const char* consent_needed = "Nothing moves before the operator at the
 struct CellAction {
     const char* name;
     CellCommand command;
-    const char* note;
 };
 constexpr CellAction actions[] = {
-    {"hold", CellCommand::hold, ""},
-    {"unhold", CellCommand::unhold, consent_needed},
-    {"stop", CellCommand::stop, no_emergency_stop},
-    {"abort", CellCommand::abort, no_emergency_stop},
-    {"clear", CellCommand::clear, consent_needed},
-    {"reset", CellCommand::reset, consent_needed},
-    {"take-over", CellCommand::claim, "The other dispatcher has lost its lease; a job that it started runs on."},
+    {"hold", CellCommand::hold},       {"unhold", CellCommand::unhold}, {"stop", CellCommand::stop},
+    {"abort", CellCommand::abort},     {"clear", CellCommand::clear},   {"reset", CellCommand::reset},
+    {"take-over", CellCommand::claim},
 };
+
+// What the operator must know of the command beside its end. `before` is STATUS as it was then, `own` our OWNER number
+// of an earlier dispatch, 0 without one.
+std::string note_of(CellCommand command, ControlEnd::Kind end, const Status& before, std::uint32_t own) {
+    const bool is_done = end == ControlEnd::Kind::done;
+    switch (command) {
+        case CellCommand::stop:
+        case CellCommand::abort:
+            return no_emergency_stop;
+        case CellCommand::unhold:
+        case CellCommand::clear:
+            return is_done ? "" : consent_needed;
+        case CellCommand::claim:
+            if (!is_done) return {};
+            if (before.owner_held == 0) return "No dispatcher had a lease of the cell.";
+            if (before.owner_held == own) return "The lease was that of an earlier dispatch of this computer.";
+            return "The lease of " + dispatcher_name(before.owner_held) +
+                   " has ended; a job that it started runs on: qchopper cell stop ends it.";
+        default:
+            return {};
+    }
+}
 
 struct Reached {
     explicit Reached(const std::string& to) : endpoint(to), bus(parse_tcp_address(to)) {}
@@ -53,26 +71,24 @@ std::unique_ptr<Reached> reach(const CellControlArguments& arguments, Terminal& 
     const std::optional<std::string> to = arguments.to ? arguments.to : cell ? cell->link.to : std::nullopt;
     if (!to) throw InputError(InputFault::use, "no cell address is known", "pass --to HOST:PORT, or --cell FILE");
     auto reached = std::make_unique<Reached>(*to);
-    const std::optional<Status> status = first_status(reached->bus, *to, terminal);
-    if (!status) return nullptr;
-    reached->status = *status;
-    const bool is_simulated = status->has(flag::simulated);
-    if (cell && status->cell_id != cell->id && !(is_simulated && status->cell_id == any_cell_id)) {
+    reached->status = first_status(reached->bus, *to, terminal);
+    const Status& status = reached->status;
+    const bool is_simulated = status.has(flag::simulated);
+    if (cell && status.cell_id != cell->id && !(is_simulated && status.cell_id == any_cell_id)) {
         throw DeviceError(DeviceFault::refused,
-                          "this is cell " + std::to_string(status->cell_id) + ", not cell " + std::to_string(cell->id) +
+                          "this is cell " + std::to_string(status.cell_id) + ", not cell " + std::to_string(cell->id) +
                               "; nothing was sent",
                           "Check the address, or the cell id in the cell file.");
     }
-    reached->cell = journal_cell(status->cell_id, is_simulated, *to);
+    reached->cell = journal_cell(status.cell_id, is_simulated, reached->bus.peer());
     reached->folder = journal_folder(reached->cell);
     return reached;
 }
 
-CellControlReport report_of(const CellControlArguments& arguments, const Reached& reached, const char* note) {
+CellControlReport report_of(const CellControlArguments& arguments, const Reached& reached) {
     CellControlReport report;
     report.endpoint = reached.endpoint;
     report.action = arguments.action;
-    report.note = note;
     report.simulated = reached.status.has(flag::simulated);
     report.state = name(reached.status.state);
     return report;
@@ -87,6 +103,7 @@ int show_end(CellControlReport report, const ControlEnd& end, Terminal& terminal
     constexpr const char* ends[] = {"done", "refused", "unknown"};  // in the order of ControlEnd::Kind
     report.end = ends[static_cast<std::size_t>(end.kind)];
     report.why = end.why;
+    report.to_do = end.to_do;
     if (end.result != AckResult::none) report.result = name(end.result);
     report.state = name(end.status.state);
     return show(report, terminal);
@@ -114,18 +131,20 @@ int accept_store(const CellControlArguments& arguments, Reached& reached, Termin
     if (!now) throw DeviceError(DeviceFault::protocol, "the IDENTITY of the cell cannot be read", "Try again.");
     Journal journal(reached.folder, reached.cell);
     const JournalHistory history = history_of(journal.content().rows);
-    CellControlReport report = report_of(arguments, reached, "");
+    CellControlReport report = report_of(arguments, reached);
     const std::string loss = history.store ? loss_between(*history.store, *now) : "the journal knows no memory of it";
     if (loss.empty() && !history.store_is_lost) {
         report.end = "done";
         report.why = "the cell has the memory that the journal knows; nothing was changed";
         return show(report, terminal);
     }
-    for (const JournalJob& job : history.jobs) {
-        const std::string open = job.is_open() ? left_open(job) : "";
-        if (!open.empty())
-            terminal.message(open + " No dispatch will ask for it again" +
-                             (job.is_started ? "." : ", and the next one starts its piece anew."));
+    for (JournalJob job : history.jobs) {
+        if (!job.is_open()) continue;
+        job.is_settled = true;
+        terminal.warn(left_open(job) +
+                      " With its memory gone nothing can be asked any more: look for the piece or a "
+                      "block that is cut. The next dispatch starts this file only with --again.");
+        report.note = "What was open is not asked for any more, and carved only with --again.";
     }
     const bool is_real = !reached.status.has(flag::simulated);
     if (is_real && !arguments.yes &&
@@ -149,10 +168,11 @@ int ask_running(const CellControlArguments& arguments, const CellAction& action,
     if (action.command != CellCommand::unhold && action.command != CellCommand::clear) throw busy;
     constexpr double margin_s = 15;
     const std::string answer = ask_dispatcher(reached.folder, action.command, HandOffTimings{}.consent_s + margin_s);
-    CellControlReport report = report_of(arguments, reached, action.note);
+    CellControlReport report = report_of(arguments, reached);
     report.end = answer == "OK" ? "done" : answer.starts_with("refused") ? "refused" : "unknown";
     report.why = "passed on by the running dispatcher: " + answer;
     report.state.clear();
+    if (report.end != "done") report.to_do = "Look at the cell: " + cell_command(reached.endpoint, "status");
     return show(report, terminal);
 }
 
@@ -160,6 +180,7 @@ int send(const CellControlArguments& arguments, const CellAction& action, Reache
     ControlOrder order;
     order.command = action.command;
     order.takeover_code = arguments.code.value_or(0);
+    order.address = reached.endpoint;
     std::unique_ptr<Journal> journal;
     if (needs_lease(action.command) && !reached.status.has(flag::local_control)) {
         try {
@@ -172,15 +193,20 @@ int send(const CellControlArguments& arguments, const CellAction& action, Reache
         order.journal = [&](const JournalEvent& event) { journal->append(event); };
     }
     const ControlEnd end = control_cell(reached.bus, reached.status, order, terminal.context());
-    return show_end(report_of(arguments, reached, action.note), end, terminal);
+    CellControlReport report = report_of(arguments, reached);
+    report.note = note_of(action.command, end.kind, reached.status, order.past.owner);
+    return show_end(std::move(report), end, terminal);
 }
 
 }  // namespace
 
 int run(const CellControlArguments& arguments, Terminal& terminal) {
-    terminal.set_unchanged("Nothing was sent to the cell.");
+    const bool is_to_stand = arguments.action == "hold" || arguments.action == "stop" || arguments.action == "abort";
+    terminal.set_unchanged(is_to_stand
+                               ? "Nothing was sent to the cell: what runs there runs on. In danger press the red "
+                                 "button at the cell."
+                               : "Nothing was sent to the cell.");
     const std::unique_ptr<Reached> reached = reach(arguments, terminal);
-    if (!reached) return Terminal::cancel_code();
     if (arguments.action == "status") return show_status(*reached, terminal);
     if (arguments.action == "accept-store") return accept_store(arguments, *reached, terminal);
     for (const CellAction& action : actions) {

@@ -12,6 +12,7 @@
 #include "app/cli/standard_input_lines.h"
 #include "app/report/notices.h"
 #include "base/error.h"
+#include "base/printable.h"
 #include "devices/modbus_tcp.h"
 #include "sim/script_run.h"
 
@@ -58,15 +59,16 @@ void add_typed(StandardInputLines& input, std::size_t& count, ScriptRun& typed, 
     }
 }
 
-// Performs script and commands until one of them says quit, or a signal comes.
+// Performs script and commands until one of them says quit, a signal comes, or the terminal is gone.
 void serve(CellSim& sim, const std::vector<ScriptLine>& script, Terminal& terminal) {
     const auto show = [&](const std::string& line) { terminal.message(line); };
-    ScriptRun scripted(sim, show);
-    ScriptRun typed(sim, show);
+    const auto is_stopped = [] { return Terminal::is_cancelled(); };
+    ScriptRun scripted(sim, show, is_stopped);
+    ScriptRun typed(sim, show, is_stopped);
     scripted.add(script);
     StandardInputLines input;
     std::size_t count = 0;
-    while (!Terminal::is_cancelled() && scripted.step() && typed.step()) {
+    while (!is_stopped() && scripted.step() && typed.step() && !terminal.is_gone()) {
         add_typed(input, count, typed, terminal);
         // Nobody is there any more who could consent.
         if (input.has_ended() && scripted.is_idle() && typed.is_idle()) {
@@ -95,7 +97,7 @@ int run(const CellSimArguments& arguments, Terminal& terminal) {
     };
     options.on_question = [&](const std::string& question) {
         const std::lock_guard lock(terminal_mutex);
-        std::cerr << question << " [y/N] " << std::endl;
+        std::cerr << printable(question) << " [y/N] " << std::endl;
     };
     CellSim sim(options);
     sim.start();

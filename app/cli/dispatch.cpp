@@ -4,18 +4,23 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <iostream>
+#include <thread>
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
+#include "app/cli/standard_input_lines.h"
 #include "app/project/left_open.h"
 #include "app/project/proven_jobs.h"
 #include "app/project/state_folder.h"
 #include "app/report/hand_over_report.h"
+#include "base/printable.h"
 #include "cam/cell/cell.h"
 #include "cam/cell/cell_check.h"
 #include "devices/codec.h"
 #include "devices/device_error.h"
+#include "devices/drop_folder.h"
 #include "devices/first_contact.h"
 #include "devices/request_socket.h"
 
@@ -40,7 +45,7 @@ void refuse_uncertain(const Cell& cell) {
 bool refuse(const std::vector<std::string>& sentences, std::size_t jobs, Terminal& terminal) {
     if (sentences.empty()) return false;
     for (const std::string& sentence : sentences) terminal.error(sentence);
-    const HandOverReport report{{}, jobs, false, sentences};
+    const HandOverReport report{{}, jobs, false, sentences, {}};
     terminal.show({"no job was sent"}, document(report, dispatch_schema));
     return true;
 }
@@ -53,15 +58,29 @@ bool refuse_unreachable(const std::vector<PieceJob>& jobs, Terminal& terminal) {
     return refuse(sentences, jobs.size(), terminal);
 }
 
-// A cell that cannot be reached may be running a job of an earlier dispatch: the message of the error says so.
-std::optional<Status> contact(ModbusTcpBus& bus, const std::string& where, const Cell& cell, Terminal& terminal) {
+// The cell may be running a job of an earlier dispatch: the message of an error before it is asked says so.
+void set_unchanged(const Cell& cell, const std::string& where, Terminal& terminal) {
+    const std::string open = left_open(cell.id, where);
+    terminal.set_unchanged(nothing_started + (open.empty() ? "" : " " + open));
+}
+
+Status contact(ModbusTcpBus& bus, const std::string& where, const Cell& cell, Terminal& terminal) {
     try {
         return first_status(bus, where, terminal);
     } catch (const DeviceError&) {
-        const std::string open = left_open(cell.id, where);
-        terminal.set_unchanged(nothing_started + (open.empty() ? "" : " " + open));
+        set_unchanged(cell, where, terminal);
         throw;
     }
+}
+
+void check_drop_folder(const std::filesystem::path& drop, const Cell& cell, const std::string& where,
+                       Terminal& terminal) {
+    const std::string fault = fault_of_drop_folder(drop);
+    if (fault.empty()) return;
+    set_unchanged(cell, where, terminal);
+    throw InputError(InputFault::create, fault,
+                     "mount its share or make it, or name the one of the cell with --drop DIR; small files can go over "
+                     "the link with --chunks");
 }
 
 DispatchOptions options_of(const DispatchArguments& arguments, const Cell& cell, const Status& status) {
@@ -85,23 +104,27 @@ bool is_confirmed(const std::string& question) {
                          "a real cell is set in motion only after a question, and there is no terminal for the answer",
                          "pass --yes if that is meant");
     }
-    std::cerr << question << " [y/N] " << std::flush;
-    std::string line;
-    std::getline(std::cin, line);
-    return line == "y" || line == "Y" || line == "yes";
+    std::cerr << printable(question) << " [y/N] " << std::flush;
+    StandardInputLines input;
+    while (!Terminal::is_cancelled()) {
+        if (const std::optional<std::string> line = input.next()) return *line == "y" || *line == "Y" || *line == "yes";
+        if (input.has_ended()) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    throw Cancelled();
 }
 
-std::optional<Status> first_status(ModbusTcpBus& bus, const std::string& where, Terminal& terminal) {
+Status first_status(ModbusTcpBus& bus, const std::string& where, Terminal& terminal) {
     bus.connect();
-    std::optional<Status> status = read_first_status(bus, where, terminal.context());
-    if (!status) terminal.message("stopped on request: nothing was sent");
-    return status;
+    const std::optional<Status> status = read_first_status(bus, where, terminal.context());
+    if (!status) throw Cancelled();
+    return *status;
 }
 
 int hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options, Journal& journal,
-              const std::string& schema, Terminal& terminal) {
+              const std::string& schema, const std::string& next, Terminal& terminal) {
     const HandOverReport report{
-        hand_over(jobs, bus, options, journal, terminal.context()), jobs.size(), options.want_simulated, {}};
+        hand_over(jobs, bus, options, journal, terminal.context()), jobs.size(), options.want_simulated, {}, next};
     terminal.show(lines(report), document(report, schema));
     if (report.is_cancelled()) return Terminal::cancel_code();
     return report.is_complete() ? exit_done : exit_demand_broken;
@@ -120,10 +143,11 @@ int run(const DispatchArguments& arguments, Terminal& terminal) {
         throw InputError(InputFault::use, "no drop folder is known", "pass --drop DIR, or --chunks");
     }
     ModbusTcpBus bus(parse_tcp_address(*to));
+    if (!arguments.chunks) check_drop_folder(*drop, cell, *to, terminal);
     // Read before anything is sent, so that a real cell is never taken for a simulated one.
-    const std::optional<Status> status = contact(bus, *to, cell, terminal);
-    if (!status) return Terminal::cancel_code();
-    DispatchOptions options = options_of(arguments, cell, *status);
+    const Status status = contact(bus, *to, cell, terminal);
+    DispatchOptions options = options_of(arguments, cell, status);
+    options.address = *to;
     if (!arguments.chunks) options.drop_folder = *drop;
     if (options.want_simulated) {
         terminal.message("the cell at " + *to + " is SIMULATED: nothing moves");
@@ -136,15 +160,15 @@ int run(const DispatchArguments& arguments, Terminal& terminal) {
     if (!options.want_simulated && !arguments.yes &&
         !is_confirmed("Hand " + std::to_string(jobs.size()) + " jobs to the REAL cell \"" + cell.name + "\" at " + *to +
                       "?")) {
-        terminal.message("not confirmed: nothing was sent");
+        refuse({"not confirmed: nothing was sent"}, jobs.size(), terminal);
         return exit_demand_broken;
     }
-    const JournalCell of = journal_cell(options.cell_id, options.want_simulated, *to);
+    const JournalCell of = journal_cell(options.cell_id, options.want_simulated, bus.peer());
     Journal journal(journal_folder(of), of);
     RequestSocket requests(journal_folder(of));
     options.request = [&] { return requests.next(); };
     options.answer_request = [&](const std::string& answer) { requests.answer(answer); };
-    return hand_over(jobs, bus, options, journal, dispatch_schema, terminal);
+    return hand_over(jobs, bus, options, journal, dispatch_schema, {}, terminal);
 }
 
 }  // namespace qchopper

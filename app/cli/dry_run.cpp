@@ -3,11 +3,27 @@
 #include "app/cli/commands.h"
 #include "app/cli/simulated_limits.h"
 #include "app/project/proven_jobs.h"
+#include "app/project/shell_word.h"
 #include "base/temporary_folder.h"
 #include "devices/modbus_tcp.h"
 #include "sim/cell_sim.h"
 
 namespace qchopper {
+namespace {
+
+// "" if dispatch would refuse a job. What the cell file does not tell stands in capitals, for a person to fill in.
+std::string dispatch_of(const ProjectJobs& ordered, const DryRunArguments& arguments) {
+    if (!unproven_jobs(ordered, false).empty() || !unreachable_jobs(ordered.jobs).empty()) return {};
+    const Link& link = ordered.cell.link;
+    std::error_code error;
+    std::string command = "qchopper dispatch " + shell_word(arguments.project);
+    if (arguments.piece) command += " --piece " + *arguments.piece;
+    if (!link.to) command += " --to HOST:PORT";
+    if (!link.drop || !std::filesystem::is_directory(*link.drop, error)) command += " --drop DIR";
+    return command;
+}
+
+}  // namespace
 
 int run(const DryRunArguments& arguments, Terminal& terminal) {
     terminal.set_unchanged("The project is unchanged.");
@@ -39,7 +55,7 @@ int run(const DryRunArguments& arguments, Terminal& terminal) {
     // Of this run alone: the user's journals are never touched.
     const TemporaryFolder state("qchopper-dry-run-journal-");
     Journal journal(state.path(), {cell.id, true, "dry-run"});
-    return hand_over(jobs, bus, dispatch, journal, "qchopper-dry-run-1", terminal);
+    return hand_over(jobs, bus, dispatch, journal, "qchopper-dry-run-1", dispatch_of(ordered, arguments), terminal);
 }
 
 }  // namespace qchopper

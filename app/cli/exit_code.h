@@ -17,6 +17,7 @@ enum ExitCode : int {
     exit_busy = 75,          // try again later
     exit_protocol = 76,      // the cell answered against the protocol
     exit_config = 78,        // cell file or project file wrong
+    exit_hung_up = 129,      // SIGHUP: the terminal was closed; finished work is kept
     exit_interrupted = 130,  // Ctrl-C; finished work is kept
     exit_terminated = 143    // SIGTERM; the same
 };

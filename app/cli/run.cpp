@@ -68,15 +68,18 @@ bool may_end_anywhere(const Arguments& arguments) {
 int run_program(int argc, const char* const* argv) {
     // Found before the options are parsed, so that an error in them is reported as a document too.
     const bool is_json = std::any_of(argv, argv + argc, [](const char* a) { return std::string_view(a) == "--json"; });
-    Terminal terminal(is_json);
     catch_signals();
+    Terminal terminal(is_json);
     try {
         const std::optional<Arguments> arguments = parse_arguments(argc, argv);
         if (!arguments) return exit_done;  // help or version was asked for
         if (arguments->quiet) terminal.set_quiet();
         if (arguments->timings) terminal.set_timings();
         if (may_end_anywhere(*arguments)) terminal.end_when_stopped([&] { report_stop(terminal); });
-        return std::visit([&](const auto& command) { return run(command, terminal); }, arguments->command);
+        const int code = std::visit([&](const auto& command) { return run(command, terminal); }, arguments->command);
+        if (!Terminal::is_output_lost()) return code;
+        return report(terminal, "standard output cannot be written",
+                      "free space on the disk, or write it to another place", exit_io);
     } catch (const InputError& e) {
         const FaultRow& row = fault_rows[static_cast<std::size_t>(e.fault)];
         return report(terminal, e.what(), e.to_do.empty() ? row.remedy : e.to_do, row.code);

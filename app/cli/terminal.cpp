@@ -1,14 +1,17 @@
 // The signal handler sets atomics; the context's flag is one of them, so that long work polls it. It also wakes a
 // thread, which otherwise sleeps, or on a terminal draws the progress twice a second. Progress is drawn at most ten
-// times a second.
+// times a second. A second Ctrl-C ends the process inside the handler, which then writes the document itself if none
+// has been begun; one that is being printed is finished first.
 
 #include "app/cli/terminal.h"
 
+#include <poll.h>
 #include <semaphore.h>
 #include <signal.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cmath>
@@ -19,6 +22,7 @@
 
 #include "app/cli/exit_code.h"
 #include "app/report/timings_report.h"
+#include "base/printable.h"
 #include "base/text.h"
 #include "base/unfinished.h"
 
@@ -32,6 +36,19 @@ constexpr std::chrono::milliseconds draw_again{500};     // where no count has c
 std::atomic<bool> cancelled{false};
 std::atomic<int> signal_number{0};
 std::atomic<long> first_signal_s{0};
+
+// The one document of --json.
+enum class Document : int { none, begun, printed, by_handler };
+std::atomic<bool> has_document{false};  // --json
+std::atomic<Document> document_state{Document::none};
+std::atomic<bool> ends_after_document{false};
+static_assert(std::atomic<Document>::is_always_lock_free && std::atomic<long>::is_always_lock_free);
+
+constexpr char document_of_second_signal[] =
+    R"({"schema":"qchopper-error-1","error":"stopped by a second signal","unchanged":"What was saved is kept.",)"
+    R"("to_do":"","exit_code":130})"
+    "\n";
+static_assert(exit_interrupted == 130);
 
 // A semaphore that a signal handler may post to, which those of the standard library promise not.
 class WakeUp {
@@ -58,15 +75,35 @@ class WakeUp {
 
 WakeUp wake_up;
 
-// Only what may be done in a signal handler: atomics, clock_gettime, sem_post, _exit.
+// Ends the process, unless a document is being printed: then the thread that prints it ends the process, or a third
+// signal.
+void end_in_handler() {
+    Document state = Document::none;
+    if (has_document && document_state.compare_exchange_strong(state, Document::by_handler)) {
+        const ssize_t ignored = ::write(STDOUT_FILENO, document_of_second_signal, sizeof document_of_second_signal - 1);
+        static_cast<void>(ignored);
+    }
+    if (state == Document::begun && !ends_after_document.exchange(true)) return;
+    _exit(exit_interrupted);
+}
+
+// Only what may be done in a signal handler: atomics, clock_gettime, sem_post, write, _exit.
 void on_signal(int number) {
+    const int error = errno;
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
-    if (number == SIGINT && cancelled && now.tv_sec - first_signal_s <= 2) _exit(exit_interrupted);
+    if (number == SIGINT && cancelled && now.tv_sec - first_signal_s <= 2) end_in_handler();
     first_signal_s = now.tv_sec;
     signal_number = number;
     cancelled = true;
     wake_up.post();
+    errno = error;
+}
+
+// A terminal that was closed, or whose line was cut.
+bool has_hung_up(int descriptor) {
+    pollfd state{descriptor, 0, 0};
+    return ::poll(&state, 1, 0) > 0 && (state.revents & (POLLHUP | POLLERR)) != 0;
 }
 
 bool is_plain_terminal() {
@@ -89,13 +126,22 @@ void catch_signals() {
     action.sa_handler = on_signal;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    struct sigaction before {};
+    // Ignored by nohup, and then still.
+    if (sigaction(SIGHUP, nullptr, &before) == 0 && before.sa_handler == SIG_DFL) sigaction(SIGHUP, &action, nullptr);
     signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
 }
 
 Terminal::Terminal(bool json)
     : json_(json),
       shows_progress_(is_plain_terminal()),
-      watcher_([this](const std::stop_token& stop) { watch(stop); }) {}
+      watcher_([this](const std::stop_token& stop) { watch(stop); }) {
+    for (int descriptor = 0; descriptor <= STDERR_FILENO; ++descriptor) {
+        if (isatty(descriptor) != 0) terminals_.push_back(descriptor);
+    }
+    has_document = json;
+}
 
 Terminal::~Terminal() {
     begin_end();
@@ -114,6 +160,7 @@ std::string Terminal::unchanged() const {
 void Terminal::end_when_stopped(std::function<void()> report) {
     const std::lock_guard lock(changing_);
     report_stop_ = std::move(report);
+    wake_up.post();  // a signal may have come before
 }
 
 void Terminal::begin_end() {
@@ -125,8 +172,12 @@ void Terminal::begin_end() {
 void Terminal::watch(const std::stop_token& stop) {
     const std::stop_callback wake(stop, [] { wake_up.post(); });
     bool is_noticed = false;
+    const auto ends_when_stopped = [this] {
+        const std::lock_guard lock(changing_);
+        return static_cast<bool>(report_stop_);
+    };
     while (!stop.stop_requested()) {
-        if (cancelled && !is_noticed) {
+        if (cancelled && !is_noticed && ends_when_stopped()) {
             is_noticed = true;
             wake_up.wait_for(time_to_answer);
             const std::lock_guard lock(changing_);
@@ -163,7 +214,16 @@ bool Terminal::is_cancelled() {
 }
 
 int Terminal::cancel_code() {
-    return signal_number == SIGTERM ? exit_terminated : exit_interrupted;
+    return signal_number == SIGTERM ? exit_terminated : signal_number == SIGHUP ? exit_hung_up : exit_interrupted;
+}
+
+bool Terminal::is_gone() const {
+    return std::any_of(terminals_.begin(), terminals_.end(), has_hung_up);
+}
+
+bool Terminal::is_output_lost() {
+    if (std::cout.flush()) return false;
+    return !has_hung_up(STDOUT_FILENO);  // what read it, as head does, wanted no more
 }
 
 void Terminal::clear_line() {
@@ -186,7 +246,7 @@ void Terminal::warn(const std::vector<std::string>& lines) {
 void Terminal::error(const std::string& line) {
     const std::lock_guard lock(changing_);
     clear_line();
-    std::cerr << line << std::endl;
+    std::cerr << printable_lines(line) << std::endl;
 }
 
 void Terminal::show(const std::vector<std::string>& lines, const std::string& document) {
@@ -198,14 +258,18 @@ void Terminal::show(const std::vector<std::string>& lines, const std::string& do
     if (json_) {
         json(times ? with_timings(document, *times) : document);
     } else {
-        for (const std::string& line : lines) std::cout << line << std::endl;
+        for (const std::string& line : lines) std::cout << printable_lines(line) << std::endl;
     }
     if (!times) return;
     for (const std::string& line : table(*times)) error(line);
 }
 
 void Terminal::json(const std::string& document) {
-    if (json_) std::cout << document << std::endl;
+    if (!json_) return;
+    while (document_state.exchange(Document::begun) == Document::by_handler) pause();  // the process is ending
+    std::cout << document << std::endl;
+    document_state = Document::printed;
+    if (ends_after_document) _exit(exit_interrupted);
 }
 
 void Terminal::progress(const Progress& progress) {

@@ -64,8 +64,12 @@ class Terminal {
     // lives.
     ProjectContext context();
     static bool is_cancelled();
-    // The exit code for the last signal: 130, or 143 for SIGTERM.
+    // The exit code for the last signal: 130, 143 for SIGTERM, 129 for SIGHUP.
     static int cancel_code();
+    // One of standard input, output and error was a terminal at first, and that terminal is gone.
+    bool is_gone() const;
+    // Something that was printed on stdout could not be written: the disk is full, or a limit of its size is reached.
+    static bool is_output_lost();
 
  private:
     using Clock = std::chrono::steady_clock;
@@ -91,11 +95,13 @@ class Terminal {
     Clock::time_point drawn_;
     std::function<void()> report_stop_;  // empty: a stop waits until work looks for it
     bool is_ending_ = false;
+    std::vector<int> terminals_;
     std::jthread watcher_;  // the last member: it ends before the others
 };
 
-// From now on Ctrl-C and SIGTERM cancel long work, a second Ctrl-C within 2 s ends the program at once, and SIGPIPE is
-// ignored.
+// From now on Ctrl-C, SIGTERM and SIGHUP cancel long work, and a second Ctrl-C within 2 s ends the program at once,
+// with
+// --json after one whole document. SIGPIPE and SIGXFSZ are ignored: the write fails.
 void catch_signals();
 
 }  // namespace qchopper

@@ -11,6 +11,7 @@
 #include "app/project/project_folder.h"
 #include "app/project/shell_word.h"
 #include "base/error.h"
+#include "base/printable.h"
 #include "base/text.h"
 #include "base/timings.h"
 #include "cam/job/read_job.h"
@@ -66,7 +67,7 @@ HandedOver named(const std::vector<PieceJob>& jobs, const WireTicket& ticket) {
     for (const PieceJob& job : jobs) {
         if (job.ticket.file_sha256 == ticket.file_sha256) return {job.piece, {}, true};
     }
-    return {ticket.file_name, {}, false};
+    return {printable(ticket.file_name), {}, false};
 }
 
 // By its file: the parts of a piece have one name.
@@ -103,13 +104,21 @@ bool take_up_open_jobs(const std::vector<PieceJob>& jobs, RegisterBus& bus, cons
     return true;
 }
 
-// The file was started before, and the cell does not know: its memory is younger, or its map is 1.0.
+// By the journal the file was started before, or may have been, and the cell does not know: its memory is younger, or
+// its map is 1.0.
 std::optional<JobOutcome> carved_before(const JournalHistory& history, const PieceJob& job,
                                         const DispatchOptions& options) {
     const JournalJob* before = history.last_start_of(job.ticket.file_sha256);
     if (before == nullptr || options.again || (options.has_parts && !before->is_forgotten)) return std::nullopt;
     JobOutcome outcome;
     outcome.verdict = StartVerdict::not_started;
+    if (!before->is_started) {
+        outcome.may_be_carved = true;
+        outcome.why = "whether the cell has carved this file before is UNKNOWN: it lost its memory of job " +
+                      to_text(before->job_id) + ", which may have started";
+        outcome.to_do = "Look for the piece or a block that is cut. Where neither is there, pass --again.";
+        return outcome;
+    }
     outcome.carved_before = true;
     outcome.carved_complete = before->is_complete();
     const std::string end = before->is_complete() ? "ended complete"

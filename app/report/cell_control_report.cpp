@@ -2,13 +2,14 @@
 
 #include "app/report/cell_control_report.h"
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "app/project/value_json.h"
 #include "app/report/columns.h"
+#include "base/printable.h"
 #include "base/text.h"
 #include "base/uuid.h"
+#include "devices/operator_words.h"
 
 namespace qchopper {
 namespace {
@@ -25,10 +26,7 @@ std::vector<std::string> flags_of(const Status& status) {
 }
 
 std::string owner_text(const Status& status) {
-    if (status.owner_held == 0) return "no dispatcher";
-    char text[40];
-    std::snprintf(text, sizeof text, "dispatcher 0x%08X", status.owner_held);
-    return text;
+    return status.owner_held == 0 ? "no dispatcher" : dispatcher_name(status.owner_held);
 }
 
 std::string job_text(const Status& status) {
@@ -65,6 +63,7 @@ std::vector<std::string> lines(const CellStatusReport& report) {
     std::vector<std::vector<std::string>> rows{
         {"cell", std::to_string(s.cell_id) + (s.has(flag::simulated) ? " (SIMULATED)" : "") + " at " + report.endpoint},
         {"state", std::string(name(s.state)) + (s.has(flag::local_control) ? ", under local control" : "")},
+        {"foam", std::string(foam_in(s.state)) + (s.has(flag::simulated) ? " (SIMULATED: nothing moves)" : "")},
         {"flags", flags.empty() ? "none" : flags},
         {"lease", owner_text(s) + ", EPOCH_HELD " + std::to_string(s.epoch_held)},
         {"job", job_text(s)},
@@ -73,8 +72,8 @@ std::vector<std::string> lines(const CellStatusReport& report) {
         {"STORE_ID", store_text(report)},
         {"memory", memory_text(report)}};
     if (s.alarms > 0) {
-        rows.push_back(
-            {"alarms", std::to_string(s.alarms) + ", first " + std::to_string(s.alarm_code) + " " + s.alarm_text});
+        rows.push_back({"alarms", std::to_string(s.alarms) + ", first " + std::to_string(s.alarm_code) + " " +
+                                      printable(s.alarm_text)});
     }
     return columns(rows);
 }
@@ -96,7 +95,7 @@ std::string document(const CellStatusReport& report) {
                         {"progress", s.progress / 10000.0},
                         {"elapsed_s", s.elapsed_s},
                         {"alarms", s.alarms},
-                        {"alarm_text", s.alarm_text},
+                        {"alarm_text", printable(s.alarm_text)},
                         {"store", store_json(report)},
                         {"has_journal", report.has_journal},
                         {"store_lost", report.store_loss.empty() ? Json() : Json(report.store_loss)}});
@@ -107,6 +106,7 @@ std::vector<std::string> lines(const CellControlReport& report) {
                                   (report.simulated ? " (the cell is SIMULATED)" : "")};
     if (!report.state.empty()) text.push_back("the cell is in " + report.state);
     if (!report.note.empty()) text.push_back(report.note);
+    if (!report.to_do.empty()) text.push_back("to do: " + report.to_do);
     return text;
 }
 
@@ -116,8 +116,9 @@ std::string document(const CellControlReport& report) {
                         {"action", report.action},
                         {"end", report.end},
                         {"result", report.result.empty() ? Json() : Json(report.result)},
-                        {"why", report.why},
+                        {"why", printable(report.why)},
                         {"note", report.note.empty() ? Json() : Json(report.note)},
+                        {"to_do", report.to_do.empty() ? Json() : Json(report.to_do)},
                         {"simulated", report.simulated},
                         {"state", report.state.empty() ? Json() : Json(report.state)}});
 }

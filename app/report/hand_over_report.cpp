@@ -26,6 +26,7 @@ Json job_json(const HandedOver& handed) {
             {"verdict", describe(o.verdict)},
             {"is_ordered", handed.is_ordered},
             {"carved_before", o.carved_before},
+            {"may_be_carved", o.may_be_carved},
             {"store_is_lost", o.store_is_lost},
             {"job_state", static_cast<int>(o.job_state)},
             {"job_result", static_cast<int>(o.job_result)},
@@ -84,6 +85,7 @@ std::vector<std::string> lines(const HandOverReport& report) {
         if (!o.to_do.empty() && !is_well) text.push_back("to do for " + handed.piece + ": " + o.to_do);
     }
     text.push_back(summary(report));
+    if (report.is_complete() && !report.next.empty()) text.push_back("Next: " + report.next);
     return text;
 }
 

@@ -14,6 +14,7 @@ struct HandOverReport {
     std::size_t wanted = 0;            // jobs to be handed over; handed has at most as many
     bool is_simulated = false;         // the cell
     std::vector<std::string> refused;  // why none was sent (unreachable_jobs), or empty
+    std::string next;                  // the command that comes next, if all ended complete; may be empty
     // All jobs were handed over and ended complete, at least one of them now and the others now or before.
     bool is_complete() const;
     bool is_cancelled() const;

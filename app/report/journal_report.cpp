@@ -7,6 +7,7 @@
 
 #include "app/project/value_json.h"
 #include "app/report/columns.h"
+#include "base/printable.h"
 #include "base/uuid.h"
 #include "devices/journal_history.h"
 
@@ -76,7 +77,7 @@ std::string document(const std::vector<JournalReport>& reports) {
         Json one = {{"folder", report.folder},
                     {"cell_id", report.content.cell.cell_id},
                     {"simulated", report.content.cell.simulated},
-                    {"endpoint", report.content.cell.endpoint},
+                    {"endpoint", printable(report.content.cell.endpoint)},
                     {"is_whole", true},
                     {"hash", report.content.hash},
                     {"row_count", report.content.rows.size()},

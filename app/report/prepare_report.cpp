@@ -204,8 +204,7 @@ std::vector<std::string> table(const PreparedProject& prepared) {
     lines.push_back(counted(prepared.pieces.size(), "piece") + " by " + counted(prepared.project.cuts.size(), "cut") +
                     ", " + counted(static_cast<std::size_t>(jobs), "job") + " in " + folder + "/jobs, pictures in " +
                     folder + "/pictures.");
-    const std::string word = shell_word(prepared.folder);
-    lines.push_back("Next: qchopper dry-run " + word + "   or   qchopper dispatch " + word);
+    lines.push_back(std::string("Next: qchopper ") + (jobs > 0 ? "dry-run " : "setup ") + shell_word(prepared.folder));
     return lines;
 }
 

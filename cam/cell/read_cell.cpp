@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -14,6 +13,7 @@
 #include "base/file.h"
 #include "cam/cell/cell_keys.h"
 #include "cam/cell/cell_tables.h"
+#include "cam/cell/job_tools.h"
 
 namespace qchopper {
 namespace {
@@ -235,16 +235,6 @@ std::vector<DowelSize> read_dowels(const TomlReader& root) {
     return dowels;
 }
 
-// As jobs name it.
-Tool tool_of(const CarvingTool& tool) {
-    return {tool.number,
-            tool.name,
-            tool.diameter,
-            tool.rpm_max,
-            static_cast<std::uint32_t>(std::floor(60 * tool.feed_max_mm_per_s)),
-            tool.removal_mm3_per_s};
-}
-
 Cell read_version_2(const TomlReader& root, const std::filesystem::path& path) {
     Cell cell;
     CellMachine machine;
@@ -257,7 +247,7 @@ Cell read_version_2(const TomlReader& root, const std::filesystem::path& path) {
     read_tables(root, cell, machine);
     machine.program = read_program(root, machine.robot.has_value(), machine.origins);
     machine.tools = read_tools(root, machine.origins);
-    cell.tool = tool_of(machine.tools.front());
+    cell.tool = job_tool(machine.tools.front());
     machine.spindle = read_spindle(root, machine.robot, machine.tools, machine.program.dialect, machine.origins);
     machine.extraction = read_extraction(root, machine.program.dialect);
     cell.stock =

@@ -4,10 +4,10 @@
 #include "cam/job/write_job.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/error.h"
 #include "base/zip.h"
+#include "cam/cell/job_tools.h"
 #include "cam/job/cap_template.h"
 #include "cam/job/envelope_document.h"
 #include "cam/job/envelope_picture.h"
@@ -42,18 +42,17 @@ std::uint16_t base_plane(const JobInput& input) {
 
 // The first tool that the program uses; diameter, speed and feed are the largest of all that it uses.
 void set_tools(TicketTemplate& about, const ProgramInput& program, const Cell& cell) {
-    if (program.tools.empty() || !cell.machine) return;
+    if (program.tools.empty()) return;
     about.tool_no = program.tools.front();
     about.tool_diameter = 0;
     about.spindle_max_rpm = 0;
-    double feed = 0;
-    for (const CarvingTool& tool : cell.machine->tools) {
+    about.feed_max_mm_per_min = 0;
+    for (const Tool& tool : tools_of(cell)) {
         if (std::find(program.tools.begin(), program.tools.end(), tool.number) == program.tools.end()) continue;
         about.tool_diameter = std::max(about.tool_diameter, tool.diameter);
-        about.spindle_max_rpm = std::max(about.spindle_max_rpm, tool.rpm_max);
-        feed = std::max(feed, tool.feed_max_mm_per_s);
+        about.spindle_max_rpm = std::max(about.spindle_max_rpm, tool.spindle_max_rpm);
+        about.feed_max_mm_per_min = std::max(about.feed_max_mm_per_min, tool.feed_max_mm_per_min);
     }
-    about.feed_max_mm_per_min = static_cast<std::uint32_t>(std::lround(60 * feed));
 }
 
 }  // namespace

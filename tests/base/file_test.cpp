@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/regular_file.h"
 #include "base/sha256.h"
 
 namespace qchopper {
@@ -57,6 +58,9 @@ TEST_F(Files, AMissingFileAndAFolderAreNamed) {
 TEST_F(Files, OnlyRegularFilesAreRead) {
     ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
     EXPECT_EQ(fault_of([&] { read_file(folder / "pipe"); }), InputFault::missing);
+    EXPECT_EQ(fault_of([&] { check_regular_file(folder / "pipe"); }), InputFault::missing);
+    EXPECT_EQ(fault_of([&] { check_regular_file(folder); }), InputFault::missing);
+    EXPECT_NO_THROW(check_regular_file(folder / "nothing"));
     fs::create_symlink("/dev/zero", folder / "zero");  // has no end
     EXPECT_EQ(fault_of([&] { read_file(folder / "zero"); }), InputFault::missing);
     fs::create_symlink("loop", folder / "loop");

@@ -242,6 +242,36 @@ TEST(Codec, ABlockThatIsNotRightIsNamed) {
     EXPECT_EQ(decode_status(registers).fault, BlockFault::magic);
 }
 
+// A later version may publish something there, and a cell has to refuse what asks for it.
+TEST(Codec, ReservedRegistersOfACellAreIgnoredAndThoseOfADispatcherAreFound) {
+    const auto with_crc = [](Registers registers, std::size_t at, std::size_t crc_at) {
+        registers[at] = 1;
+        const std::uint32_t crc = crc32_of_registers(std::span(registers).first(crc_at));
+        registers[crc_at] = static_cast<std::uint16_t>(crc >> 16U);
+        registers[crc_at + 1] = static_cast<std::uint16_t>(crc);
+        return registers;
+    };
+    const Identity identity{map_version, {4}, 1, 2, 3, 5, 1};
+    EXPECT_EQ(decode_identity(with_crc(encode(identity), 21, 22)).value, identity);
+    ResultRecord result;
+    result.starts = 1;
+    result.query_seq = 6;
+    EXPECT_EQ(decode_result(with_crc(encode(result), 50, 58)).value, result);
+    const Registers command = encode(a_command());
+    EXPECT_EQ(used_reserved_of_command(command), std::nullopt);
+    for (const std::size_t at : {7U, 40U, 57U}) {
+        const Registers changed = with_crc(command, at, 58);
+        EXPECT_TRUE(decode_command(changed).is_ok());
+        EXPECT_EQ(used_reserved_of_command(changed), at);
+    }
+    Registers ticket(100, 0);
+    EXPECT_EQ(used_reserved_of_ticket(ticket), std::nullopt);
+    ticket[97] = 1;
+    EXPECT_EQ(used_reserved_of_ticket(ticket), 197);
+    ticket[92] = 1;
+    EXPECT_EQ(used_reserved_of_ticket(ticket), 192);
+}
+
 TEST(Codec, ANewerMinorVersionIsTaken) {
     Status status = a_status();
     status.version = 0x0107;

@@ -45,6 +45,24 @@ TEST_F(DropFolder, AFileOfADispatcherThatRunsStays) {
     EXPECT_FALSE(has(left));
 }
 
+TEST_F(DropFolder, WhatCannotTakeAFileIsNamed) {
+    EXPECT_EQ(fault_of_drop_folder(folder), "");
+    EXPECT_EQ(fault_of_drop_folder(folder / "no"), "there is no drop folder " + (folder / "no").string());
+    put("file");
+    EXPECT_EQ(fault_of_drop_folder(folder / "file"),
+              "the drop folder " + (folder / "file").string() + " is not a folder");
+    StagedFile staged;
+    EXPECT_EQ(staged.stage(folder / "no", "C.qjob", Uuid{1}, {1, 2, 3}), fault_of_drop_folder(folder / "no"));
+    EXPECT_FALSE(staged.is_staged());
+}
+
+TEST_F(DropFolder, AFolderThatIsGoneBeforeTheFileIsPutIsNamed) {
+    StagedFile staged;
+    ASSERT_EQ(staged.stage(folder, "C.qjob", Uuid{1}, {1, 2, 3}), "");
+    fs::remove_all(folder);
+    EXPECT_EQ(staged.put(), "there is no drop folder " + folder.string());
+}
+
 TEST_F(DropFolder, AMissingFolderIsNoFaultHere) {
     const DropFolderUse use(folder / "no");
     EXPECT_FALSE(has("no"));

@@ -120,8 +120,9 @@ TEST(JournalHistory, TheLastStartOfAFileIsFound) {
     file.bytes.fill(1);
     Rows rows;
     rows.add(Is::created, a).file_sha256 = file;
+    EXPECT_EQ(rows.history().last_start_of(file), nullptr);
     rows.add(Is::start_intent, a);
-    EXPECT_EQ(rows.history().last_start_of(file), nullptr) << "START may not have arrived";
+    EXPECT_NE(rows.history().last_start_of(file), nullptr) << "START may have arrived";
     rows.add(Is::started, a);
     rows.add(Is::created, b).file_sha256 = file;
     const JournalHistory history = rows.history();
@@ -131,6 +132,23 @@ TEST(JournalHistory, TheLastStartOfAFileIsFound) {
     EXPECT_EQ(history.last_start_of({}), nullptr);
     rows.add(Is::store_accepted, {}).store = {{2}, 0x0101, 1, 0, 0};
     EXPECT_TRUE(rows.history().last_start_of(file)->is_forgotten);
+}
+
+// Whatever the journal knows of them: it may have lost its last rows, and the cell cannot be asked any more.
+TEST(JournalHistory, JobsThatWereOpenWhenAStoreWasAcceptedMayHaveStartedForGood) {
+    for (const int kinds : {0, 1, 2}) {
+        Rows rows;
+        rows.add(Is::created).file_sha256.bytes.fill(1);
+        if (kinds > 0) rows.add(Is::start_intent);
+        if (kinds > 1) rows.add(Is::closed).verdict = StartVerdict::unknown;
+        rows.add(Is::created, b).file_sha256.bytes.fill(2);
+        rows.add(Is::closed, b).verdict = StartVerdict::not_started;
+        rows.add(Is::store_accepted, {}).store = {{2}, 0x0101, 1, 0, 0};
+        const JournalHistory history = rows.history();
+        EXPECT_TRUE(history.jobs[0].may_have_started()) << kinds;
+        EXPECT_EQ(history.last_start_of(history.jobs[0].file_sha256), &history.jobs[0]) << kinds;
+        EXPECT_EQ(history.last_start_of(history.jobs[1].file_sha256), nullptr) << "it has not started";
+    }
 }
 
 TEST(JournalHistory, AStartThatWasRefusedHasNotStarted) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -161,6 +162,7 @@ TEST(Fault, F26_AJournalCutOffAtAnyByteOpensWithTheRowsBefore) {
     });
     ASSERT_TRUE(WIFSIGNALED(status));
     const fs::path log = source / "journal.sqlite-wal";
+    fs::remove(source / "lock");  // the number of rows in it is never synced
     std::size_t before = 4;
     for (std::uintmax_t size = fs::file_size(log) + 1; size-- > 0;) {
         fs::resize_file(log, size);
@@ -183,6 +185,68 @@ TEST(Fault, F26_AJournalCutOffAtAnyByteOpensWithTheRowsBefore) {
     EXPECT_EQ(before, 0U);
     fs::remove(log);
     Journal journal(source, cell_7);  // from nothing, too
+}
+
+// What reading refuses, writing refuses: a dispatch never takes a journal that has lost rows for a new one.
+void expect_refused(const fs::path& folder, const std::string& words) {
+    for (const bool writes : {false, true}) {
+        const InputError error =
+            error_of([&] { writes ? Journal(folder, cell_7).append(created()) : void(read_journal(folder)); });
+        EXPECT_EQ(error.fault, InputFault::config) << error.what();
+        EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+}
+
+TEST(Journal, WithoutItsLogIsRefusedByReaderAndWriter) {
+    for (const bool has_rows_before : {false, true}) {
+        const Folder folder;
+        if (has_rows_before) Journal(folder.path, cell_7).append(created());
+        const int status = status_of_child([&] {
+            Journal journal(folder.path, cell_7);
+            for (std::uint32_t seq = 1; seq <= 3; ++seq) journal.append(intent(seq));
+            raise(SIGKILL);
+        });
+        ASSERT_TRUE(WIFSIGNALED(status));
+        fs::remove(folder.path / "journal.sqlite-wal");
+        fs::remove(folder.path / "journal.sqlite-shm");
+        expect_refused(folder.path, has_rows_before ? "row 2 is missing, and 4 were written" : "row 1 is missing");
+    }
+}
+
+TEST(Journal, WithoutItsTablesIsRefusedByReaderAndWriter) {
+    const Folder folder;
+    { Journal journal(folder.path, cell_7); }
+    change(folder.path, "DROP TABLE event");
+    expect_refused(folder.path, "is no journal");
+    fs::resize_file(folder.path / "journal.sqlite", 0);
+    expect_refused(folder.path, "is no journal");
+}
+
+TEST(Journal, AnOlderCopyIsRefused) {
+    const Folder folder;
+    Journal(folder.path, cell_7).append(created());
+    fs::copy(folder.path / "journal.sqlite", folder.path / "copy");
+    Journal(folder.path, cell_7).append(intent(1));
+    fs::rename(folder.path / "copy", folder.path / "journal.sqlite");
+    expect_refused(folder.path, "row 2 is missing");
+}
+
+// One that was killed while it made the journal leaves a file aside, which is no journal.
+TEST(Journal, IsMadeWholeOrNotAtAll) {
+    const Folder folder;
+    std::ofstream(folder.path / "journal.sqlite.new") << "half";
+    EXPECT_EQ(error_of([&] { read_journal(folder.path); }).fault, InputFault::missing);
+    Journal(folder.path, cell_7).append(created());
+    EXPECT_EQ(read_journal(folder.path).rows.size(), 1U);
+    EXPECT_FALSE(fs::exists(folder.path / "journal.sqlite.new"));
+}
+
+// A pipe without a writer would block for ever, and so would this test.
+TEST(Journal, APipeInItsPlaceIsRefused) {
+    const Folder folder;
+    ASSERT_EQ(::mkfifo((folder.path / "journal.sqlite").c_str(), 0600), 0);
+    EXPECT_EQ(error_of([&] { read_journal(folder.path); }).fault, InputFault::missing);
+    EXPECT_EQ(error_of([&] { Journal journal(folder.path, cell_7); }).fault, InputFault::missing);
 }
 
 TEST(Fault, F27_AJournalOnAFullDiskRefusesTheRowAndKeepsThoseBefore) {
@@ -211,7 +275,7 @@ TEST(Fault, F27_AJournalThatCannotBeMadeIsRefused) {
     std::ofstream(folder.path / "file") << "x";
     EXPECT_EQ(error_of([&] { Journal journal(folder.path / "file" / "cell", cell_7); }).fault, InputFault::create);
     fs::create_directories(folder.path / "cell" / "journal.sqlite");
-    EXPECT_EQ(error_of([&] { Journal journal(folder.path / "cell", cell_7); }).fault, InputFault::create);
+    EXPECT_EQ(error_of([&] { Journal journal(folder.path / "cell", cell_7); }).fault, InputFault::missing);
 }
 
 TEST(Journal, FoldersOfCellsHaveNamesOfTheirOwn) {

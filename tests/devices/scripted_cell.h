@@ -108,7 +108,22 @@ struct ScriptedCell {
         status.ack_result = answer;
     }
 
+    // As a cell does: commands with a lower number, or with other content under the last one, are ignored.
+    bool ignores(const Command& command) {
+        const auto last = last_of_owner.find(command.owner);
+        const bool is_known = last != last_of_owner.end();
+        const bool is_repeated = is_known && last->second == command;
+        if (is_known && command.seq <= last->second.seq && !is_repeated) {
+            ++status.bad_frames;
+            status.bad_reason = AckResult::stale_seq;
+            return true;
+        }
+        last_of_owner[command.owner] = command;
+        return false;
+    }
+
     void execute(const Command& command) {
+        if (ignores(command)) return;
         commands.push_back(command);
         const AckResult answer = grant ? grant(command) : AckResult::ok;
         if (answer == AckResult::none) return;
@@ -186,6 +201,7 @@ struct ScriptedCell {
     ResultRecord result;
     std::uint32_t tokens = 1000;
     std::vector<Command> commands;  // that the cell has executed; a frozen one executes none
+    std::map<std::uint32_t, Command> last_of_owner;
     std::vector<CellCommand> written;
     std::vector<std::string> lines;
     std::vector<JournalEvent> events;

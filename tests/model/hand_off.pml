@@ -1,6 +1,6 @@
 /* The hand-off of jobs to a cell, in Promela: which words a PC may say of a start while commands are lost, repeated and
- * overtaken, PCs are killed, the cell loses power or its store or gets an older copy of it back, the operator cancels,
- * and another PC takes the cell over.
+ * overtaken, PCs are killed, a journal loses its last rows, the cell loses power or its store or gets an older copy of it
+ * back, the operator cancels, and another PC takes the cell over.
  *
  * docs/model.md says what is in it and what not, and holds the results of scripts/model. The rows MOVE are compared with
  * the simulated cell (tests/sim/model_test.cpp). Every property is an assertion; no property is about time. */
@@ -28,6 +28,9 @@
 #endif
 #ifndef MARKS_BACK
 #define MARKS_BACK 0 /* 1: the marks of the copy come back with it; then it is none from between a CLAIM and its START */
+#endif
+#ifndef BACKS
+#define BACKS 0      /* kills after which the journal is an older copy; not together with LOSSES or COPIES */
 #endif
 #ifndef CANCELS
 #define CANCELS 0
@@ -66,6 +69,9 @@ byte starts[3];
 /* Journals; the index of a dispatcher and of a job begins with 1. */
 byte j_epoch[3]; mtype:word j_word[3] = idle; byte j_store[3];
 byte kills; byte cuts; byte losses; byte cancels;
+#if BACKS
+byte backs; bit jc_is[3]; byte jc_epoch[3]; mtype:word jc_word[3] = idle; byte jc_store[3];   /* the copies */
+#endif
 
 #define is_final(w) ((w) == STARTED || (w) == NOT_STARTED || (w) == UNKNOWN)
 
@@ -218,7 +224,26 @@ end:
 #endif
 
 /* The journal survives, all else is forgotten. */
-#define MAY_BE_KILLED :: kills < KILLS -> kills++; cancelling = 0; connected[p] = 0; goto boot
+#define killed kills++; cancelling = 0; connected[p] = 0; knows = 0
+#if BACKS
+inline copy_journal() {
+  atomic { jc_is[p] = 1; jc_epoch[p] = j_epoch[p]; jc_word[j] = j_word[j]; jc_store[p] = j_store[p] }
+}
+#define COPY_JOURNAL if :: !jc_is[p] -> copy_journal() :: skip fi
+#define MAY_BE_KILLED \
+  :: kills < KILLS -> killed; goto boot \
+  :: backs < BACKS && jc_is[p] -> \
+     atomic { backs++; killed; j_epoch[p] = jc_epoch[p]; j_word[j] = jc_word[j]; j_store[p] = jc_store[p]; goto boot }
+#else
+#define COPY_JOURNAL skip
+#define MAY_BE_KILLED :: kills < KILLS -> killed; goto boot
+#endif
+/* START may have been sent: this process has written that it would, or it has taken the job up and not asked yet. */
+#ifdef MUTANT_TRUSTS_JOURNAL
+#define may_have_sent (j_word[j] == starting)
+#else
+#define may_have_sent (j_word[j] == starting || !knows)
+#endif
 #define MAY_BE_CANCELLED :: cancels < CANCELS && !cancelling -> cancels++; cancelling = 1; goto withdraw
 #define MAY_LOSE_LINK :: !connected[p] -> goto boot
 
@@ -233,9 +258,10 @@ inline say(w) {
 }
 
 proctype Dispatcher(byte p; byte first; byte last) {
-  byte j = first; byte t; bit cancelling; bit take;
+  byte j = first; byte t; bit cancelling; bit take; bit knows = 1;
 boot:
   if :: is_final(j_word[j]) -> goto done :: else -> skip fi;
+  COPY_JOURNAL;
   atomic {
     connected[p] = 1;
     if
@@ -270,12 +296,14 @@ boot:
     if
     :: memory[j] == started -> goto is_started
     :: memory[j] == cancelled -> goto is_not_started
-    :: memory[j] == unknown_job && j_word[j] == starting -> if :: goto is_not_started :: skip fi    /* or again */
+    :: memory[j] == unknown_job && may_have_sent -> if :: goto is_not_started :: skip fi    /* or again */
     :: else -> skip
     fi;
+    if :: owns -> knows = 1 :: else -> skip fi;
     if :: cancelling -> goto withdraw :: else -> skip fi;
     j_word[j] = preparing
   }
+  COPY_JOURNAL;
   do
   :: owns && state == ended && job != j -> send(clear_result, p, j_epoch[p], job, 0, 0)
   :: owns && (state == stored || state == prepared) && job != j -> send(cancel, p, j_epoch[p], job, 0, 0)
@@ -309,14 +337,14 @@ boot:
   od;
 withdraw:
 #ifndef MUTANT_CANCEL_UNCONFIRMED
-  if :: j_word[j] == starting && !owns -> goto boot :: else -> skip fi;    /* fence, then ask */
+  if :: may_have_sent && !owns -> goto boot :: else -> skip fi;            /* fence, then ask */
   do
   :: owns && job == j && (state == stored || state == prepared) -> send(cancel, p, j_epoch[p], j, 0, 0)
   :: atomic { connected[p] && memory[j] == cancelled -> goto is_not_started }
   :: atomic { connected[p] && memory[j] == started -> goto is_started }
-  :: atomic { owns && job != j && memory[j] == unknown_job && j_word[j] != starting -> goto is_not_started }
-  :: j_word[j] != starting -> goto is_not_started             /* START was never sent */
-  :: j_word[j] == starting -> goto boot
+  :: atomic { owns && job != j && memory[j] == unknown_job && !may_have_sent -> goto is_not_started }
+  :: !may_have_sent -> goto is_not_started                    /* START was never sent */
+  :: may_have_sent -> goto boot
   MAY_BE_KILLED
   od;
 #else
@@ -324,7 +352,7 @@ withdraw:
 #endif
 store_lost:
 give_up:
-  if :: j_word[j] == starting -> say(UNKNOWN) :: else -> say(NOT_STARTED) fi;
+  if :: may_have_sent -> say(UNKNOWN) :: else -> say(NOT_STARTED) fi;
   goto done;
 is_not_started:
   say(NOT_STARTED);
@@ -341,7 +369,7 @@ done:
 #ifdef NEVER_UNKNOWN
   assert(j_word[j] != UNKNOWN);
 #endif
-  cancelling = 0;
+  cancelling = 0; knows = 1;
   if :: j < last -> j++; goto boot :: else -> skip fi
 }
 

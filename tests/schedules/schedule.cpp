@@ -8,6 +8,7 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "app/project/hand_over.h"
 #include "base/error.h"
@@ -88,10 +89,61 @@ PieceJob make_piece(int number) {
     return piece;
 }
 
+// The journal of a PC as it was after one of its events, put back between two of its dispatchers: its last rows are
+// lost. Draws from numbers of its own, so that the other faults of a seed stay what they are without it.
+class OldJournal {
+ public:
+    OldJournal(fs::path folder, std::uint64_t seed, bool is_allowed) : folder_(std::move(folder)), random_(seed) {
+        constexpr int most_events = 60;
+        const bool happens = next_random(random_) % 2 == 0;
+        if (is_allowed && happens) events_left_ = 1 + static_cast<int>(next_random(random_) % most_events);
+    }
+
+    void after_event() {
+        if (events_left_ == 0 || --events_left_ > 0) return;
+        fs::create_directories(copy());
+        for (const char* name : files) {
+            std::error_code is_missing;
+            fs::copy_file(folder_ / name, copy() / name, is_missing);
+        }
+        has_copy_ = true;
+    }
+
+    // True if the copy is back. Precondition: the journal is not open.
+    bool put_back() {
+        if (!has_copy_ || next_random(random_) % 2 == 0) return false;
+        has_copy_ = false;
+        for (const char* name : files) {
+            std::error_code is_missing;
+            fs::remove(folder_ / name, is_missing);
+            fs::copy_file(copy() / name, folder_ / name, is_missing);
+        }
+        fs::remove(folder_ / "journal.sqlite-shm");
+        return true;
+    }
+
+ private:
+    static constexpr const char* files[] = {"journal.sqlite", "journal.sqlite-wal", "lock"};  // with the number of rows
+    fs::path copy() const { return folder_.string() + "-copy"; }
+
+    fs::path folder_;
+    std::uint64_t random_;
+    int events_left_ = 0;  // until the copy is taken; 0: none is
+    bool has_copy_ = false;
+};
+
 class Pc {
  public:
-    Pc(World& world, const Plan& plan, int number, const fs::path& folder, ScheduleEnd& end)
-        : world_(world), plan_(plan), number_(number), folder_(folder), end_(end), kills_left_(plan.kills) {
+    // `seed` of what is drawn beside the numbers of the world.
+    Pc(World& world, const Plan& plan, int number, const fs::path& folder, std::uint64_t seed, ScheduleEnd& end)
+        : world_(world),
+          plan_(plan),
+          number_(number),
+          folder_(folder),
+          // A cell and a journal that both lost their memory of a job leave no trace of it.
+          old_journal_(folder, seed, plan.stores_lost == 0),
+          end_(end),
+          kills_left_(plan.kills) {
         for (int i = 0; i < plan.jobs_each; ++i) {
             jobs_.push_back(make_piece(plan.same_file ? i : number * plan.jobs_each + i));
         }
@@ -131,6 +183,10 @@ class Pc {
         kill_at_ = kills_left_ > 0 && began_s < faults_end_s ? 1 + static_cast<int>(world_.random() % 130) : 0;
         cancelled_s_ = -1;
         cancelled_ = false;
+        if (began_s < faults_end_s && old_journal_.put_back()) {
+            say("the journal lost its last rows");
+            ++end_.journals_set_back;
+        }
         try {
             dispatch();
         } catch (const Killed&) {
@@ -161,8 +217,11 @@ class Pc {
             store_is_lost = store_is_lost || one.outcome.store_is_lost ||
                             one.outcome.to_do.find("accept-store") != std::string::npos;
             for (std::size_t i = 0; i < open_.size(); ++i) {
-                const bool has_word = one.outcome.verdict == StartVerdict::started || one.outcome.carved_before;
-                if (open_[i].piece != one.piece || !has_word) continue;
+                if (open_[i].piece != one.piece) continue;
+                if (one.outcome.may_be_carved) look_at(open_[i]);
+                const bool has_word = one.outcome.verdict == StartVerdict::started || one.outcome.carved_before ||
+                                      has_said_unknown(open_[i]);
+                if (!has_word) continue;
                 open_.erase(open_.begin() + static_cast<std::ptrdiff_t>(i));
                 break;
             }
@@ -184,6 +243,13 @@ class Pc {
             ++end_.wrong_reports;
         }
         reports_.push_back(outcome);
+    }
+
+    // Whether the file was carved is UNKNOWN. The operator looks, and orders it once more if it was not; but not while
+    // the other PC may start the same file.
+    void look_at(const PieceJob& job) {
+        again_ = !plan_.same_file && world_.starts_of(job.ticket.file_sha256) == 0;
+        if (!again_) unknown_.insert(job.ticket.file_name);
     }
 
     // The operator looks at the cell, accepts its memory, and orders only what he did not see carved.
@@ -216,6 +282,8 @@ class Pc {
         options.clock.sleep = [this](double seconds) { world_.sleep(seconds); };
         options.random = [this] { return static_cast<std::uint32_t>(world_.random() >> 32U) | 1U; };
         if (plan_.takes_over && number_ == 1) options.takeover_code = 4711;
+        options.again = std::exchange(again_, false);
+        options.journal = [this](const JournalEvent&) { old_journal_.after_event(); };
         options.at_point = [this](const std::string& point) {
             if (kill_at_ == 0 || --kill_at_ > 0) return;
             say("KILLED " + point);
@@ -228,6 +296,7 @@ class Pc {
     const Plan& plan_;
     int number_;
     fs::path folder_;
+    OldJournal old_journal_;
     ScheduleEnd& end_;
     int kills_left_;
     int kill_at_ = 0;
@@ -236,6 +305,7 @@ class Pc {
     std::vector<PieceJob> jobs_;
     std::vector<PieceJob> open_;
     std::set<std::string> unknown_;
+    bool again_ = false;  // of the next dispatch
     std::vector<JobOutcome> reports_;
 };
 
@@ -288,6 +358,7 @@ void ScheduleEnd::add(const ScheduleEnd& other) {
     kills += other.kills;
     power_cuts += other.power_cuts;
     stores_lost += other.stores_lost;
+    journals_set_back += other.journals_set_back;
     said_started += other.said_started;
     said_not_started += other.said_not_started;
     said_unknown += other.said_unknown;
@@ -304,7 +375,8 @@ ScheduleEnd run_schedule(std::uint64_t seed, const std::function<void(const std:
     std::vector<std::unique_ptr<Pc>> pcs;
     std::vector<std::function<void()>> bodies;
     for (int i = 0; i < plan.pcs; ++i) {
-        pcs.push_back(std::make_unique<Pc>(world, plan, i, folder.path / ("pc-" + std::to_string(i)), end));
+        const std::uint64_t pc_seed = seed * 2 + static_cast<std::uint64_t>(i) + 0x9E3779B97F4A7C15U;
+        pcs.push_back(std::make_unique<Pc>(world, plan, i, folder.path / ("pc-" + std::to_string(i)), pc_seed, end));
         bodies.emplace_back([pc = pcs.back().get()] { pc->run(); });
     }
     world.run(bodies);

@@ -1,4 +1,5 @@
-// One schedule of faults, drawn from its seed: link faults, kills of a dispatcher, power cuts, stores lost, two PCs.
+// One schedule of faults, drawn from its seed: link faults, kills of a dispatcher, power cuts, stores lost, journals
+// set back, two PCs.
 //
 // After some minutes of virtual time the faults end, and the dispatchers go on until each has a last word for each of
 // its jobs. The judge is World.
@@ -23,6 +24,7 @@ struct ScheduleEnd {
     int kills = 0;
     int power_cuts = 0;
     int stores_lost = 0;
+    int journals_set_back = 0;
     int said_started = 0;
     int said_not_started = 0;
     int said_unknown = 0;

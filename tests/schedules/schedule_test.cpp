@@ -26,6 +26,7 @@ void expect_right(std::uint64_t first) {
     EXPECT_GT(sum.kills, 300);
     EXPECT_GT(sum.power_cuts, 100);
     EXPECT_GT(sum.stores_lost, 20);
+    EXPECT_GT(sum.journals_set_back, 50);
     EXPECT_GT(sum.said_started, 300);
     EXPECT_GT(sum.said_not_started, 200);
     EXPECT_GT(sum.said_unknown, 2);

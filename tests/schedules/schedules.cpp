@@ -17,9 +17,10 @@ void print(std::uint64_t count, const ScheduleEnd& sum) {
                 static_cast<unsigned long long>(count), sum.jobs, sum.lost, sum.double_starts, sum.wrong_reports,
                 sum.hangs);
     std::printf(
-        "  link faults %d, kills %d, power cuts %d, stores lost %d; said STARTED %d, NOT STARTED %d, UNKNOWN %d\n",
-        sum.link_faults, sum.kills, sum.power_cuts, sum.stores_lost, sum.said_started, sum.said_not_started,
-        sum.said_unknown);
+        "  link faults %d, kills %d, power cuts %d, stores lost %d, journals set back %d; said STARTED %d, NOT STARTED "
+        "%d, UNKNOWN %d\n",
+        sum.link_faults, sum.kills, sum.power_cuts, sum.stores_lost, sum.journals_set_back, sum.said_started,
+        sum.said_not_started, sum.said_unknown);
     std::fflush(stdout);
 }
 

@@ -58,6 +58,20 @@ struct RunningJob {
     std::jthread thread;
 };
 
+TEST(Fault, F51_AbortGetsThroughBesideEightSilentConnections) {
+    const Controlled rig;
+    std::vector<std::unique_ptr<rig::RawSocket>> silent;
+    for (int n = 0; n < 8; ++n) silent.push_back(std::make_unique<rig::RawSocket>(rig.cell->port()));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    const auto bus = rig::connect(*rig.cell);
+    const std::optional<Status> status = read_first_status(*bus, "the cell", {});  // tries for two seconds
+    ASSERT_TRUE(status.has_value());
+    ControlOrder order;
+    order.command = CellCommand::abort;
+    EXPECT_EQ(control_cell(*bus, *status, order, {}).kind, Kind::done);
+    EXPECT_TRUE(rig.comes_to(PackState::aborted));
+}
+
 TEST(CellControl, HoldUnholdAndStopBesideADispatchThatGoesOn) {
     const Controlled rig(10);
     DispatchOptions options = rig::quick_dispatch(rig.folder.path);

@@ -325,6 +325,25 @@ TEST(HandOffOverTcp, TheFirstStatusIsAskedForAgainAndWhatFailedIsNamed) {
     EXPECT_TRUE(status->has(flag::simulated));
 }
 
+// Read again within the two seconds of the first contact, whichever bit is wrong: MAGIC and VERSION too.
+TEST(HandOffOverTcp, AFlippedBitInTheFirstStatusIsReadAgain) {
+    const Rig rig;
+    const auto arm = [&](std::size_t bit, int times) {
+        const std::string line = "fault flip-status " + std::to_string(bit) + " times " + std::to_string(times);
+        rig.cell->perform(*parse_script_line(line, 1, "test"));
+    };
+    const auto bus = connect(*rig.cell);
+    for (std::size_t bit = 0; bit < 16 * status_block.count; ++bit) {
+        arm(bit, 1);
+        EXPECT_TRUE(read_first_status(*bus, "cell-1", {}).has_value()) << bit;
+    }
+    for (const std::size_t bit : {0U, 15U, 24U, 40U, 1500U, 1536U, 1590U}) {
+        arm(bit, 4);
+        EXPECT_TRUE(read_first_status(*bus, "cell-1", {}).has_value()) << bit;
+        rig.cell->perform(*parse_script_line("fault clear", 1, "test"));
+    }
+}
+
 TEST(HandOffOverTcp, AskedToStopBeforeTheFirstStatusThereIsNone) {
     const Rig rig;
     const std::atomic<bool> cancelled = true;

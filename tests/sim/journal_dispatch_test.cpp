@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "devices/cell_control.h"
+#include "devices/codec.h"
 #include "devices/journal.h"
 #include "devices/journal_history.h"
 #include "tests/sim/cell_rig.h"
@@ -79,6 +81,61 @@ TEST(Fault, F35_TwoProcessesForOneCellAreOneWriter) {
         FAIL() << "two writers";
     } catch (const InputError& error) {
         EXPECT_EQ(error.fault, InputFault::busy);
+    }
+}
+
+// A journal that holds the first rows of another one: its last ones were lost.
+JournalHistory first_rows(const std::vector<JournalEvent>& events, std::size_t count) {
+    std::vector<JournalRow> rows;
+    for (std::size_t i = 0; i < count; ++i) rows.push_back({static_cast<std::int64_t>(i) + 1, 0, events[i]});
+    return history_of(rows);
+}
+
+// The job has run to its end and was cleared; then the journal loses its last rows.
+TEST(JournalDispatch, AJournalThatLostItsLastRowsIsNoReasonToSayNotStarted) {
+    Cell rig;
+    std::vector<JournalEvent> events;
+    rig.options.journal = [&](const JournalEvent& event) { events.push_back(event); };
+    const rig::Job job = rig::make_job(100, 2);
+    const JobOutcome first = rig.dispatch(rig.options);
+    ASSERT_TRUE(first.is_complete());
+    ASSERT_EQ(rig.cell.status().job_state, JobState::none) << "it was cleared";
+    rig.options.journal = {};
+    int taken_up = 0;
+    for (std::size_t kept = 1; kept < events.size(); ++kept) {
+        const JournalHistory history = first_rows(events, kept);
+        const auto bus = rig::connect(rig.cell);
+        ASSERT_EQ(history.jobs.size(), 1U);
+        if (history.jobs[0].is_open()) {
+            DispatchOptions options = rig.options;
+            options.past = past_of(history, &history.jobs[0], rig.cell.status().owner_held);
+            const JobOutcome outcome = adopt_job(*bus, decode_ticket(history.jobs[0].ticket).value, options, {});
+            EXPECT_EQ(outcome.verdict, StartVerdict::started) << kept << " rows kept: " << outcome.why;
+            EXPECT_EQ(outcome.starts, 1U) << kept;
+            EXPECT_LT(outcome.took_s, 5) << kept << " rows kept: no wait for an acknowledgement that cannot come";
+            ++taken_up;
+        }
+        rig.options.past = past_of(history, nullptr, rig.cell.status().owner_held);
+        const JobOutcome again = rig.dispatch(rig.options);
+        EXPECT_EQ(again.verdict, StartVerdict::not_started) << kept << again.why;
+        EXPECT_TRUE(again.carved_before) << kept << again.why;
+    }
+    EXPECT_GT(taken_up, 12);
+    EXPECT_EQ(rig.cell.status().starts_total, 1U);
+}
+
+TEST(JournalDispatch, ACommandWithALeaseWorksThoughTheJournalLostItsLastRows) {
+    Cell rig;
+    std::vector<JournalEvent> events;
+    rig.options.journal = [&](const JournalEvent& event) { events.push_back(event); };
+    ASSERT_TRUE(rig.dispatch(rig.options).is_complete());
+    for (std::size_t kept = 1; kept < events.size(); ++kept) {
+        const auto bus = rig::connect(rig.cell);
+        ControlOrder order;
+        order.command = CellCommand::reset;
+        order.past = past_of(first_rows(events, kept), nullptr);
+        const ControlEnd end = control_cell(*bus, rig.cell.status(), order, {});
+        EXPECT_NE(end.kind, ControlEnd::Kind::unknown) << kept << " rows kept: " << end.why;
     }
 }
 

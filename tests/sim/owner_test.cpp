@@ -155,6 +155,34 @@ TEST(Frames, WhatCannotBeTrustedHasNoEffectAndIsCounted) {
     EXPECT_EQ(bench.cell.memory.starts_total, 1U);
 }
 
+// It may ask for something that this cell does not know: nothing of it is done.
+TEST(Frames, ACommandThatUsesReservedRegistersIsRefusedWithTheirAddress) {
+    for (const std::uint16_t at : {7, 40, 57}) {
+        Bench bench;
+        bench.to_prepared();
+        const Command start{bench.cell.memory.epoch_held,
+                            ++bench.seq,
+                            CellCommand::start,
+                            job_a,
+                            bench.cell.job.token,
+                            0,
+                            0,
+                            good_digest(),
+                            owner};
+        Registers registers = encode(start);
+        registers[at] = 1;
+        const std::uint32_t crc = crc32_of_registers(std::span(registers).first(58));
+        registers[58] = static_cast<std::uint16_t>(crc >> 16U);
+        registers[59] = static_cast<std::uint16_t>(crc);
+        receive_command(bench.cell, registers, bench.now, bench.hooks);
+        EXPECT_EQ(bench.cell.ack.result, AckResult::unknown_cmd);
+        EXPECT_EQ(bench.cell.ack.detail, at);
+        EXPECT_EQ(bench.cell.memory.starts_total, 0U);
+        EXPECT_EQ(bench.send(CellCommand::start, job_a, bench.cell.job.token), AckResult::ok)
+            << "the token is not burnt";
+    }
+}
+
 TEST(Frames, AnAcknowledgementThatWasOvertakenIsRepeatedOnRequest) {
     Bench bench;
     bench.to_prepared();

@@ -94,6 +94,18 @@ TEST(Script, TheSurroundingsAreShownInStatus) {
     EXPECT_FALSE(cell.run("quit\n"));
 }
 
+TEST(Script, AWaitOnAVirtualClockEndsWhenItIsStopped) {
+    const rig::Folder folder;
+    Cell cell(rig::quick_cell(folder.path));
+    int asked = 0;
+    ScriptRun run(
+        cell.sim, [](const std::string&) {}, [&] { return ++asked > 100; });
+    run.add(parse_script("clock virtual\nwait 1000000000\ndoor open\n", "s"));
+    EXPECT_TRUE(run.step());
+    EXPECT_LE(asked, 110);
+    EXPECT_FALSE(cell.sim.status().has(flag::safety_open)) << "what follows is not done";
+}
+
 TEST(Script, AVirtualClockGoesOnByWaitOnly) {
     const rig::Folder folder;
     Cell cell(rig::quick_cell(folder.path));

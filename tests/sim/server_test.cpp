@@ -163,6 +163,74 @@ TEST(Server, TheNinthConnectionIsRefusedAndAFreedPlaceIsGivenAgain) {
     EXPECT_TRUE(is_served(RawSocket(cell.sim.port())));
 }
 
+std::vector<std::unique_ptr<RawSocket>> open_connections(const Cell& cell, int count) {
+    std::vector<std::unique_ptr<RawSocket>> sockets;
+    for (int n = 0; n < count; ++n) sockets.push_back(std::make_unique<RawSocket>(cell.sim.port()));
+    return sockets;
+}
+
+bool comes_to_be_served(const Cell& cell, double seconds) {
+    const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    while (std::chrono::steady_clock::now() < until) {
+        if (is_served(RawSocket(cell.sim.port()))) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return false;
+}
+
+TEST(Fault, F51_EightSilentConnectionsKeepNobodyOut) {
+    const Cell cell;
+    const auto silent = open_connections(cell, 8);
+    EXPECT_FALSE(comes_to_be_served(cell, 1)) << "they have two seconds for their first request";
+    EXPECT_TRUE(comes_to_be_served(cell, 2));
+    // The one that is open the longest was closed; the others lose nothing as long as nobody needs their places.
+    EXPECT_TRUE(silent[0]->is_closed_within(0.2));
+    for (std::size_t n = 1; n < silent.size(); ++n) EXPECT_TRUE(is_served(*silent[n])) << n;
+}
+
+// The deadline of a frame counts from its first byte; that of the place from the last whole request, here from the
+// beginning of the connection.
+TEST(Fault, F51_EightConnectionsThatBeginARequestLateKeepNobodyOut) {
+    const Cell cell;
+    const auto slow = open_connections(cell, 8);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1700));
+    const Bytes whole = frame(1, read_request(4, 0, 1));
+    for (const auto& socket : slow) socket->send(Bytes(whole.begin(), whole.begin() + 8));
+    EXPECT_TRUE(comes_to_be_served(cell, 1));
+    for (const auto& socket : slow) socket->send(Bytes(whole.begin() + 8, whole.end()));
+    const auto answered =
+        std::count_if(slow.begin(), slow.end(), [](const auto& one) { return one->receive(11).size() == 11; });
+    EXPECT_EQ(answered, 7) << "only one had to go";
+}
+
+TEST(Fault, F51_EightConnectionsThatAskedOnceAndWentSilentKeepNobodyOut) {
+    const Cell cell;
+    const auto silent = open_connections(cell, 8);
+    for (std::size_t n = silent.size(); n-- > 0;) ASSERT_TRUE(is_served(*silent[n])) << n;
+    EXPECT_FALSE(comes_to_be_served(cell, 1)) << "they have two seconds for their next request";
+    EXPECT_TRUE(comes_to_be_served(cell, 2));
+    EXPECT_TRUE(silent[7]->is_closed_within(0.2)) << "its last request is the oldest, though it connected last";
+    for (std::size_t n = 0; n < 7; ++n) EXPECT_TRUE(is_served(*silent[n])) << n;
+}
+
+// As the owner of the lease does with its heartbeat.
+TEST(Fault, F51_WhoAsksEverySecondKeepsItsPlaceWhileOthersComeAndGoSilent) {
+    const Cell cell;
+    const RawSocket owner(cell.sim.port());
+    const auto silent = open_connections(cell, 7);
+    std::vector<std::unique_ptr<RawSocket>> newcomers;
+    for (int second = 0; second < 6; ++second) {
+        ASSERT_TRUE(is_served(owner)) << second;
+        newcomers.push_back(std::make_unique<RawSocket>(cell.sim.port()));
+        const bool has_entered = is_served(*newcomers.back());
+        if (second == 0 || second > 2) {  // between them a slow machine decides
+            EXPECT_EQ(has_entered, second > 2) << second;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(900));
+    }
+    EXPECT_TRUE(is_served(owner));
+}
+
 TEST(Server, RefusedConnectionsAreCountedInOneLine) {
     const rig::Folder folder;
     std::mutex mutex;

@@ -31,9 +31,7 @@ struct CellCommands : ::testing::Test {
         Arguments arguments{"cell-sim", "--listen", to, "--drop", "drop", "--store", "store", "--speed", speed};
         arguments.insert(arguments.end(), more.begin(), more.end());
         cell = std::make_unique<Process>(arguments, program::RunOptions{folder.path});
-        ASSERT_TRUE(cell->waits_until_out("\n")) << cell->err();
-        const std::string line = cell->out();
-        to = line.substr(std::string("listening ").size(), line.find('\n') - std::string("listening ").size());
+        to = program::address_of(*cell);
     }
     void stop_cell() {
         cell->signal(SIGTERM);
@@ -64,6 +62,22 @@ TEST_F(CellCommands, AFileIsCarvedOnceUnlessAgainIsPassed) {
     const Ended all = run({"dispatch", "p.qch", "--drop", "drop"});  // A and B now, C before
     EXPECT_EQ(all.code, 0) << all.out << all.err;
     EXPECT_EQ(status()["store"]["starts_total"], 4);
+    stop_cell();
+}
+
+TEST_F(CellCommands, TheSameCellHasOneJournalUnderAllNamesOfItsAddress) {
+    start_cell("100000");
+    const std::string numeric = to;
+    to = "localhost" + numeric.substr(numeric.find(':'));
+    const Ended first = dispatch();
+    if (first.code == exit_unreachable) GTEST_SKIP() << "skipped: localhost is not 127.0.0.1 here";
+    EXPECT_EQ(first.code, 0) << first.err;
+    to = numeric;
+    EXPECT_EQ(dispatch({"--again"}).code, 0);
+    const Json journals = Json::parse(run({"journal", "show", "--json"}, false).out);
+    ASSERT_EQ(journals["journals"].size(), 1U);
+    EXPECT_EQ(journals["journals"][0]["endpoint"], numeric);
+    EXPECT_EQ(status()["has_journal"], true);
     stop_cell();
 }
 
@@ -119,6 +133,51 @@ TEST_F(CellCommands, ARunningDispatchIsHeldAndGoesOn) {
     EXPECT_EQ(running.wait().code, exit_demand_broken);
     EXPECT_EQ(status()["store"]["starts_total"], 1);
     stop_cell();
+}
+
+TEST_F(CellCommands, TakeOverSaysOnlyOfALeaseThatItHasEnded) {
+    start_cell("100");
+    const Ended free = run({"cell", "take-over", "--code", "4711"});
+    EXPECT_EQ(free.code, 0) << free.out << free.err;
+    EXPECT_TRUE(has(free.out, "No dispatcher had a lease")) << free.out;
+    EXPECT_TRUE(has(free.out, "the cell cuts no foam")) << free.out;
+
+    Process running({"dispatch", "p.qch", "--piece", "C", "--drop", "drop", "--to", to}, {folder.path});
+    ASSERT_TRUE(running.waits_until_err("the job has started")) << running.err();
+    const program::Folder elsewhere;  // another user, with a journal of their own
+    const Ended refused = program::run({"cell", "take-over", "--code", "4711", "--to", to}, {elsewhere.path});
+    EXPECT_EQ(refused.code, exit_demand_broken) << refused.out << refused.err;
+    EXPECT_TRUE(has(refused.out, "LEASE_BUSY")) << refused.out;
+    EXPECT_TRUE(has(refused.out, "the cell is cutting foam")) << refused.out;
+    EXPECT_TRUE(has(refused.out, "to do: ")) << refused.out;
+    EXPECT_FALSE(has(refused.out, "has ended")) << refused.out;
+    EXPECT_FALSE(has(refused.out, "lost its lease")) << refused.out;
+    EXPECT_EQ(run({"cell", "stop"}).code, 0);
+    running.wait();
+    stop_cell();
+}
+
+TEST_F(CellCommands, AMissingDropFolderIsNamedBeforeTheCellIsAsked) {
+    start_cell("100000");
+    fs::remove(folder.path / "drop");
+    const Ended missing = dispatch();
+    EXPECT_EQ(missing.code, exit_create) << missing.out << missing.err;
+    EXPECT_TRUE(has(missing.err, "there is no drop folder drop")) << missing.err;
+    EXPECT_TRUE(has(missing.err, "this dispatch started no job")) << missing.err;
+    EXPECT_TRUE(has(missing.err, "--chunks")) << missing.err;
+    EXPECT_EQ(status()["epoch_held"], 0) << "nothing was sent";
+    fs::create_directory(folder.path / "drop");
+    EXPECT_EQ(dispatch().code, 0) << "and no job was left open";
+    stop_cell();
+}
+
+TEST_F(CellCommands, AnAbortThatReachesNobodySaysThatTheMachineMayRunOn) {
+    for (const char* command : {"abort", "stop", "hold"}) {
+        const Ended ended = run({"cell", command, "--to", "127.0.0.1:9"}, false);
+        EXPECT_EQ(ended.code, exit_unreachable) << ended.err;
+        EXPECT_TRUE(has(ended.err, "runs on")) << ended.err;
+        EXPECT_TRUE(has(ended.err, "red button")) << ended.err;
+    }
 }
 
 TEST_F(CellCommands, ACellThatWasEmptiedIsAcceptedInSoManyWords) {

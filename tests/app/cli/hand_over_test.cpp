@@ -29,11 +29,7 @@ struct HandOver : ::testing::Test {
         cell = std::make_unique<Process>(Arguments{"cell-sim", "--listen", "127.0.0.1:0", "--drop", "drop", "--speed",
                                                    "100000", "--consent", consent},
                                          program::RunOptions{folder.path, typed});
-        if (!cell->waits_until_out("\n")) ADD_FAILURE() << cell->err();
-        const std::string line = cell->out();
-        const std::string head = "listening ";
-        EXPECT_TRUE(line.starts_with(head)) << line;
-        return line.substr(head.size(), line.find('\n') - head.size());
+        return program::address_of(*cell);
     }
     Ended dispatch(const std::string& to, const Arguments& more = {"--piece", "C"}) const {
         Arguments arguments{"dispatch", "p.qch", "--to", to, "--drop", "drop"};

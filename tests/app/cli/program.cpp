@@ -5,6 +5,7 @@
 #include <sched.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -69,6 +70,8 @@ Process::Process(const Arguments& arguments, const RunOptions& options) {
     redirect(streams_.path / "err", O_WRONLY | O_CREAT, STDERR_FILENO);
     ::setenv("XDG_STATE_HOME", state.c_str(), 1);
     if (options.one_core) keep_to_one_core();
+    const rlimit limit{options.largest_file, options.largest_file};
+    if (options.largest_file > 0) ::setrlimit(RLIMIT_FSIZE, &limit);
     if (!options.temporary_folder.empty()) ::setenv("TMPDIR", options.temporary_folder.c_str(), 1);
     ::execv(argv[0], argv.data());
     ::_exit(127);
@@ -87,6 +90,16 @@ bool Process::has_ended() {
 
 void Process::signal(int number) const {
     if (!ended_) ::kill(pid_, number);
+}
+
+bool Process::waits_until_signals_are_caught() {
+    const std::uint64_t wanted = 1ULL << (SIGINT - 1) | 1ULL << (SIGTERM - 1);
+    const auto is_caught = [&] {
+        const std::string status = bytes_in("/proc/" + std::to_string(pid_) + "/status");
+        const std::size_t at = status.find("SigCgt:");
+        return at != std::string::npos && (std::stoull(status.substr(at + 7), nullptr, 16) & wanted) == wanted;
+    };
+    return comes_true([&] { return is_caught() || has_ended(); }, 60) && is_caught();
 }
 
 std::string Process::out() const {
@@ -127,6 +140,14 @@ Ended Process::wait(double seconds) {
 
 Ended run(const Arguments& arguments, const RunOptions& options) {
     return Process(arguments, options).wait();
+}
+
+std::string address_of(Process& cell) {
+    const std::string head = "listening ";
+    EXPECT_TRUE(cell.waits_until_out("\n")) << cell.err();
+    const std::string line = cell.out();
+    EXPECT_TRUE(line.starts_with(head)) << line;
+    return line.starts_with(head) ? line.substr(head.size(), line.find('\n') - head.size()) : std::string();
 }
 
 std::string bytes_in(const fs::path& file) {

@@ -4,6 +4,7 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -22,6 +23,7 @@ struct RunOptions {
     std::string input = {};                       // what stdin holds; then it ends
     bool one_core = false;                        // may use one core only
     std::filesystem::path temporary_folder = {};  // TMPDIR; empty: as here
+    std::uint64_t largest_file = 0;               // bytes of a file that it may write; 0: no limit
 };
 
 struct Ended {
@@ -40,6 +42,8 @@ class Process {
     Process& operator=(const Process&) = delete;
 
     void signal(int number) const;
+    // Until it has installed its handlers of SIGINT and SIGTERM.
+    bool waits_until_signals_are_caught();
     // Until the text is on stdout or stderr; false if the program ends before or it takes too long.
     bool waits_until_out(const std::string& text, double seconds = 120);
     bool waits_until_err(const std::string& text, double seconds = 120);
@@ -58,6 +62,8 @@ class Process {
 };
 
 Ended run(const Arguments& arguments, const RunOptions& options);
+// Waits until a cell-sim says where it listens: HOST:PORT, or "" and a failed test.
+std::string address_of(Process& cell);
 
 // Every file and folder in a folder with its bytes.
 using Contents = std::map<std::string, std::string>;

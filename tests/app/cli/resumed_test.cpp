@@ -110,10 +110,27 @@ class Scene {
     int starts_total() const {
         return Json::parse(run({"cell", "status", "--json", "--to", cell_at_}).out)["store"]["starts_total"];
     }
+    // The files of the journal; a copy of them put back is a journal that lost its last rows.
+    program::Contents journal() const {
+        program::Contents files;
+        for (const char* name : {"journal.sqlite", "journal.sqlite-wal"}) {
+            files[name] = program::bytes_in(journal_folder() / name);
+        }
+        return files;
+    }
+    void put_back(const program::Contents& old) const {
+        const fs::path folder = journal_folder();
+        fs::remove_all(folder);
+        fs::create_directory(folder);
+        for (const auto& [name, bytes] : old) program::put(folder / name, bytes);
+    }
     void expect_sound_journal() const { EXPECT_EQ(run({"journal", "verify"}).code, 0); }
 
  private:
     Ended run(const Arguments& arguments) const { return program::run(arguments, {folder_.path}); }
+    fs::path journal_folder() const {
+        return Json::parse(run({"journal", "show", "--json"}).out)["journals"][0]["folder"].get<std::string>();
+    }
 
     program::Folder folder_;
     std::string cell_at_ = "127.0.0.1:0";
@@ -154,6 +171,25 @@ TEST(Resumed, ADispatchThatIsKilledAtAnyMomentIsTakenUp) {
         expect_ended(scene.dispatch(), exit_done, {"STARTED", "all 1 jobs ended complete"});
         EXPECT_EQ(scene.starts_total(), 1);
     });
+}
+
+TEST(Resumed, AJournalThatLostItsLastRowsIsNoReasonToSayNotStarted) {
+    at_each({before_start[0], before_start[1], before_start[3], consented},
+            [](Scene& scene, const std::string& moment) {
+                const auto dispatch = scene.begin(moment);
+                const program::Contents old = scene.journal();
+                expect_ended(dispatch->wait(), exit_done, {"STARTED", "all 1 jobs ended complete"});
+                scene.put_back(old);
+                scene.plug(false);
+                const Ended unplugged = scene.dispatch();
+                EXPECT_EQ(unplugged.code, exit_unreachable);
+                EXPECT_FALSE(has(unplugged.out + unplugged.err, "NOT STARTED")) << unplugged.out << unplugged.err;
+                scene.plug(true);
+                const Ended next = scene.dispatch();
+                expect_ended(next, exit_done, {" STARTED ", "all 1 jobs ended complete"});
+                EXPECT_FALSE(has(next.out, "NOT STARTED")) << next.out << next.err;
+                EXPECT_EQ(scene.starts_total(), 1);
+            });
 }
 
 TEST(Resumed, ACellThatIsKilledBeforeTheStartGetsTheJobWhenItIsBack) {
@@ -292,9 +328,29 @@ TEST(Resumed, ACellThatIsEmptiedWhileStartIsUnderWayIsUnknown) {
         EXPECT_EQ(scene.starts_total(), 0);
         const Ended accepted = scene.accept_store();  // the operator has looked
         EXPECT_EQ(accepted.code, 0);
-        EXPECT_TRUE(has(accepted.err, "UNKNOWN: ask the cell")) << accepted.err;
-        expect_ended(scene.dispatch(), exit_done, {"STARTED", "all 1 jobs ended complete"});
+        EXPECT_TRUE(has(accepted.err, "warning: ")) << accepted.err;
+        EXPECT_TRUE(has(accepted.err, "UNKNOWN")) << accepted.err;
+        EXPECT_TRUE(has(accepted.err, "--again")) << accepted.err;
+        expect_ended(scene.dispatch(), exit_demand_broken, {"NOT STARTED", "UNKNOWN", "--again"});
+        EXPECT_EQ(scene.starts_total(), 0) << "nobody has asked for a second time";
+        expect_ended(scene.dispatch({"--piece", "C", "--again"}), exit_done, {"STARTED", "all 1 jobs ended complete"});
         EXPECT_EQ(scene.starts_total(), 1);
+        EXPECT_TRUE(has(scene.dispatch().out, "the cell has carved this file before"));
+        EXPECT_EQ(scene.starts_total(), 1);
+    });
+}
+
+// A dispatch that was killed before START: with the memory of the cell gone, its journal is the only witness, and it
+// may have lost its last rows.
+TEST(Resumed, AJobThatWasOpenWhenTheCellLostItsMemoryIsCarvedOnlyWithAgain) {
+    at_each({before_start[1]}, [](Scene& scene, const std::string& moment) {
+        kill(*scene.begin(moment));
+        scene.restart_cell(true);
+        expect_ended(scene.dispatch(), exit_demand_broken, {"UNKNOWN: ask the cell", "CELL_STORE_LOST"});
+        EXPECT_TRUE(has(scene.accept_store().err, "--again"));
+        expect_ended(scene.dispatch(), exit_demand_broken, {"NOT STARTED", "UNKNOWN", "--again"});
+        EXPECT_EQ(scene.starts_total(), 0);
+        expect_ended(scene.dispatch({"--piece", "C", "--again"}), exit_done, {"all 1 jobs ended complete"});
     });
 }
 

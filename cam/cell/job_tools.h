@@ -1,0 +1,17 @@
+// The tools of a cell as tickets name them.
+
+#pragma once
+
+#include <vector>
+
+#include "cam/cell/cell.h"
+
+namespace qchopper {
+
+// As a ticket names the tool: its largest speed of the spindle, and its largest feed, rounded down to mm/min.
+Tool job_tool(const CarvingTool& tool);
+
+// All tools that a ticket may name: of version 1 the one, of version 2 those of the file, drills too. O(tools).
+std::vector<Tool> tools_of(const Cell& cell);
+
+}  // namespace qchopper
