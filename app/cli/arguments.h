@@ -85,6 +85,7 @@ struct ProjectArguments : RepairChoiceArguments {
     std::optional<std::filesystem::path> no_cut;
     std::optional<std::filesystem::path> ignore_surface;
     bool ignore_inside = false;
+    std::optional<std::string> discard;  // option_values.h reads it
     std::optional<std::filesystem::path> out;
 };
 
@@ -98,7 +99,6 @@ struct SegmentArguments : ProjectArguments {
     std::optional<std::size_t> accept;   // a place in the ranking, from 1
     std::optional<std::string> plane;    // nx,ny,nz,d
     std::optional<std::string> preview;  // a place, or nx,ny,nz,d
-    std::optional<std::string> discard;  // a piece
     bool undo = false;
     bool redo = false;
     bool reset = false;

@@ -30,7 +30,7 @@ Action action_of(const SegmentArguments& a) {
     const Action actions[] = {{a.step, "--step", true, true, true},
                               {a.accept.has_value(), "--accept", true, true, false},
                               {a.plane.has_value(), "--plane", true, true, true},
-                              {a.discard.has_value(), "--discard", false, false, false},
+                              {a.discard.has_value(), "--discard", false, false, true},
                               {a.undo, "--undo", false, false, false},
                               {a.redo, "--redo", false, false, false},
                               {a.preview.has_value(), "--preview", true, true, true},

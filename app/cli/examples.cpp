@@ -38,7 +38,7 @@ Lengths are millimetres. Exit codes: 0 done, 1 a demand is not met, 64 wrong use
   qchopper segment by-hand.qch --step
   qchopper segment by-hand.qch --accept 1
   qchopper segment by-hand.qch --plane 0,0,1,12.5 --piece B --write-pieces
-  qchopper segment by-hand.qch --discard C
+  qchopper segment by-hand.qch --discard C,below=50ml
   qchopper segment by-hand.qch --undo
   qchopper segment by-hand.qch --cell cells/foam-1.toml
   qchopper segment by-hand.qch --auto --max-faces 20000

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <set>
 #include <sstream>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "segment/io/text.h"
@@ -41,6 +43,17 @@ std::optional<Vec3> unit_from(Vec3 direction) {
     const int power = -std::ilogb(largest);
     const Vec3 scaled{std::ldexp(direction.x, power), std::ldexp(direction.y, power), std::ldexp(direction.z, power)};
     return std::abs(norm(direction) - 1) > 1e-14 ? normalized(scaled) : direction;
+}
+
+// "50ml", in mm3.
+std::optional<double> volume_from(const std::string& text) {
+    constexpr std::pair<std::string_view, double> units[] = {{"mm3", 1}, {"cm3", 1e3}, {"ml", 1e3}, {"l", 1e6}};
+    for (const auto& [unit, mm3] : units) {
+        if (text.size() <= unit.size() || text.compare(text.size() - unit.size(), unit.size(), unit) != 0) continue;
+        const std::optional<double> value = number_from(text.substr(0, text.size() - unit.size()));
+        if (value && *value > 0) return *value * mm3;
+    }
+    return std::nullopt;
 }
 
 std::optional<double>* weight_named(GivenWeights& weights, const std::string& name) {
@@ -178,6 +191,22 @@ std::optional<StructureOptions> load_from(const std::string& text) {
         if (!given.contains(name)) return std::nullopt;
     }
     return load;
+}
+
+std::optional<DiscardRequest> discard_from(const std::string& text) {
+    constexpr std::string_view below = "below=";
+    DiscardRequest request;
+    for (const std::string& part : split(text)) {
+        if (part.compare(0, below.size(), below) != 0) {
+            if (part.empty() || part.find('=') != std::string::npos) return std::nullopt;
+            request.pieces.push_back(part);
+            continue;
+        }
+        if (request.below_mm3) return std::nullopt;  // given twice
+        request.below_mm3 = volume_from(part.substr(below.size()));
+        if (!request.below_mm3) return std::nullopt;
+    }
+    return request;
 }
 
 std::optional<std::size_t> place_from(const std::string& text) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/project/decisions.h"
+#include "app/project/discard_request.h"
 #include "segment/io/raw_mesh.h"
 #include "segment/mesh/plane.h"
 #include "segment/structure/stress.h"
@@ -36,6 +37,9 @@ std::optional<Vec3> print_volume_from(const std::string& text);
 // upright is +x, -x, +y, -y, +z, -z or X:Y:Z of any length but zero; density in kg/m3, strength in MPa; load is weight,
 // a force in N, or weight+FORCE. Also voxel, in mm, and poisson may be given, the others must.
 std::optional<StructureOptions> load_from(const std::string& text);
+
+// "A,C,below=50ml": names of pieces and at most one volume above 0 in mm3, cm3, ml or l, in any order.
+std::optional<DiscardRequest> discard_from(const std::string& text);
 
 // A whole number from 1 to 1e6, the place in a ranking.
 std::optional<std::size_t> place_from(const std::string& text);

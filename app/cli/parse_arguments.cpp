@@ -16,17 +16,65 @@
 namespace qchopper {
 namespace {
 
-std::string hint(CLI::App& app, int argc, const char* const* argv) {
-    if (argc < 2 || argv[1][0] == '-') return {};
+constexpr std::size_t most_edits = 2;  // between a misspelt word and the one that is suggested
+
+const CLI::App* command_named(const CLI::App& app, const std::string& name) {
     for (const CLI::App* command : app.get_subcommands({})) {
-        if (command->get_name() == argv[1]) return {};
+        if (command->get_name() == name) return command;
     }
-    for (const CLI::App* command : app.get_subcommands({})) {
-        if (edit_distance(command->get_name(), argv[1]) <= 2) {
-            return "\"" + std::string(argv[1]) + "\" is no command; did you mean \"" + command->get_name() + "\"?";
+    return nullptr;
+}
+
+// The name in `known` nearest to a misspelt one, as a question; empty: none is near.
+std::string suggestion(const std::string& misspelt, const std::vector<std::string>& known) {
+    std::string nearest;
+    std::size_t least = most_edits + 1;
+    for (const std::string& name : known) {
+        const std::size_t edits = edit_distance(name, misspelt);
+        if (edits < least) {
+            least = edits;
+            nearest = name;
         }
     }
-    return "\"" + std::string(argv[1]) + "\" is no command";
+    return nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?";
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options()) {
+        if (option->get_group().empty()) continue;  // an older name
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    return names;
+}
+
+InputError unknown_option(const std::string& name, const std::string& said, const CLI::App& command) {
+    return {InputFault::use, name + " is no option of " + said + suggestion(name, option_names(command)),
+            "see " + said + " --help"};
+}
+
+// The error for a command line with a word that is no command, or an option that its command does not have; else the
+// one that says `otherwise`.
+InputError unknown_word(const CLI::App& app, int argc, const char* const* argv, const std::string& otherwise) {
+    const CLI::App* command = &app;
+    std::string said = "qchopper";
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const bool is_option = word.size() > 2 && word.compare(0, 2, "--") == 0;
+        const std::string name = word.substr(0, word.find('='));
+        if (is_option && command->get_option_no_throw(name) == nullptr) return unknown_option(name, said, *command);
+        if (word[0] == '-' || command->get_subcommands({}).empty()) continue;
+        const CLI::App* next = command_named(*command, word);
+        if (next == nullptr) {
+            std::vector<std::string> commands;
+            for (const CLI::App* c : command->get_subcommands({})) commands.push_back(c->get_name());
+            return {InputFault::use, "\"" + word + "\" is no command" + suggestion(word, commands),
+                    "see " + said + " --help"};
+        }
+        command = next;
+        said.append(" ").append(word);
+    }
+    return {InputFault::use, otherwise, "see " + said + " --help"};
 }
 
 struct Parser {
@@ -133,6 +181,10 @@ struct Parser {
         c->add_option("--max-faces", exported.max_faces,
                       "no more than so many faces a piece; the deviation is reported")
             ->check(number_between(4, many, "a count of faces from 4"));
+        c->add_option("--max-deviation", exported.max_deviation_mm,
+                      "with --max-faces: refuse what moves a surface by more than so many mm (1 % of the piece's "
+                      "diagonal)")
+            ->check(number_between(1e-9, many, "a length in mm above 0"));
         c->add_option("-o,--out", exported.out,
                       "the file to make, or for STL and PLY the folder (NAME.3mf, NAME-stl beside the project)");
         add_common(c, common, [this] { common.command = exported; });
@@ -295,8 +347,7 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
             parser.app.exit(e, std::cout, std::cerr);
             return std::nullopt;
         }
-        const std::string near = hint(parser.app, argc, argv);
-        throw InputError(InputFault::use, near.empty() ? e.what() : near, "see qchopper --help");
+        throw unknown_word(parser.app, argc, argv, e.what());
     }
 }
 

@@ -3,6 +3,7 @@
 #include "app/cli/check_arguments.h"
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
+#include "app/cli/option_values.h"
 #include "app/cli/project_arguments.h"
 #include "app/cli/version.h"
 #include "app/project/prepare_project.h"
@@ -12,7 +13,8 @@ namespace qchopper {
 
 int run(const PrepareArguments& a, Terminal& terminal) {
     check_arguments(a);
-    const PrepareOptions options{version, a.time_limit_s, !a.no_programs};
+    PrepareOptions options{version, a.time_limit_s, !a.no_programs, {}};
+    if (a.discard) options.discard = discard_from(*a.discard);
     const PreparedProject prepared = is_project_folder(a.input)
                                          ? prepare_project(without_slash(a.input), a.cell, options, terminal.context())
                                          : prepare_scan(choices_of(a), options, terminal.context());

@@ -110,7 +110,7 @@ ProjectRequest request_of(const SegmentArguments& a) {
         if (place) request.preview = *place;
         if (!place) request.preview = *plane_from(*a.preview);
     }
-    request.discard = a.discard;
+    if (a.discard) request.discard = discard_from(*a.discard);
     request.undo = a.undo;
     request.redo = a.redo;
     request.reset = a.reset;

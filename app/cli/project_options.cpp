@@ -116,6 +116,11 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
                   "several by commas")
         ->delimiter(',')
         ->check(one_of(forbiddable()));
+    c->add_option(
+         "--discard", a.discard,
+         "leave pieces out, before the search and until undone: head rest, debris, table; names by commas, and "
+         "below=50ml for all that are smaller")
+        ->check(read_by(discard_from, "not like A,C,below=50ml"));
     add_fragments(c, a.fragments);
     c->add_option("--fragment-volume", a.fragment_volume_mm3,
                   "solids of less than so many mm3 are no pieces (a hundred-thousandth of the scan's volume)")
@@ -201,7 +206,6 @@ void add_segment(CLI::App& app, SegmentArguments& segment, Arguments& common) {
         ->check(read_by([](const std::string& text) { return plane_from(text) || place_from(text); },
                         "neither a place in the ranking nor nx,ny,nz,d"));
     c->add_option("--piece", segment.piece, "the piece to be cut next (the one that the rules choose)");
-    c->add_option("--discard", segment.discard, "leave a piece out for good: head rest, debris, table; undone alike");
     c->add_flag("--write-pieces", segment.write_pieces, "write the pieces of the project folder after each decision");
     c->add_flag("--undo", segment.undo, "take the last decision back");
     c->add_flag("--redo", segment.redo, "put the decision that was taken back in force again");

@@ -27,7 +27,7 @@ class RequestHandler {
 
     SegmentAnswer answer() {
         if (request_.weights) change_weights();
-        if (request_.discard) discard_piece();
+        if (request_.discard) discard_pieces(*request_.discard);
         if (request_.undo || request_.redo) undo_or_redo();
         if (request_.reset) reset();
         if (request_.propose) answer_.proposal = propose();
@@ -65,14 +65,18 @@ class RequestHandler {
         answer_.done = "All cuts and discarded pieces are taken back; --undo brings them again.";
     }
 
-    void discard_piece() {
-        const std::size_t p = index_of(*request_.discard);
-        const std::string name = project_.segmentation().pieces[p].name;
-        if (!project_.decide_discard(name)) {
-            return refuse("Piece " + name + " is the only one, nothing would be left. Nothing was discarded.");
+    void discard_pieces(const DiscardRequest& request) {
+        const std::vector<std::string> names = pieces_meant(request, project_.segmentation());
+        if (names.empty()) {
+            answer_.notes.push_back(none_is_below(request));
+            return;
         }
-        answer_.warnings.push_back(project_.segmentation().warnings.back());
-        answer_.done = "Piece " + name + " is discarded; --undo brings it again.";
+        if (!project_.decide_discard(names)) return refuse(nothing_would_be_left());
+        const std::vector<std::string>& warnings = project_.segmentation().warnings;
+        answer_.warnings.assign(warnings.end() - static_cast<std::ptrdiff_t>(names.size()), warnings.end());
+        std::string list;
+        for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+        answer_.done = "Discarded: " + list + "; --undo brings back what this decision left out.";
     }
 
     std::size_t index_of(const std::string& name) {

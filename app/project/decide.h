@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/project/discard_request.h"
 #include "app/project/open_project.h"
 #include "app/project/outline.h"
 #include "app/project/project_context.h"
@@ -32,7 +33,7 @@ struct ProjectRequest {
     std::optional<std::size_t> accept;                        // a place in the ranking, from 1
     std::optional<Plane> plane;                               // to cut by
     std::optional<std::variant<std::size_t, Plane>> preview;  // a place in the ranking, or a plane
-    std::optional<std::string> discard;                       // a piece
+    std::optional<DiscardRequest> discard;                    // pieces
     bool undo = false;
     bool redo = false;
     bool reset = false;

@@ -20,11 +20,22 @@ Weights GivenWeights::over(const Weights& weights) const {
     return result;
 }
 
+namespace {
+
+// "piece C", "pieces C, D".
+std::string describe_pieces(const Discards& discards) {
+    std::string names;
+    for (const Discard& discard : discards) names += (names.empty() ? "" : ", ") + discard.piece;
+    return (discards.size() == 1 ? "piece " : "pieces ") + names;
+}
+
+}  // namespace
+
 std::string describe(const Decision& decision) {
     if (const Cut* cut = std::get_if<Cut>(&decision)) {
         return "cut " + std::to_string(cut->number) + " on piece " + cut->piece;
     }
-    if (const auto* discard = std::get_if<Discard>(&decision)) return "discard of piece " + discard->piece;
+    if (const auto* discards = std::get_if<Discards>(&decision)) return "discard of " + describe_pieces(*discards);
     if (const auto* order = std::get_if<SetupOrder>(&decision)) return "setup of piece " + order->piece;
     if (const auto* other = std::get_if<Replacement>(&decision)) return "replacement of " + describe(other->cut);
     return std::holds_alternative<WeightsChange>(decision) ? "change of weights" : "reset";
@@ -131,7 +142,9 @@ std::vector<Discard> committed_discards(const History& history) {
     for (std::size_t i = 0; i < history.committed; ++i) {
         const Decision& decision = history.decisions[i];
         if (std::holds_alternative<Cut>(decision)) ++cuts;
-        if (const auto* discard = std::get_if<Discard>(&decision)) discards.push_back({discard->piece, cuts});
+        if (const auto* together = std::get_if<Discards>(&decision)) {
+            for (const Discard& discard : *together) discards.push_back({discard.piece, cuts});
+        }
         if (!std::holds_alternative<Reset>(decision)) continue;
         discards.clear();
         cuts = 0;
@@ -153,7 +166,9 @@ std::vector<SetupOrder> committed_setup_orders(const History& history) {
         const Decision& decision = history.decisions[i];
         if (std::holds_alternative<Reset>(decision)) orders.clear();
         if (const Cut* cut = std::get_if<Cut>(&decision)) orders.erase(cut->piece);
-        if (const auto* discard = std::get_if<Discard>(&decision)) orders.erase(discard->piece);
+        if (const auto* discards = std::get_if<Discards>(&decision)) {
+            for (const Discard& discard : *discards) orders.erase(discard.piece);
+        }
         const auto* order = std::get_if<SetupOrder>(&decision);
         if (order == nullptr) continue;
         orders.erase(order->piece);

@@ -43,6 +43,9 @@ struct Discard {
     bool operator==(const Discard&) const = default;
 };
 
+// Those that one decision leaves out, at least one, all after the same cut.
+using Discards = std::vector<Discard>;
+
 // How a piece is laid and carved in place of what the program chooses. With neither it chooses again.
 struct SetupOrder {
     std::string piece;                          // its name
@@ -58,7 +61,7 @@ struct Replacement {
     bool operator==(const Replacement&) const = default;
 };
 
-using Decision = std::variant<Cut, WeightsChange, Reset, Discard, SetupOrder, Replacement>;
+using Decision = std::variant<Cut, WeightsChange, Reset, Discards, SetupOrder, Replacement>;
 
 struct History {
     Weights weights_at_start;
@@ -67,8 +70,8 @@ struct History {
     bool operator==(const History&) const = default;
 };
 
-// "cut 3 on piece B", "discard of piece C", "setup of piece B", "replacement of cut 3 on piece B",
-// "change of weights", "reset".
+// "cut 3 on piece B", "discard of piece C", "discard of pieces C, D", "setup of piece B", "replacement of cut 3 on
+// piece B", "change of weights", "reset".
 std::string describe(const Decision& decision);
 
 // So many planes of a piece at most are judged by what they leave out of reach, or by the terms that are fast, before

@@ -13,9 +13,11 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/staged_folder.h"
+#include "base/text.h"
 #include "base/timings.h"
 #include "segment/io/read_mesh.h"
 #include "segment/joint/drill.h"
+#include "segment/mesh/measure.h"
 #include "segment/picture/picture.h"
 
 namespace qchopper {
@@ -28,6 +30,9 @@ constexpr double gap_in_row = 20;  // mm
 void check_options(const ExportRequest& a) {
     if (a.simplify_mm && a.max_faces) {
         throw InputError(InputFault::use, "--simplify and --max-faces exclude each other", "pass one of them");
+    }
+    if (a.max_deviation_mm && !a.max_faces) {
+        throw InputError(InputFault::use, "--max-deviation limits what --max-faces does", "pass --max-faces N too");
     }
     if (a.holes && (a.simplify_mm || a.max_faces)) {
         throw InputError(InputFault::use, "--holes excludes --simplify and --max-faces", "export twice");
@@ -149,6 +154,26 @@ std::vector<ExportedPiece> rows_of(OpenProject& open, const ExportRequest& reque
     return rows;
 }
 
+// What --max-faces makes of a piece may not be another shape.
+void check_shape(const ExportedPiece& row, double piece_diagonal, const ExportRequest& request) {
+    const double limit = request.max_deviation_mm.value_or(max_deviation_share * piece_diagonal);
+    const SimplifyReport& made = row.simplified;
+    std::string faults;
+    if (made.deviation() > limit) {
+        faults = "moves the surface of piece " + row.piece.name + " by up to " + significant(made.deviation(), 3) +
+                 " mm, more than " + significant(limit, 3) + " mm" +
+                 (request.max_deviation_mm ? "" : " (1 % of its diagonal)");
+    }
+    if (made.crossings > 0) {
+        faults += (faults.empty() ? "makes " : ", and makes ") + counted(made.crossings, "pair") +
+                  " of faces of piece " + row.piece.name + " run through each other";
+    }
+    if (faults.empty()) return;
+    throw InputError(
+        InputFault::use, "--max-faces " + std::to_string(*request.max_faces) + " " + faults,
+        "allow more faces; or pass --simplify " + significant(limit, 2) + " for as few as that deviation allows");
+}
+
 // Pieces on several threads; progress is the sum over all of them, reported from one thread at a time.
 void simplify_all(std::vector<ExportedPiece>& rows, const ExportRequest& request, const Context& context) {
     const StageTimer stage(context, "pieces simplified");
@@ -159,6 +184,7 @@ void simplify_all(std::vector<ExportedPiece>& rows, const ExportRequest& request
     std::vector<std::size_t> done(rows.size(), 0);
     std::size_t points = 0;
     for (const ExportedPiece& row : rows) points += row.piece.mesh->points.size();
+    std::vector<double> diagonals(rows.size());
     parallel_for(0, rows.size(), [&](std::size_t i) {
         Context of_piece;
         of_piece.cancelled = context.cancelled;
@@ -169,9 +195,12 @@ void simplify_all(std::vector<ExportedPiece>& rows, const ExportRequest& request
         };
         of_piece.check_cancelled();
         TriangleMesh mesh = *rows[i].piece.mesh;
+        diagonals[i] = norm(bounds(mesh).size());
         rows[i].simplified = simplify(mesh, options, of_piece);
         rows[i].piece.mesh = std::make_shared<const TriangleMesh>(std::move(mesh));
     });
+    if (!request.max_faces) return;
+    for (std::size_t i = 0; i < rows.size(); ++i) check_shape(rows[i], diagonals[i], request);
 }
 
 // The folder appears whole or not at all.

@@ -218,9 +218,12 @@ void OpenProject::set_weights(const Weights& weights) {
     cache_.reset();
 }
 
-bool OpenProject::decide_discard(const std::string& piece) {
+bool OpenProject::decide_discard(const std::vector<std::string>& pieces) {
     Segmentation after = segmentation();
-    if (!discard(after, piece)) return false;
+    if (pieces.empty()) return false;
+    for (const std::string& piece : pieces) {
+        if (!discard(after, piece)) return false;
+    }
     adopt(after);
     return true;
 }

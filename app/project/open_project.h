@@ -95,11 +95,11 @@ class OpenProject {
     bool misses(std::size_t piece, const Plane& plane);
 
     // Decisions. They return false and change nothing where there is nothing to decide:
-    bool decide_cut(Cut cut);                       // the plane misses
-    bool decide_weights(const Weights& weights);    // they are the current ones
-    bool decide_discard(const std::string& piece);  // there is no such piece, or it is the only one
-    bool decide_reset();                            // no cut and no discarded piece is in force
-    bool decide_setup(const SetupOrder& order);     // it is in force already, or there is no such piece
+    bool decide_cut(Cut cut);                                     // the plane misses
+    bool decide_weights(const Weights& weights);                  // they are the current ones
+    bool decide_discard(const std::vector<std::string>& pieces);  // none, one is not there, or no other is left
+    bool decide_reset();                                          // no cut and no discarded piece is in force
+    bool decide_setup(const SetupOrder& order);                   // it is in force already, or there is no such piece
     // The decision that was taken back or put in force again; nothing if there is none.
     std::optional<Decision> undo();
     std::optional<Decision> redo();

@@ -9,6 +9,15 @@
 namespace qchopper {
 namespace {
 
+void discard(OpenProject& project, const DiscardRequest& request, const ProjectContext& context) {
+    const std::vector<std::string> names = pieces_meant(request, project.segmentation());
+    if (names.empty()) return context.message(none_is_below(request));
+    if (!project.decide_discard(names)) {
+        throw InputError(InputFault::use, "every piece is meant by --discard", "leave one, or prepare another scan");
+    }
+    for (const std::string& line : discarded_lines(project.project())) context.message(line);
+}
+
 PreparedProject finish(OpenProject& project, const PrepareOptions& options, const ProjectContext& context) {
     const auto report_kept = [&](const Segmentation& s) {
         context.saved(kept_cuts(s.cuts.size(), project.folder()) + "; go on with: qchopper prepare " +
@@ -19,6 +28,7 @@ PreparedProject finish(OpenProject& project, const PrepareOptions& options, cons
         throw InputError(InputFault::mesh, project.project().scan.path.string() + " holds nothing but fragments",
                          "check the scan");
     }
+    if (options.discard) discard(project, *options.discard, context);
     if (project.project().stage == Stage::cutting && !project.is_being_judged()) {
         std::size_t told = project.project().cuts.size();
         const auto on_round = [&](const Segmentation& s) {

@@ -9,14 +9,16 @@
 #include <optional>
 #include <string>
 
+#include "app/project/discard_request.h"
 #include "app/project/make_project.h"
 
 namespace qchopper {
 
 struct PrepareOptions {
-    std::string program_version;         // is written into the jobs
-    std::optional<double> time_limit_s;  // of the search; the round that is being made is finished
-    bool has_programs = true;            // whether jobs get robot programs, where the cell allows it
+    std::string program_version;            // is written into the jobs
+    std::optional<double> time_limit_s;     // of the search; the round that is being made is finished
+    bool has_programs = true;               // whether jobs get robot programs, where the cell allows it
+    std::optional<DiscardRequest> discard;  // decided before the search
 };
 
 // Makes a project of a scan. Without a stop rule in the choices, or with those of the preset carve, every piece must

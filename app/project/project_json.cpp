@@ -116,8 +116,10 @@ std::vector<WrittenJob> jobs_from(const Json& json) {
 Json json_of(const Decision& decision) {
     if (const Cut* cut = std::get_if<Cut>(&decision)) return {{"cut", json_of(*cut)}};
     if (const auto* change = std::get_if<WeightsChange>(&decision)) return {{"weights", json_of(change->weights)}};
-    if (const auto* discard = std::get_if<Discard>(&decision)) {
-        return {{"discard", {{"piece", discard->piece}, {"after", discard->after}}}};
+    if (const auto* discards = std::get_if<Discards>(&decision)) {
+        Json list = Json::array();
+        for (const Discard& d : *discards) list.push_back({{"piece", d.piece}, {"after", d.after}});
+        return {{"discard", list.size() == 1 ? list.front() : list}};
     }
     if (const auto* other = std::get_if<Replacement>(&decision)) return {{"replacement", json_of(other->cut)}};
     if (const auto* order = std::get_if<SetupOrder>(&decision)) {
@@ -129,14 +131,20 @@ Json json_of(const Decision& decision) {
     return {{"reset", true}};
 }
 
+// One is an object, several are a list of them.
+Discards discards_from(const Json& json) {
+    const Json list = json.is_array() ? json : Json::array({json});
+    if (list.empty()) throw InputError(InputFault::config, "a decision discards no piece");
+    Discards discards;
+    for (const Json& d : list) discards.push_back({d.at("piece").get<std::string>(), d.at("after").get<std::size_t>()});
+    return discards;
+}
+
 Decision decision_from(const Json& json) {
     if (json.contains("cut")) return cut_from(json.at("cut"));
     if (json.contains("replacement")) return Replacement{cut_from(json.at("replacement"))};
     if (json.contains("weights")) return WeightsChange{weights_from(json.at("weights"))};
-    if (json.contains("discard")) {
-        const Json& discard = json.at("discard");
-        return Discard{discard.at("piece").get<std::string>(), discard.at("after").get<std::size_t>()};
-    }
+    if (json.contains("discard")) return discards_from(json.at("discard"));
     if (json.contains("setup")) {
         const Json& setup = json.at("setup");
         SetupOrder order{setup.at("piece").get<std::string>(), {}, {}};

@@ -67,10 +67,12 @@ Segmentation replay_cuts(const Project& project, const TriangleMesh& scan, std::
 
 void record(Project& project, const Segmentation& segmentation) {
     follow(project.history, segmentation.cuts);
+    Discards newly;
     for (std::size_t i = committed_discards(project.history).size(); i < segmentation.discarded.size(); ++i) {
         assert(segmentation.discarded[i].after == segmentation.cuts.size());
-        decide(project.history, Discard{segmentation.discarded[i].piece.name, segmentation.cuts.size()});
+        newly.push_back({segmentation.discarded[i].piece.name, segmentation.cuts.size()});
     }
+    if (!newly.empty()) decide(project.history, std::move(newly));
     project.cuts = segmentation.cuts;
     project.discards = committed_discards(project.history);
     project.pieces.clear();

@@ -56,11 +56,10 @@ std::string document(const ExportedProject& exported, const ExportRequest& reque
                    {"cut", row.piece.step},
                    {"fits", row.piece.fits ? Json(*row.piece.fits) : Json()}};
         if (exported.is_simplified) {
-            piece["simplified"] = {{"faces_before", row.simplified.faces_before},
-                                   {"cap_faces", row.simplified.cap_faces},
-                                   {"from_piece_mm", row.simplified.from_piece},
-                                   {"from_result_mm", row.simplified.from_result},
-                                   {"by_queue", row.simplified.is_by_queue}};
+            piece["simplified"] = {
+                {"faces_before", row.simplified.faces_before}, {"cap_faces", row.simplified.cap_faces},
+                {"from_piece_mm", row.simplified.from_piece},  {"from_result_mm", row.simplified.from_result},
+                {"crossings", row.simplified.crossings},       {"by_queue", row.simplified.is_by_queue}};
         }
         pieces.push_back(std::move(piece));
     }

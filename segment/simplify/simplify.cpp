@@ -1,6 +1,6 @@
-// Collapses, then measures both ways by samples; with a tolerance this is repeated with a smaller limit until the
-// deviation is within it. To a number of faces by passes (collapse_passes.h), within a tolerance by a queue
-// (collapse.h).
+// Collapses, then measures both ways by samples and counts the faces that run through each other; with a tolerance this
+// is repeated with a smaller limit until the deviation is within it and no faces do. To a number of faces by passes
+// (collapse_passes.h), within a tolerance by a queue (collapse.h).
 
 #include "segment/simplify/simplify.h"
 
@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "segment/mesh/links.h"
+#include "segment/repair/self_intersections.h"
 #include "segment/simplify/collapse.h"
 #include "segment/simplify/collapse_passes.h"
 #include "segment/simplify/sampled_deviation.h"
@@ -56,6 +57,9 @@ std::vector<std::uint8_t> points_of_caps(const TriangleMesh& mesh) {
 void measure(const TriangleMesh& mesh, const TriangleMesh& fewer, SimplifyReport& report, const Context& context) {
     report.from_piece = farthest_sample(mesh, fewer, context);
     report.from_result = farthest_sample(fewer, mesh, context);
+    report.crossings = self_intersections(fewer, {}, context).pairs.size();
+    if (report.crossings == 0) return;
+    report.crossings -= std::min(report.crossings, self_intersections(mesh, {}, context).pairs.size());
 }
 
 // The limits of the collapses hold for points and planes. Edges and interiors of faces are measured afterwards; where
@@ -72,13 +76,16 @@ bool collapse_within(TriangleMesh& mesh, const SimplifyOptions& options, Simplif
         TriangleMesh fewer = mesh;
         if (!collapse_edges(fewer, is_locked, limits, context)) return false;
         measure(mesh, fewer, report, context);
-        if (report.deviation() <= *options.tolerance) {
+        const bool is_near = report.deviation() <= *options.tolerance;
+        if (is_near && report.crossings == 0) {
             mesh = std::move(fewer);
             return true;
         }
-        limits.distance = *limits.distance * std::min(0.8, 0.95 * *options.tolerance / report.deviation());
+        limits.distance =
+            *limits.distance * (is_near ? 0.5 : std::min(0.8, 0.95 * *options.tolerance / report.deviation()));
     }
     report.from_piece = report.from_result = 0;
+    report.crossings = 0;
     return false;
 }
 

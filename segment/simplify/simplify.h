@@ -3,7 +3,8 @@
 // Lengths are mm. Points that stay do not move. Caps keep every triangle and point, so that two pieces that meet at a
 // cut match to the last bit, whatever the options for either. The result is closed, lies on the same sides of the
 // piece's cuts, and no face is inverted; with a tolerance no sample of either surface, interiors of faces included, is
-// farther than that from the other (tests/segment/simplify/simplify_test.cpp). Same input, same bytes, whatever the
+// farther than that from the other, and no more faces run through each other than before
+// (tests/segment/simplify/simplify_test.cpp). Same input, same bytes, whatever the
 // number of threads.
 
 #pragma once
@@ -27,6 +28,7 @@ struct SimplifyReport {
     std::size_t cap_faces = 0;        // that had to stay
     double from_piece = 0;            // mm: largest distance of the samples of the piece to the result
     double from_result = 0;           // mm: of the samples of the result to the piece (sampled_deviation.h)
+    std::size_t crossings = 0;        // pairs of faces that run through each other (self_intersections.h), new ones
     bool has_too_many_faces = false;  // more faces than most_faces are left: no other edge could collapse
     bool is_by_queue = false;         // the passes did not reach most_faces, so the slower way was taken (collapse.h)
     double deviation() const { return from_piece > from_result ? from_piece : from_result; }

@@ -4,7 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "segment/io/write_ply.h"
 #include "tests/app/cli/program.h"
+#include "tests/shapes.h"
 
 namespace qchopper {
 namespace {
@@ -181,6 +183,30 @@ TEST_F(Defaults, ExplainTellsWhatThePlaneOpens) {
     EXPECT_NE(shown.find("By reach: the plane opens "), std::string::npos) << shown;
     const std::string planes = is_refined ? "Of 10,560 planes along 132" : "Of 10,480 planes along 131";
     EXPECT_NE(shown.find(planes + " other normals the best opens "), std::string::npos) << shown;
+}
+
+TEST_F(Defaults, PrepareLeavesOutWhatIsSmallerThanAVolumeNowOrLater) {
+    const TriangleMesh three =
+        shapes::joined({shapes::box({0, 0, 0}, {90, 80, 40}), shapes::box({120, 0, 0}, {140, 20, 20}),
+                        shapes::box({160, 0, 0}, {190, 30, 30})});
+    write_file(folder.path / "three.ply", to_ply(three));
+    done({"prepare", "three.ply", "--units", "mm", "--cell", program::foam_cell(), "--discard", "below=10ml", "-o",
+          "q.qch"});
+    EXPECT_EQ(project("q.qch")["discarded"].size(), 1U);
+    EXPECT_EQ(project("q.qch")["jobs"].size(), project("q.qch")["pieces"].size());
+    const program::Ended later = done({"prepare", "q.qch", "--discard", "below=30ml"});
+    EXPECT_NE(later.err.find("discarded after cut"), std::string::npos) << later.err;
+    const json left = project("q.qch");
+    double volume = 0;
+    for (const json& piece : left["pieces"]) {
+        EXPECT_GE(piece["volume_mm3"], 30'000);
+        volume += piece["volume_mm3"].get<double>();
+    }
+    EXPECT_NEAR(volume, 90 * 80 * 40, 1) << "what was smaller than 30 ml was of the two small boxes";
+    EXPECT_EQ(left["jobs"].size(), left["pieces"].size());
+    const program::Ended all = run({"prepare", "q.qch", "--discard", "below=9l"});
+    EXPECT_EQ(all.code, 64) << all.err;
+    EXPECT_EQ(project("q.qch"), left);
 }
 
 }  // namespace

@@ -77,13 +77,13 @@ TEST_F(Discarding, IsADecisionThatIsUndoneRedoneAndResetLikeACut) {
         stood.push_back(committed());
         first = project.segmentation().pieces.front().name;
         const std::string last = project.segmentation().pieces.back().name;
-        EXPECT_TRUE(project.decide_discard(last));
+        EXPECT_TRUE(project.decide_discard({last}));
         stood.push_back(committed());
         EXPECT_FALSE(piece_named(project.segmentation(), last));
         EXPECT_EQ(load_project(folder).discards, (std::vector<Discard>{{last, 1}}));
         accept(project, 1);
         stood.push_back(committed());
-        EXPECT_TRUE(project.decide_discard(project.segmentation().pieces.front().name));
+        EXPECT_TRUE(project.decide_discard({project.segmentation().pieces.front().name}));
         stood.push_back(committed());
         EXPECT_EQ(project.project().discarded.size(), 2U);
         EXPECT_NEAR(volume_of(project.segmentation()), volume_mm3(mesh), 1e-9 * volume_mm3(mesh));
@@ -111,11 +111,11 @@ TEST_F(Discarding, IsADecisionThatIsUndoneRedoneAndResetLikeACut) {
 TEST_F(Discarding, OfTheOnlyPieceOrOfNoneChangesNothing) {
     OpenProject project = open();
     while (project.segmentation().pieces.size() > 1) {
-        ASSERT_TRUE(project.decide_discard(project.segmentation().pieces.back().name));
+        ASSERT_TRUE(project.decide_discard({project.segmentation().pieces.back().name}));
     }
     const std::string before = committed();
-    EXPECT_FALSE(project.decide_discard(project.segmentation().pieces.front().name));
-    EXPECT_FALSE(project.decide_discard("no such piece"));
+    EXPECT_FALSE(project.decide_discard({project.segmentation().pieces.front().name}));
+    EXPECT_FALSE(project.decide_discard({"no such piece"}));
     EXPECT_EQ(committed(), before);
 }
 
@@ -123,7 +123,7 @@ TEST_F(Discarding, IsSaidWithItsVolumeAndSurvivesTheSearch) {
     OpenProject project = open();
     accept(project, 0);
     const std::string name = project.segmentation().pieces.back().name;
-    ASSERT_TRUE(project.decide_discard(name));
+    ASSERT_TRUE(project.decide_discard({name}));
     StopRules rules;
     rules.min_cuts = 3;
     for (const std::size_t beam : {1U, 3U}) {
@@ -148,7 +148,7 @@ TEST_F(Discarding, OfAProjectFileThatNamesNoPieceIsRefused) {
     {
         OpenProject project = open();
         accept(project, 0);
-        ASSERT_TRUE(project.decide_discard(project.segmentation().pieces.back().name));
+        ASSERT_TRUE(project.decide_discard({project.segmentation().pieces.back().name}));
     }
     Project broken = load_project(folder);
     broken.discards.front().piece = "QQ";
@@ -157,9 +157,9 @@ TEST_F(Discarding, OfAProjectFileThatNamesNoPieceIsRefused) {
 
 TEST_F(Discarding, StandsInThePlanAndIsMadeAgain) {
     OpenProject project = open();
-    ASSERT_TRUE(project.decide_discard(project.segmentation().pieces.back().name));  // before any cut
+    ASSERT_TRUE(project.decide_discard({project.segmentation().pieces.back().name}));  // before any cut
     accept(project, 3);
-    ASSERT_TRUE(project.decide_discard(project.segmentation().pieces.back().name));
+    ASSERT_TRUE(project.decide_discard({project.segmentation().pieces.back().name}));
     accept(project, 0);
     const Plan plan = make_plan(project.project(), mesh);
     ASSERT_EQ(plan.discards.size(), 2U);
@@ -211,7 +211,7 @@ TEST_F(Discarding, AndEveryOtherDecisionLeavesThePiecesThatStandIfTheyAreToBeWri
     expect_written();
     accept(project, 0);
     expect_written();
-    project.decide_discard(project.segmentation().pieces.front().name);
+    project.decide_discard({project.segmentation().pieces.front().name});
     expect_written();
     project.undo();
     expect_written();

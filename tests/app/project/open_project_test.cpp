@@ -466,7 +466,7 @@ TEST_F(OpenedProject, ABeamThatIsNotOfItsDecisionsIsRefused) {
         },
         [](OpenProject& p) { p.undo(); },
         [](OpenProject& p) { p.decide_reset(); },
-        [](OpenProject& p) { p.decide_discard(p.segmentation().pieces.front().name); },
+        [](OpenProject& p) { p.decide_discard({p.segmentation().pieces.front().name}); },
         [&](OpenProject& p) { p.set_search(rules, 2); }};
     for (const auto& decide_something : decisions) {
         save_project(folder, saved);

@@ -14,6 +14,7 @@
 #include "segment/mesh/manifold.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/triangle_tree.h"
+#include "segment/repair/self_intersections.h"
 #include "segment/sample/sample.h"
 #include "segment/simplify/collapse.h"
 #include "segment/simplify/collapse_passes.h"
@@ -115,6 +116,28 @@ TEST(Simplify, EveryShapeStaysClosedAndWithinTheTolerance) {
             expect_sound(mesh, shape.mesh, shape.name);
         }
     }
+}
+
+// A ball with a wall of 0.3 mm whose inside has other points than its outside.
+TriangleMesh thin_walled_ball() {
+    const TriangleMesh inside = shapes::rotated(shapes::ball({0, 0, 0}, 19.7, 24), {1, 2, 3}, 0.7);
+    return shapes::joined({shapes::ball({0, 0, 0}, 20, 24), shapes::turned_inside_out(inside)});
+}
+
+TEST(Simplify, WithinAToleranceThinWallsDoNotRunThroughEachOther) {
+    TriangleMesh mesh = thin_walled_ball();
+    ASSERT_TRUE(self_intersections(mesh).is_free());
+    const SimplifyReport report = simplify(mesh, within(1));
+    EXPECT_EQ(report.crossings, 0U);
+    EXPECT_TRUE(self_intersections(mesh).is_free());
+    EXPECT_LT(report.faces_after, report.faces_before);
+}
+
+TEST(Simplify, ToACountFacesThatRunThroughEachOtherAreReported) {
+    TriangleMesh mesh = thin_walled_ball();
+    const SimplifyReport report = simplify(mesh, at_most(200));
+    EXPECT_GT(report.crossings, 0U);
+    EXPECT_EQ(report.crossings, self_intersections(mesh).pairs.size());
 }
 
 TEST(Simplify, FlatSidesOfABoxNeedFewFaces) {
