@@ -54,6 +54,15 @@ std::string text(const Json& object, const std::string& key) {
     return value.get<std::string>();
 }
 
+std::vector<std::string> texts(const Json& object, const std::string& key) {
+    std::vector<std::string> list;
+    for (const Json& value : items(object, key)) {
+        if (!value.is_string()) throw wrong(key, "is not a list of texts");
+        list.push_back(value.get<std::string>());
+    }
+    return list;
+}
+
 bool truth(const Json& object, const std::string& key) {
     const Json& value = member(object, key);
     if (!value.is_boolean()) throw wrong(key, "is not true or false");

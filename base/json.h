@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/box.h"
 #include "base/hex.h"
@@ -34,6 +35,7 @@ void check_form(const Json& json, std::string_view text);
 const Json& items(const Json& object, const std::string& key);   // a list
 const Json& member(const Json& object, const std::string& key);  // of any kind
 std::string text(const Json& object, const std::string& key);
+std::vector<std::string> texts(const Json& object, const std::string& key);  // a list of them
 bool truth(const Json& object, const std::string& key);
 double real(const Json& object, const std::string& key);  // finite
 // least <= value <= most

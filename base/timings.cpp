@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cassert>
 #include <ctime>
+#include <utility>
 
 namespace qchopper {
 namespace {
@@ -51,18 +52,44 @@ void Timings::add_up() {
     changed_ = now;
 }
 
-void Timings::begin(const std::string& name) {
-    add_up();
+std::size_t Timings::stage_named(const std::string& name) {
     const auto known =
         std::find_if(stages_.begin(), stages_.end(), [&](const StageTime& stage) { return stage.name == name; });
-    begun_.push_back(static_cast<std::size_t>(known - stages_.begin()));
+    const auto index = static_cast<std::size_t>(known - stages_.begin());
     if (known == stages_.end()) stages_.push_back({name, {}});
+    return index;
+}
+
+void Timings::begin(const std::string& name) {
+    add_up();
+    begun_.push_back(stage_named(name));
 }
 
 void Timings::end() {
     assert(!begun_.empty());
     add_up();
     begun_.pop_back();
+}
+
+void Timings::divide(const std::vector<RunTimes>& work) {
+    assert(!begun_.empty());
+    add_up();
+    double busy_s = 0;
+    std::vector<std::pair<std::size_t, double>> parts;  // a stage, and how long a thread was in it
+    for (const RunTimes& one : work) {
+        busy_s += one.whole.wall_s;
+        for (const StageTime& stage : one.stages) parts.emplace_back(stage_named(stage.name), stage.spent.wall_s);
+    }
+    if (busy_s <= 0) return;
+    const std::size_t divided = begun_.back();
+    const SpentTime all = stages_[divided].spent;
+    for (const auto& [part, wall_s] : parts) {
+        const double share = wall_s / busy_s;
+        for (const auto& [stage, sign] : {std::pair(part, 1.0), std::pair(divided, -1.0)}) {
+            stages_[stage].spent.wall_s += sign * share * all.wall_s;
+            stages_[stage].spent.cpu_s += sign * share * all.cpu_s;
+        }
+    }
 }
 
 RunTimes Timings::so_far() const {
@@ -77,6 +104,10 @@ StageTimer::StageTimer(Timings* timings, const std::string& name) : timings_(tim
 
 StageTimer::~StageTimer() {
     if (timings_ != nullptr) timings_->end();
+}
+
+void StageTimer::divide(const std::vector<RunTimes>& work) {
+    if (timings_ != nullptr) timings_->divide(work);
 }
 
 void StageTimer::next(const std::string& name) {

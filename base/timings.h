@@ -39,6 +39,10 @@ class Timings {
     void begin(const std::string& name);
     // Precondition: a stage is begun.
     void end();
+    // Gives the time of the innermost stage so far to the stages of work that several threads did in it, each with
+    // timings of its own: as shares of the wall time that the threads were busy. What was in none of their stages
+    // stays. Precondition: a stage is begun.
+    void divide(const std::vector<RunTimes>& work);
     // Those that are not ended count up to now.
     RunTimes so_far() const;
 
@@ -46,6 +50,8 @@ class Timings {
     SpentTime since_start() const;
     // Adds the time since the last change to the innermost stage.
     void add_up();
+    // Index of the stage of that name, which is made if there is none.
+    std::size_t stage_named(const std::string& name);
 
     SpentTime start_;
     SpentTime changed_;  // when a stage began or ended last, from start_
@@ -64,6 +70,8 @@ class StageTimer {
 
     // Ends the stage and begins another.
     void next(const std::string& name);
+    // Timings::divide() of this stage.
+    void divide(const std::vector<RunTimes>& work);
 
  private:
     Timings* timings_;

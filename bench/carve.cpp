@@ -221,7 +221,7 @@ void measure_decision(const Measured& measured, Figures& figures) {
         Segmentation s = uncut_scan;
         const std::vector<Ranked> ranked = rank(s, 0, settings, cache, Context{});
         planes = ranked.size();
-        apply(s, cut_by(s, 0, ranked, 0, settings.runners_up), measured.fragment_volume_mm3);
+        apply(s, cut_by(s, 0, ranked, 0, settings), measured.fragment_volume_mm3);
         return s;
     });
     figures.record(measured.name, "first decision of carve; the thesis'", time_text(carve) + "; " + time_text(thesis));

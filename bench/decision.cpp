@@ -34,7 +34,7 @@ std::vector<Ranked> decide(const Measured& m) {
     const auto piece = static_cast<std::size_t>(most - s.pieces.begin());
     EvaluationCache cache(settings.objectives, settings.candidates);
     std::vector<Ranked> ranked = rank(s, piece, settings, cache, Context{});
-    if (!ranked.empty()) apply(s, cut_by(s, piece, ranked, 0, settings.runners_up), m.fragment_volume_mm3);
+    if (!ranked.empty()) apply(s, cut_by(s, piece, ranked, 0, settings), m.fragment_volume_mm3);
     return ranked;
 }
 

@@ -92,7 +92,7 @@ ToolPath lines_of(const Toolpath& path) {
                 line.feed = feed_of(operation, move.kind);
                 line.rounding = move.is_rounded ? operation.rounding : 0;
                 line.follows_line = i > 0;
-                line.spindle = {true, true, operation.rpm};
+                line.signals = {true, true, operation.rpm, true};
                 lines.order.push_back({true, lines.lines.size()});
                 lines.lines.push_back(line);
             }

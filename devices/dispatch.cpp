@@ -201,7 +201,7 @@ class Dispatcher {
         HandOffInput input = read_status_block(bus_);
         if (input.status && input.status->job_id == plan_.ticket.job_id &&
             input.status->job_state == JobState::running) {
-            context_.progress("0.01 % of the job", input.status->progress, 10000);
+            context_.progress("% of the job", input.status->progress / 100U, 100);
         }
         return input;
     }

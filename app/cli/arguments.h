@@ -32,6 +32,7 @@ struct InspectArguments {
 
 // How a scan becomes a solid, for every command that imports one.
 struct RepairChoiceArguments {
+    bool size_ok = false;  // any size of the scan is taken
     std::optional<double> weld_mm;
     std::optional<std::string> fill;  // auto | flat | fair | none
     bool resolve_self_intersections = false;
@@ -57,6 +58,7 @@ struct ProjectArguments : RepairChoiceArguments {
     std::optional<std::string> units;
     std::optional<double> scale;
     std::optional<std::filesystem::path> cell;
+    std::vector<std::uint16_t> tools;  // numbers
     std::optional<std::string> preset;
     std::optional<int> min_cuts;
     std::optional<std::size_t> max_faces;
@@ -90,6 +92,7 @@ struct ProjectArguments : RepairChoiceArguments {
 };
 
 struct PrepareArguments : ProjectArguments {
+    bool programs = false;
     bool no_programs = false;
 };
 
@@ -145,6 +148,7 @@ struct SetupArguments {
     std::optional<std::string> piece;
     std::optional<int> base;
     std::optional<std::size_t> max_directions;
+    std::vector<std::uint16_t> tools;
     bool is_free = false;  // --auto
 };
 
@@ -179,6 +183,7 @@ struct DispatchArguments {
     std::optional<std::filesystem::path> drop;
     bool yes = false;
     bool accept_unreachable = false;
+    bool accept_workholding = false;
     bool again = false;
     bool chunks = false;
     bool rehearse = false;

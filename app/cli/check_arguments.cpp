@@ -56,7 +56,9 @@ std::string new_project_option(const ProjectArguments& a, bool is_replay_given =
         a.weld_mm || a.fill || a.smooth_pen_grooves || a.alpha_wrap_mm || a.resolve_self_intersections;
     const std::pair<bool, const char*> options[] = {{a.units.has_value(), "--units"},
                                                     {a.scale.has_value(), "--scale"},
+                                                    {a.size_ok, "--size-ok"},
                                                     {a.preset.has_value(), "--preset"},
+                                                    {!a.tools.empty(), "--tools"},
                                                     {a.fragment_volume_mm3.has_value(), "--fragment-volume"},
                                                     {a.fragments.has_value(), "--fragments"},
                                                     {a.out.has_value(), "--out"},
@@ -127,6 +129,7 @@ void check_scan(const SegmentArguments& a, const Action& action) {
     }
     check_unit(a);
     if (!a.out) refuse("no project folder is named", "pass -o NAME.qch");
+    if (!a.tools.empty() && !a.cell) refuse("--tools needs a cell", "pass --cell FILE, which lists them");
     if (a.fits_cell && !a.cell) refuse("--fits-cell needs a cell", "pass --cell FILE, for example cells/foam-1.toml");
 }
 

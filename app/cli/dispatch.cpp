@@ -58,6 +58,20 @@ bool refuse_unreachable(const std::vector<PieceJob>& jobs, Terminal& terminal) {
     return refuse(sentences, jobs.size(), terminal);
 }
 
+// Asks where there is somebody to answer.
+bool refuse_unheld(const std::vector<PieceJob>& jobs, Terminal& terminal) {
+    std::vector<std::string> sentences = unheld_jobs(jobs);
+    if (sentences.empty()) return false;
+    if (::isatty(STDIN_FILENO) != 0) {
+        terminal.warn(sentences);
+        if (is_confirmed("Send " + std::to_string(jobs.size()) + " jobs, these among them?")) return false;
+    }
+    for (std::string& sentence : sentences) {
+        sentence += "; pass --accept-workholding if the piece is held by more than that";
+    }
+    return refuse(sentences, jobs.size(), terminal);
+}
+
 // The cell may be running a job of an earlier dispatch: the message of an error before it is asked says so.
 void set_unchanged(const Cell& cell, const std::string& where, Terminal& terminal) {
     const std::string open = left_open(cell.id, where);
@@ -133,9 +147,10 @@ int hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const Dispatc
 int run(const DispatchArguments& arguments, Terminal& terminal) {
     terminal.set_unchanged(nothing_started);
     const ProjectJobs ordered = jobs_of(arguments.project, arguments.piece, terminal.context());
-    const auto& [folder, cell, cell_sha256, jobs] = ordered;
+    const auto& [folder, cell, cell_sha256, jobs, is_finished] = ordered;
     if (refuse(unproven_jobs(ordered, false), jobs.size(), terminal)) return exit_demand_broken;
     if (!arguments.accept_unreachable && refuse_unreachable(jobs, terminal)) return exit_demand_broken;
+    if (!arguments.accept_workholding && refuse_unheld(jobs, terminal)) return exit_demand_broken;
     const std::optional<std::string> to = arguments.to ? arguments.to : cell.link.to;
     const std::optional<std::filesystem::path> drop = arguments.drop ? arguments.drop : cell.link.drop;
     if (!to) throw InputError(InputFault::use, "no cell address is known", "pass --to HOST:PORT");

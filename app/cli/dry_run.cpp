@@ -27,13 +27,20 @@ std::string dispatch_of(const ProjectJobs& ordered, const DryRunArguments& argum
 
 int run(const DryRunArguments& arguments, Terminal& terminal) {
     terminal.set_unchanged("The project is unchanged.");
-    const ProjectJobs ordered = jobs_of(arguments.project, arguments.piece, terminal.context());
-    const auto& [folder, cell, cell_sha256, jobs] = ordered;
+    const ProjectJobs ordered = jobs_of(arguments.project, arguments.piece, terminal.context(), true);
+    const auto& [folder, cell, cell_sha256, jobs, is_finished] = ordered;
+    if (!is_finished) {
+        terminal.warn(folder.string() + " is not finished: of its jobs the " + std::to_string(jobs.size()) +
+                      " that are written so far are rehearsed");
+    }
     for (const std::string& sentence : unproven_jobs(ordered, true)) {
         terminal.warn(sentence + "; dispatch to a real cell refuses it");
     }
     for (const std::string& sentence : unreachable_jobs(jobs)) {
         terminal.warn(sentence + "; dispatch asks for --accept-unreachable");
+    }
+    for (const std::string& sentence : unheld_jobs(jobs)) {
+        terminal.warn(sentence + "; dispatch asks before it sends it");
     }
     const TemporaryFolder drop("qchopper-dry-run-");
     CellSimOptions options;

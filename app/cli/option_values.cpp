@@ -224,6 +224,12 @@ std::vector<std::string> forbiddable() {
 }
 
 // Messages of their own: those of the option parser have type names and bounds of 300 digits.
+std::vector<std::uint16_t> ascending(std::vector<std::uint16_t> numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    return numbers;
+}
+
 OptionCheck number_between(double low, double high, const std::string& what) {
     return [=](const std::string& text) {
         double value = 0;

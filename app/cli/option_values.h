@@ -2,6 +2,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -43,6 +44,9 @@ std::optional<DiscardRequest> discard_from(const std::string& text);
 
 // A whole number from 1 to 1e6, the place in a ranking.
 std::optional<std::size_t> place_from(const std::string& text);
+
+// Numbers in ascending order, each once.
+std::vector<std::uint16_t> ascending(std::vector<std::uint16_t> numbers);
 
 // Returns an empty text for a right value, else what is wrong with it, without a full stop.
 using OptionCheck = std::function<std::string(const std::string&)>;

@@ -229,10 +229,12 @@ struct Parser {
             c->add_option("--directions", setup.max_directions, "carve it from at most so many directions (8)")
                 ->check(number_between(1, 264, "a count of directions from 1 to 264"))
                 ->needs(piece);
+        CLI::Option* tools = add_tools(c, setup.tools)->needs(piece);
         c->add_flag("--auto", setup.is_free, "let the program choose again")
             ->needs(piece)
             ->excludes(base)
-            ->excludes(directions);
+            ->excludes(directions)
+            ->excludes(tools);
         add_common(c, common, [this] { common.command = setup; });
     }
 
@@ -280,6 +282,8 @@ struct Parser {
         c->add_flag("--yes", dispatch.yes, "do not ask before a real cell is set in motion");
         c->add_flag("--accept-unreachable", dispatch.accept_unreachable,
                     "send jobs too of which the tool does not reach more of the surface than the limit allows");
+        c->add_flag("--accept-workholding", dispatch.accept_workholding,
+                    "do not ask before jobs of pieces that tape, glue and their own foam do not hold safely");
         c->add_flag("--again", dispatch.again, "carve files too that the cell has carved before");
         c->add_flag("--chunks", dispatch.chunks, "send job files over the link, without a drop folder");
         c->add_flag("--rehearse", dispatch.rehearse,

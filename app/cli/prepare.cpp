@@ -5,6 +5,7 @@
 #include "app/cli/exit_code.h"
 #include "app/cli/option_values.h"
 #include "app/cli/project_arguments.h"
+#include "app/cli/unusual_size.h"
 #include "app/cli/version.h"
 #include "app/project/prepare_project.h"
 #include "app/report/prepare_report.h"
@@ -13,11 +14,14 @@ namespace qchopper {
 
 int run(const PrepareArguments& a, Terminal& terminal) {
     check_arguments(a);
-    PrepareOptions options{version, a.time_limit_s, !a.no_programs, {}};
+    PrepareOptions options{version, a.time_limit_s};
+    if (a.programs || a.no_programs) options.has_programs = a.programs;
     if (a.discard) options.discard = discard_from(*a.discard);
+    ProjectChoices choices = choices_of(a);
+    choices.on_unusual_size = unusual_size_check(a.size_ok);
     const PreparedProject prepared = is_project_folder(a.input)
                                          ? prepare_project(without_slash(a.input), a.cell, options, terminal.context())
-                                         : prepare_scan(choices_of(a), options, terminal.context());
+                                         : prepare_scan(choices, options, terminal.context());
     terminal.warn(warnings(prepared));
     terminal.show(table(prepared), document(prepared));
     return prepared.project.do_rules_hold() && prepared.all_fit() && prepared.are_programs_proven()

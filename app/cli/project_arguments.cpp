@@ -97,6 +97,7 @@ ProjectChoices choices_of(const ProjectArguments& a, const std::string& preset_i
     if (a.fragments && *a.fragments == "drop") choices.fragments = FragmentChoice::drop;
     if (a.out) choices.folder = without_slash(*a.out);
     choices.cell_file = a.cell;
+    choices.tools = ascending(a.tools);
     return choices;
 }
 

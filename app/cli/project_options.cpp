@@ -22,6 +22,9 @@ void add_fragments(CLI::App* c, std::optional<std::string>& fragments) {
 }
 
 void add_repair_choices(CLI::App* c, RepairChoiceArguments& a) {
+    c->add_flag("--size-ok", a.size_ok,
+                "take a scan that is shorter than 1 cm or longer than 20 m; without it that is asked on a terminal, "
+                "else refused");
     c->add_option("--weld", a.weld_mm, "make one point of border points that lie within so many mm (off)")
         ->check(number_between(0, many, "a length in mm"));
     c->add_option("--fill", a.fill,
@@ -66,6 +69,7 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
         ->check(one_of({"mm", "cm", "m", "in"}));
     add_scale(c, a.scale);
     c->add_option("--cell", a.cell, "the cell file (docs/cell-file.md)");
+    add_tools(c, a.tools);
     c->add_option(
          "--preset", a.preset,
          "objectives and stop rules by name: carve cuts for what a tilting tool reaches, until of no piece more "
@@ -143,6 +147,15 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
 
 }  // namespace
 
+CLI::Option* add_tools(CLI::App* command, std::vector<std::uint16_t>& tools) {
+    return command
+        ->add_option("--tools", tools,
+                     "carve with no other tools of the cell file than those of these numbers, several by commas; "
+                     "holes without their drill are left to the hand (all)")
+        ->delimiter(',')
+        ->check(number_between(1, 65535, "the number of a tool"));
+}
+
 void add_common(CLI::App* command, Arguments& arguments, const std::function<void()>& on_parsed) {
     command->add_flag("--json", arguments.json, "exactly one JSON document on stdout");
     command->add_flag("-q,--quiet", arguments.quiet, "no progress, only warnings and errors on stderr");
@@ -180,8 +193,10 @@ void add_prepare(CLI::App& app, PrepareArguments& prepare, Arguments& common) {
     c->add_option("SCAN", prepare.input, scan_formats + "; or the folder NAME.qch of a project to go on with")
         ->required();
     add_project_options(c, prepare);
-    c->add_flag("--no-programs", prepare.no_programs,
-                "write jobs without robot programs; they go to a simulated cell only");
+    CLI::Option* without = c->add_flag("--no-programs", prepare.no_programs,
+                                       "write jobs without robot programs, now and whenever this project goes on; they "
+                                       "go to a simulated cell only");
+    c->add_flag("--programs", prepare.programs, "write robot programs again, after --no-programs")->excludes(without);
     c->add_option("-o,--out", prepare.out, "the project folder to make: NAME.qch");
     add_common(c, common, [&] { common.command = prepare; });
 }

@@ -3,6 +3,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
 #include "app/cli/project_arguments.h"
+#include "app/cli/unusual_size.h"
 #include "app/project/mesh_output.h"
 #include "app/report/repair_report.h"
 
@@ -10,7 +11,8 @@ namespace qchopper {
 
 int run(const RepairArguments& a, Terminal& terminal) {
     check_mesh_name(a.out);
-    const RepairRequest request{a.scan, a.out, import_options_of(a)};
+    RepairRequest request{a.scan, a.out, import_options_of(a)};
+    request.options.on_unusual_size = unusual_size_check(a.size_ok);
     const RepairedScan scan = repair_file(request, terminal.context());
     terminal.warn(scan.warnings);
     terminal.show(lines(scan, request), document(scan, request));

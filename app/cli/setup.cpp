@@ -2,15 +2,19 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
+#include "app/cli/option_values.h"
 #include "app/cli/version.h"
 #include "app/project/project_folder.h"
+#include "app/report/program_report.h"
 #include "app/report/setup_report.h"
 
 namespace qchopper {
 
 int run(const SetupArguments& a, Terminal& terminal) {
-    const SetupRequest request{a.piece, a.base, a.max_directions, a.is_free};
+    const SetupRequest request{a.piece, a.base, a.max_directions, ascending(a.tools), a.is_free};
     const SetupAnswer answer = setup_project(without_slash(a.project), request, version, terminal.context());
+    if (answer.job) terminal.warn(program_warnings(*answer.job, answer.folder));
+    terminal.warn(warnings(answer));
     terminal.show(lines(answer), document(answer));
     return exit_done;
 }

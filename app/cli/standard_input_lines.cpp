@@ -9,7 +9,9 @@ namespace qchopper {
 
 void StandardInputLines::read_more() {
     if (has_ended_) return;
-    if (::isatty(STDIN_FILENO) == 1 && ::tcgetpgrp(STDIN_FILENO) != ::getpgrp()) return;
+    // Negative: not a terminal, or one that does not control this process and so stops no reader.
+    const pid_t foreground = ::tcgetpgrp(STDIN_FILENO);
+    if (foreground >= 0 && foreground != ::getpgrp()) return;
     pollfd input{STDIN_FILENO, POLLIN, 0};
     if (::poll(&input, 1, 0) <= 0) return;
     char buffer[4096];

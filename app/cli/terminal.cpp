@@ -121,6 +121,12 @@ std::string time_left(std::size_t done, std::size_t total, double elapsed_s) {
     return ", about " + duration(static_cast<std::uint32_t>(std::ceil(left_s))) + " left";
 }
 
+std::string progress_text(const Progress& progress) {
+    const bool is_counted = progress.total > 0 && !progress.what.starts_with('%');
+    return with_commas(progress.done) + (is_counted ? " of " + with_commas(progress.total) : std::string()) + " " +
+           progress.what;
+}
+
 void catch_signals() {
     struct sigaction action {};
     action.sa_handler = on_signal;
@@ -290,12 +296,10 @@ void Terminal::progress(const Progress& progress) {
 
 void Terminal::draw_line(Clock::time_point now) {
     drawn_ = now;
-    std::string line = with_commas(last_.done);
-    if (last_.total > 0) line += " of " + with_commas(last_.total);
     const std::size_t total_left = last_.total > done_at_start_ ? last_.total - done_at_start_ : 0;
     const double elapsed_s = std::chrono::duration<double>(now - started_).count();
-    line += " " + last_.what + "  " + fixed(std::floor(elapsed_s), 0) + " s" +
-            time_left(last_.done - done_at_start_, total_left, elapsed_s);
+    const std::string line = progress_text(last_) + "  " + fixed(std::floor(elapsed_s), 0) + " s" +
+                             time_left(last_.done - done_at_start_, total_left, elapsed_s);
     winsize size{};
     const std::size_t width = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 10 ? size.ws_col - 1U : 79;
     clear_line();

@@ -25,6 +25,9 @@ namespace qchopper {
 // 0.
 std::string time_left(std::size_t done, std::size_t total, double elapsed_s);
 
+// "2,351 of 10,560 planes evaluated"; of per cent the total is no news: "23 % of the job".
+std::string progress_text(const Progress& progress);
+
 class Terminal {
  public:
     // With `json`, stdout holds exactly one JSON document.

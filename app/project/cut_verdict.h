@@ -39,6 +39,7 @@ struct CutVerdict {
 
 struct SetupVerdict {
     std::vector<CutVerdict> cuts;  // those asked, in their order
+    bool are_cuts_asked = false;   // all of them: what remains is to cut pieces again
     bool is_done = false;          // false: the work was interrupted and goes on
     bool operator==(const SetupVerdict&) const = default;
 };

@@ -101,32 +101,32 @@ class RequestHandler {
         const std::size_t p = piece();
         const Piece& target = project_.segmentation().pieces[p];
         const StageTimer stage(context_, "planes ranked");
-        Proposal proposal{target.name,  target.mesh->triangles.size(),
-                          rules_hold_,  project_.ranking(p, request_.top, context_),
-                          request_.top, {}};
-        if (proposal.ranked.empty()) refuse("No plane parts piece " + target.name + ".");
-        for (std::size_t k = 1; k <= std::min(proposal.top, proposal.ranked.size()); ++k) {
-            if (crossing_regions(*target.mesh, proposal.ranked[k - 1].plane) > 0) proposal.crossing.push_back(k);
+        const std::vector<Ranked> ranked = project_.ranking(p, request_.top, context_);
+        Proposal proposal{target.name, target.mesh->triangles.size(), rules_hold_, ranked.size(), {}, request_.top, {}};
+        for (const std::size_t i : project_.listed(p, ranked, request_.top)) proposal.listed.push_back(ranked[i]);
+        if (proposal.listed.empty()) refuse("No plane parts piece " + target.name + ".");
+        for (std::size_t k = 1; k <= proposal.listed.size(); ++k) {
+            if (crossing_regions(*target.mesh, proposal.listed[k - 1].plane) > 0) proposal.crossing.push_back(k);
         }
         return proposal;
     }
 
-    // The k-th of a ranking, from 1.
-    static const Ranked& place(const std::vector<Ranked>& ranked, std::size_t k) {
-        if (k > ranked.size()) {
+    // The index in a ranking of the k-th plane of the list that --step shows, from 1.
+    std::size_t place(std::size_t p, const std::vector<Ranked>& ranked, std::size_t k) {
+        const std::vector<std::size_t> listed = project_.listed(p, ranked, k);
+        if (k > listed.size()) {
             throw InputError(
                 InputFault::use,
-                "the ranking has no place " + std::to_string(k) + ", it ends at " + std::to_string(ranked.size()),
+                "the ranking has no place " + std::to_string(k) + ", it ends at " + std::to_string(listed.size()),
                 "see it by --step");
         }
-        return ranked[k - 1];
+        return listed[k - 1];
     }
 
     void accept() {
         const std::size_t p = piece();
         const std::vector<Ranked> ranked = project_.ranking(p, *request_.accept, context_);
-        place(ranked, *request_.accept);
-        cut(p, ranked, *request_.accept - 1);
+        cut(p, ranked, place(p, ranked, *request_.accept));
     }
 
     void cut_by_plane() {
@@ -153,8 +153,7 @@ class RequestHandler {
 
     void cut(std::size_t p, const std::vector<Ranked>& ranked, std::size_t k) {
         const std::size_t warned = project_.segmentation().warnings.size();
-        if (!project_.decide_cut(
-                cut_by(project_.segmentation(), p, ranked, k, project_.project().settings.runners_up))) {
+        if (!project_.decide_cut(cut_by(project_.segmentation(), p, ranked, k, project_.project().settings))) {
             return refuse("The plane does not part piece " + project_.segmentation().pieces[p].name +
                           ", although its evaluation says so: the scan runs through itself there. Nothing was cut.");
         }
@@ -169,7 +168,8 @@ class RequestHandler {
         Preview preview;
         preview.piece = target.name;
         if (const auto* k = std::get_if<std::size_t>(&*request_.preview)) {
-            preview.plane = place(project_.ranking(p, *k, context_), *k);
+            const std::vector<Ranked> ranked = project_.ranking(p, *k, context_);
+            preview.plane = ranked[place(p, ranked, *k)];
         } else {
             const Plane plane = std::get<Plane>(*request_.preview);
             const auto own = project_.own_plane(p, plane, context_);

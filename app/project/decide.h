@@ -51,7 +51,8 @@ struct Proposal {
     std::string piece;
     std::size_t faces = 0;
     bool rules_hold = false;
-    std::vector<Ranked> ranked;         // all
+    std::size_t candidates = 0;         // how many planes were ranked
+    std::vector<Ranked> listed;         // the best of those that are more than a step apart, best first
     std::size_t top = 10;               // so many are shown
     std::vector<std::size_t> crossing;  // of those shown, the places (from 1) of planes whose sections cross
 };

@@ -92,11 +92,10 @@ std::string cut_line(const Cut& cut, const SearchSettings& settings) {
     // better.
     const bool is_best = std::all_of(cut.runners_up.begin(), cut.runners_up.end(),
                                      [&](const Ranked& r) { return r.terms.total + tie >= t.total; });
-    const bool is_refined = cut.chosen.normal_index == refined_index;
-    const std::string which = cut.chosen.normal_index == own_index
-                                  ? "given plane"
-                                  : (is_best || is_refined ? "best of " : "one of ") +
-                                        describe_planes(cut.candidates, settings) + kind_of(cut.chosen);
+    const std::string which =
+        cut.chosen.normal_index == own_index
+            ? "given plane"
+            : (is_best ? "best of " : "one of ") + describe_planes(cut.candidates, settings) + kind_of(cut.chosen);
     return "cut " + std::to_string(cut.number) + " on piece " + cut.piece + ": " + which + ", total " +
            fixed(t.total, 3) + " (face ratio " + fixed(t.face_ratio, 2) + ", fragility " + fixed(t.fragility, 3) +
            ", piece count " + fixed(t.piece_count, 0) + ", undercut " + fixed(t.undercut, 3) +
@@ -172,7 +171,7 @@ std::vector<SetupOrder> committed_setup_orders(const History& history) {
         const auto* order = std::get_if<SetupOrder>(&decision);
         if (order == nullptr) continue;
         orders.erase(order->piece);
-        if (order->base || order->max_directions) orders.emplace(order->piece, *order);
+        if (!order->is_free()) orders.emplace(order->piece, *order);
     }
     std::vector<SetupOrder> list;
     list.reserve(orders.size());

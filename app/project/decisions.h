@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -46,11 +47,13 @@ struct Discard {
 // Those that one decision leaves out, at least one, all after the same cut.
 using Discards = std::vector<Discard>;
 
-// How a piece is laid and carved in place of what the program chooses. With neither it chooses again.
+// How a piece is laid and carved in place of what the program chooses. With nothing of it the program chooses again.
 struct SetupOrder {
     std::string piece;                          // its name
     std::optional<int> base;                    // number of the base (segment/score/piece_reach.h)
     std::optional<std::size_t> max_directions;  // of the tool
+    std::vector<std::uint16_t> tools = {};      // numbers of those that may be used; empty: no other than the project's
+    bool is_free() const { return !base && !max_directions && tools.empty(); }
     bool operator==(const SetupOrder&) const = default;
 };
 

@@ -11,6 +11,7 @@
 #include "base/timings.h"
 #include "segment/score/cut_reach.h"
 #include "segment/score/evaluate.h"
+#include "segment/search/rank.h"
 #include "segment/search/reach_rank.h"
 
 namespace qchopper {
@@ -20,7 +21,11 @@ namespace {
 SearchSettings settings_at(const Project& project, const Cut& cut) {
     History history = project.history;
     // An equal cut may have been taken back by a reset; the last one counts.
-    while (history.committed > 0 && history.decisions[history.committed - 1] != Decision{cut}) --history.committed;
+    const auto decides = [&](const Decision& decision) {
+        const auto* other = std::get_if<Replacement>(&decision);
+        return decision == Decision{cut} || (other != nullptr && other->cut == cut);
+    };
+    while (history.committed > 0 && !decides(history.decisions[history.committed - 1])) --history.committed;
     SearchSettings settings = project.settings;
     settings.objectives.weights = committed_weights(history);
     return settings;
@@ -92,6 +97,19 @@ std::optional<OpenedSurface> opened_surface(const Before& b, const Ranked& chose
 
 }  // namespace
 
+const Ranked* Explanation::best_other() const {
+    const Ranked* best = nullptr;
+    for (std::size_t i = 0; i < ranked.size(); ++i) {
+        if (place != i && (best == nullptr || ranked[i].terms.total < best->terms.total)) best = &ranked[i];
+    }
+    return best;
+}
+
+std::size_t Explanation::cheaper() const {
+    return static_cast<std::size_t>(std::count_if(
+        ranked.begin(), ranked.end(), [&](const Ranked& r) { return r.terms.total + tie < chosen.terms.total; }));
+}
+
 const Cut& cut_to_explain(const Project& project, std::optional<int> number) {
     if (project.cuts.empty()) {
         throw InputError(InputFault::use, "the project has no cuts yet", "make one, then run explain again");
@@ -115,6 +133,7 @@ Explanation explain_by(const Before& b, const Cut& cut, const SearchSettings& se
     e.most_judged = most_judged_planes(settings);
     e.ranked =
         rank_whole_normals(b.segmentation, b.piece, settings, cache, context, cut.chosen.normal_index, too_large_for);
+    e.listed = without_neighbours(e.ranked, b.segmentation.pieces[b.piece], settings.candidates, listed_planes);
     for (std::size_t i = 0; i < e.ranked.size() && !e.place; ++i) {
         if (e.ranked[i].plane == cut.chosen.plane) e.place = i;
     }

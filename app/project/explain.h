@@ -28,16 +28,22 @@ struct OpenedSurface {
     double best_other_share() const { return (before_mm2 - best_other_after_mm2) / piece_mm2; }
 };
 
+constexpr std::size_t listed_planes = 10;
+
 struct Explanation {
     Cut cut;
     Objectives objectives;             // with the weights of that decision
     std::vector<Ranked> ranked;        // all candidates, best first
-    std::optional<std::size_t> place;  // index of the chosen plane among them; nothing: it is the operator's own
+    std::vector<std::size_t> listed;   // of them the best ten that are more than one step of the offsets apart
+    std::optional<std::size_t> place;  // index of the chosen plane among them; nothing: it is none of them now
     Ranked chosen;
-    std::vector<Ranked> along_own_normal;  // without a place: planes along the normal of the chosen one, by offset
-    std::optional<OpenedSurface> opened;   // nothing where surface out of reach has no weight
-    std::size_t most_judged = 0;           // planes; 0 as well then
-    bool is_best() const { return place && *place == 0; }
+    std::vector<Ranked>
+        along_own_normal;  // without a place among the normals: planes along the normal of the chosen one, by offset
+    std::optional<OpenedSurface> opened;  // nothing where surface out of reach has no weight
+    std::size_t most_judged = 0;          // planes; 0 as well then
+    // The best of the others by its total; null if there is none. And how many of them cost less than the chosen one.
+    const Ranked* best_other() const;
+    std::size_t cheaper() const;
 };
 
 // A cut in force by its number, the last one for nothing. Throws InputError (use) if there is none.

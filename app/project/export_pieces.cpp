@@ -169,9 +169,10 @@ void check_shape(const ExportedPiece& row, double piece_diagonal, const ExportRe
                   " of faces of piece " + row.piece.name + " run through each other";
     }
     if (faults.empty()) return;
+    const double usual = std::min(limit, max_deviation_share * piece_diagonal);
     throw InputError(
         InputFault::use, "--max-faces " + std::to_string(*request.max_faces) + " " + faults,
-        "allow more faces; or pass --simplify " + significant(limit, 2) + " for as few as that deviation allows");
+        "allow more faces; or pass --simplify " + significant(usual, 2) + " for as few as that deviation allows");
 }
 
 // Pieces on several threads; progress is the sum over all of them, reported from one thread at a time.

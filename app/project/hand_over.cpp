@@ -42,6 +42,9 @@ PieceJob job_of(const JobOrder& order) {
     job.verdict = read_verdict(order.file);
     job.unreachable_share = read.setup.reach.unreachable_share();
     job.max_unreachable = read.max_unreachable;
+    if (const std::optional<Workholding>& held = read.setup.workholding; held && !held->passes()) {
+        job.holding_problem = workholding_problem(*held) + "; " + workholding_remedy(*held);
+    }
     return job;
 }
 
@@ -51,7 +54,8 @@ std::vector<PieceJob> jobs_of_piece(const std::filesystem::path& folder, const P
     const std::vector<WrittenJob> written = written_jobs_of(project, piece);
     std::error_code error;
     const std::filesystem::path first = folder / "jobs" / job_file_name(piece);
-    if (written.empty() && std::filesystem::exists(std::filesystem::symlink_status(first, error))) {
+    if (written.empty() && project.stage == Stage::done &&
+        std::filesystem::exists(std::filesystem::symlink_status(first, error))) {
         refuse_unrecorded(folder, first);
     }
     std::vector<PieceJob> jobs;
@@ -145,22 +149,28 @@ void check_part(const JournalHistory& history, const PieceJob& job) {
 }  // namespace
 
 ProjectJobs jobs_of(const std::filesystem::path& folder, const std::optional<std::string>& piece,
-                    const Context& context) {
+                    const Context& context, bool may_be_unfinished) {
     const StageTimer stage(context, "jobs read");
     const Project project = load_project(folder);
-    if (project.stage != Stage::done) {
-        throw InputError(InputFault::use, folder.string() + " is not finished",
+    const bool is_finished = project.stage == Stage::done;
+    if (!is_finished && !(may_be_unfinished && !project.jobs.empty())) {
+        throw InputError(InputFault::use,
+                         folder.string() + " is not finished" + (may_be_unfinished ? " and has no job yet" : ""),
                          "finish it first: qchopper prepare " + shell_word(folder));
     }
-    ProjectJobs found{
-        folder, read_cell(folder / "cell.toml"), sha256(read_file(folder / "cell.toml", settings_limit)), {}};
+    ProjectJobs found{folder,
+                      read_cell(folder / "cell.toml"),
+                      sha256(read_file(folder / "cell.toml", settings_limit)),
+                      {},
+                      is_finished};
     for (const SolidRecord& record : project.pieces) {
         if (piece && record.name != *piece) continue;
         std::vector<PieceJob> jobs = jobs_of_piece(folder, project, record.name, found.cell);
         std::move(jobs.begin(), jobs.end(), std::back_inserter(found.jobs));
         if (jobs.empty() && piece) {  // without it the pieces that do not fit are left out
-            throw InputError(InputFault::missing, "piece " + *piece + " has no job",
-                             "it does not fit the cell; see the table that prepare printed");
+            throw InputError(InputFault::missing, "piece " + *piece + " has no job" + (is_finished ? "" : " yet"),
+                             is_finished ? "it does not fit the cell; see the table that prepare printed"
+                                         : "wait until prepare has written it");
         }
     }
     if (found.jobs.empty()) {
@@ -179,6 +189,15 @@ std::vector<std::string> unreachable_jobs(const std::vector<PieceJob>& jobs) {
         sentences.push_back("piece " + job.piece + ": the tool does not reach " +
                             fixed(100 * job.unreachable_share, 2) + " % of its surface, and the limit is " +
                             fixed(100 * job.max_unreachable, 2) + " %");
+    }
+    return sentences;
+}
+
+std::vector<std::string> unheld_jobs(const std::vector<PieceJob>& jobs) {
+    std::vector<std::string> sentences;
+    for (const PieceJob& job : jobs) {
+        if (job.holding_problem.empty() || job.part > 1) continue;
+        sentences.push_back("piece " + job.piece + " is not held safely: " + job.holding_problem);
     }
     return sentences;
 }

@@ -29,6 +29,7 @@ struct PieceJob {
     std::optional<JobVerdict> verdict;  // the one beside it
     double unreachable_share = 0;       // of the surface
     double max_unreachable = 0;         // the limit of the job
+    std::string holding_problem = {};   // with what to do about it; empty: it is held, or that was not checked
     bool is_unreachable() const { return unreachable_share > max_unreachable; }
 };
 
@@ -37,16 +38,21 @@ struct ProjectJobs {
     Cell cell;
     Sha256 cell_sha256;          // of the cell file
     std::vector<PieceJob> jobs;  // at least one; the parts of a piece in their order
+    bool is_finished = true;     // false: jobs may follow, prepare has not ended
 };
 
 // The jobs that the project ordered for its cell, in the order of its pieces; only that of one piece if it is named.
+// Of an unfinished project, where that may be, the jobs that are written so far.
 // Throws what load_project and read_cell throw, and InputError: (use) an unfinished project, no such piece; (missing)
 // no job; (mesh) a job file that is broken or not the one that was ordered (ordered_job.h).
 ProjectJobs jobs_of(const std::filesystem::path& project, const std::optional<std::string>& piece,
-                    const Context& context);
+                    const Context& context, bool may_be_unfinished = false);
 
 // Per job whose state is "unreachable" one sentence without a full stop: the piece, its share and the limit.
 std::vector<std::string> unreachable_jobs(const std::vector<PieceJob>& jobs);
+
+// Per job whose piece is not held safely (cam/setup/workholding.h) one sentence without a full stop.
+std::vector<std::string> unheld_jobs(const std::vector<PieceJob>& jobs);
 
 struct HandedOver {
     std::string piece;  // or the name of the job file, of a job that is not of this project

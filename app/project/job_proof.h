@@ -19,14 +19,16 @@ namespace qchopper {
 
 struct ProofInput {
     const Cell& cell;
-    const Setup& setup;               // as in the manifest
-    std::vector<Pose> setup_in_cell;  // of a rotary table one per direction, else one
-    const TriangleMesh& mesh;         // of piece.stl, welded: setup coordinates
-    const JobProgram& program;        // its chunks are compared with what is read, unless there are none
+    const Setup& setup;                               // as in the manifest
+    std::vector<Pose> setup_in_cell;                  // of a rotary table one per direction, else one
+    const TriangleMesh& mesh;                         // of piece.stl, welded: setup coordinates
+    const JobProgram& program;                        // see is_stated
     const std::map<std::string, std::string>& texts;  // of all its files
     const Bytes* stock = nullptr;                     // stock.bin of a part but the first
     std::vector<JobHole> holes = {};                  // of all caps
     double replay_cell = 0.25;                        // mm; that of the stock
+    // The figures of the chunks stand in the manifest, and are compared with what is read.
+    bool is_stated = true;
 };
 
 struct JobProof {
@@ -34,7 +36,8 @@ struct JobProof {
     std::vector<ProofFigure> figures;
     std::vector<VerdictFinding> findings;  // at most most_listed_findings
     std::size_t findings_left_out = 0;
-    std::vector<float> deviation;  // mm, per triangle: positive where foam stays, negative where it is cut into
+    std::vector<std::string> notes;  // JobVerdict::notes
+    std::vector<float> deviation;    // mm, per triangle: positive where foam stays, negative where it is cut into
     double time_s = 0;
     double length_mm = 0;
     Bytes stock_left;  // stock.bin for the next part, if there is one and the program could be replayed

@@ -17,7 +17,7 @@ using namespace json_values;
 namespace {
 
 constexpr const char* format_name = "qchopper verdict";
-constexpr std::uint32_t schema = 1;
+constexpr std::uint32_t schema = 2;
 
 Json from_figure(const ProofFigure& figure) {
     return {{"key", figure.key},
@@ -44,7 +44,7 @@ VerdictFinding to_finding(const Json& json) {
 
 JobVerdict to_verdict(const Json& json) {
     if (json_values::text(json, "format") != format_name) throw wrong("format", "is not a qchopper verdict");
-    if (whole<std::uint32_t>(json, "schema") != schema) throw wrong("schema", "is not 1");
+    if (whole<std::uint32_t>(json, "schema") != schema) throw wrong("schema", "is not 2");
     JobVerdict verdict;
     verdict.piece = json_values::text(json, "piece");
     const Json& job = member(json, "job");
@@ -57,6 +57,7 @@ JobVerdict to_verdict(const Json& json) {
     verdict.is_positive = truth(json, "positive");
     for (const Json& figure : items(json, "figures")) verdict.figures.push_back(to_figure(figure));
     for (const Json& finding : items(json, "findings")) verdict.findings.push_back(to_finding(finding));
+    verdict.notes = texts(json, "notes");
     verdict.findings_left_out = whole<std::uint32_t>(json, "findings_left_out");
     if (verdict.is_positive && !verdict.findings.empty()) throw wrong("positive", "contradicts the findings");
     return verdict;
@@ -85,7 +86,8 @@ std::string to_json(const JobVerdict& verdict) {
                     {"positive", verdict.is_positive},
                     {"figures", figures},
                     {"findings", findings},
-                    {"findings_left_out", verdict.findings_left_out}});
+                    {"findings_left_out", verdict.findings_left_out},
+                    {"notes", verdict.notes}});
 }
 
 JobVerdict job_verdict_from_json(std::string_view text, const std::string& source) {

@@ -37,6 +37,7 @@ struct JobVerdict {
     std::vector<ProofFigure> figures;  // of the replay; none where there was nothing to replay
     std::vector<VerdictFinding> findings;
     std::size_t findings_left_out = 0;  // beyond those listed
+    std::vector<std::string> notes;     // what is to be known and speaks not against it: as findings, one sentence each
     // Whether the job was proven: it holds a program, and nothing was found.
     bool is_positive = false;
     bool operator==(const JobVerdict&) const = default;

@@ -1,10 +1,12 @@
-// The part of OpenProject in which setups judge the cuts of a search. Cuts are asked in their order: a replacement
-// gives other names to the pieces of later cuts only.
+// The part of OpenProject in which setups judge what a search made. Cuts are asked in their order: a replacement gives
+// other names to the pieces of later cuts only. Then pieces are cut again: docs/decisions/0039.
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "app/project/open_project.h"
+#include "app/project/planes_by_setups.h"
 #include "app/project/project_folder.h"
 #include "app/project/replay.h"
 #include "app/project/verdict.h"
@@ -38,7 +40,9 @@ std::optional<VerdictOutcome> settled(const Project& project, const Segmentation
 
 bool OpenProject::asks_for_verdict() {
     const bool is_open = project_.verdict && !project_.verdict->is_done;
-    if (project_.settings.objectives.weights.unreachable <= 0 || setups() == nullptr) return false;
+    const SearchSettings& settings = project_.settings;
+    if (settings.objectives.weights.unreachable <= 0 && !settings.stop.max_unreachable) return false;
+    if (setups() == nullptr) return false;
     return is_open || (project_.stage == Stage::cut && !project_.verdict);
 }
 
@@ -47,29 +51,97 @@ void OpenProject::drop_unfinished_verdict() {
     if (is_being_judged()) project_.verdict.reset();
 }
 
-void OpenProject::judge_setups(const Context& context) {
+void OpenProject::judge_setups(const Context& context, const std::function<void(const Segmentation&)>& on_round) {
     if (!asks_for_verdict()) return;
-    const StageTimer stage(context, "setups judge the cuts");
-    std::vector<std::int32_t> numbers = doubtful_cuts(segmentation(), *setups(), context);
     if (!project_.verdict) {
         project_.verdict.emplace();
         save();
     }
-    const auto is_known = [&](std::int32_t number) {
-        const std::vector<CutVerdict>& known = project_.verdict->cuts;
-        return std::any_of(known.begin(), known.end(), [&](const CutVerdict& v) { return v.cut == number; });
-    };
-    std::erase_if(numbers, is_known);
-    std::map<std::int32_t, Piece> divided = pieces_to_recut(numbers, context);
-    for (const std::int32_t number : numbers) {
-        judge_cut(number, divided, context);
-        divided.erase(number);
-    }
+    if (!project_.verdict->are_cuts_asked) judge_cuts(context);
+    cut_by_setups(context, on_round);
     setups()->keep_only(segmentation().pieces);
     if (project_.stage == Stage::cutting) write_current_pieces();
     project_.stage = Stage::cut;
     project_.verdict->is_done = true;
     save();
+}
+
+void OpenProject::judge_cuts(const Context& context) {
+    if (project_.settings.objectives.weights.unreachable > 0) {
+        const StageTimer stage(context, "setups judge the cuts");
+        std::vector<std::int32_t> numbers = doubtful_cuts(segmentation(), *setups(), context);
+        const auto is_known = [&](std::int32_t number) {
+            const std::vector<CutVerdict>& known = project_.verdict->cuts;
+            return std::any_of(known.begin(), known.end(), [&](const CutVerdict& v) { return v.cut == number; });
+        };
+        std::erase_if(numbers, is_known);
+        std::map<std::int32_t, Piece> divided = pieces_to_recut(numbers, context);
+        for (const std::int32_t number : numbers) {
+            judge_cut(number, divided, context);
+            divided.erase(number);
+        }
+    }
+    project_.verdict->are_cuts_asked = true;
+    save();
+}
+
+// The rules of the search, but by the setups that jobs are made of.
+PieceChecks OpenProject::checks_by_setups(const SearchSettings& settings, const Context& context) {
+    PieceChecks checks = this->checks();
+    checks.unreachable = [this](const Piece& piece) { return setups()->left_by_setup(piece); };
+    checks.planes_on_trial = [this, &settings, &context](const Segmentation& s, std::size_t piece,
+                                                         std::vector<Ranked> ranked) {
+        return planes_by_setups(s, piece, std::move(ranked), settings, *setups(), cache(), context);
+    };
+    return checks;
+}
+
+// The state in which pieces are passed over that the search gave up, unless holder and arm keep more of them out of
+// reach than it knew, or a cut that is replaced made them other pieces.
+BeamProgress OpenProject::after_the_search(const Segmentation& segmentation) {
+    std::int32_t first_replaced = std::numeric_limits<std::int32_t>::max();
+    for (const CutVerdict& cut : project_.verdict->cuts) {
+        if (cut.outcome == VerdictOutcome::replaced) first_replaced = std::min(first_replaced, cut.cut);
+    }
+    BeamState state;
+    state.from = segmentation.cuts.size();
+    state.branches.emplace_back();
+    for (const RevertedTrial& trial : project_.reverted) {
+        const auto index = piece_named(segmentation, trial.piece);
+        if (!index || made_by(segmentation.pieces[*index]) >= first_replaced) continue;
+        const UnreachableSurface left = setups()->left_by_setup(segmentation.pieces[*index]);
+        if (left.mm2 > 0 && left.share * (1 - trial.before_mm2 / left.mm2) > doubtful_share) continue;
+        state.branches.front().passed_over.push_back(trial.piece);
+        state.branches.front().reverted.push_back(trial);
+    }
+    return {std::move(state), segmentation};
+}
+
+// A search of its own, with trials that setups decide. Its state is saved as that of any search; that it is this one
+// follows from the verdict.
+void OpenProject::cut_by_setups(const Context& context, const std::function<void(const Segmentation&)>& on_round) {
+    if (!project_.settings.stop.max_unreachable) return;
+    const StageTimer stage(context, "pieces cut by their setups");
+    setups()->compute_held(segmentation().pieces, context);
+    Segmentation working = segmentation();
+    SearchSettings settings = project_.settings;
+    settings.beam = 1;
+    BeamProgress progress =
+        project_.beam ? beam_progress(
+                            project_, working, [this]() -> const TriangleMesh& { return scan(); }, folder_ / "cache")
+                      : after_the_search(working);
+    release_scan();
+    const auto keep = [&](const Segmentation& s) {
+        take_over(s, progress.saved());
+        save();
+        setups()->keep_only(segmentation().pieces);
+        if (on_round) on_round(s);
+    };
+    const SearchEnd end = qchopper::search(working, settings, cache(), checks_by_setups(settings, context), keep,
+                                           context, std::nullopt, &progress);
+    project_.beam.reset();
+    record(project_, segmentation());
+    record_end(end);
 }
 
 std::map<std::int32_t, Piece> OpenProject::pieces_to_recut(std::vector<std::int32_t> numbers, const Context& context) {

@@ -33,11 +33,15 @@ std::optional<std::vector<DrawnCap>> decided(const ReadJob& job, const ProgramSo
     return caps;
 }
 
+bool is_text(const Bytes& bytes, const std::string& text) {
+    return std::equal(bytes.begin(), bytes.end(), text.begin(), text.end());
+}
+
 bool is_made_from(const ReadJob& job, const JobVerdict& verdict, const ProgramSource& source, const Bytes& mesh) {
     return job.program && job.setup == source.setup && job.piece_no == source.piece_no &&
            job.program_version == source.program_version && job.files.at("piece.stl") == mesh &&
-           verdict.job_sha256 == job.file_sha256 && verdict.cell_sha256 == source.cell_sha256 &&
-           verdict.program_version == source.program_version;
+           is_text(job.files.at("envelope.json"), source.envelope_document) && verdict.job_sha256 == job.file_sha256 &&
+           verdict.cell_sha256 == source.cell_sha256 && verdict.program_version == source.program_version;
 }
 
 double figure(const JobVerdict& verdict, const std::string& key) {
@@ -69,6 +73,7 @@ ProvenProgram program_of(const ReadJob& job, const JobVerdict& verdict) {
     proven.proof.figures = verdict.figures;
     proven.proof.findings = verdict.findings;
     proven.proof.findings_left_out = verdict.findings_left_out;
+    proven.proof.notes = verdict.notes;
     proven.proof.time_s = figure(verdict, "time_s");
     proven.proof.length_mm = 1000 * figure(verdict, "path_m");
     return proven;

@@ -19,6 +19,7 @@ namespace qchopper {
 struct ProgramSource {
     const Piece& piece;
     const Setup& setup;
+    const std::string& envelope_document;  // of its work envelope: how the arm holds each region of poses
     std::uint16_t piece_no = 1;
     const std::vector<DrawnCap>& caps;   // before anything was decided about their holes
     Sha256 cell_sha256;                  // of the cell file

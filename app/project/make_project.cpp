@@ -13,6 +13,7 @@
 #include "app/project/replay.h"
 #include "base/text.h"
 #include "base/timings.h"
+#include "cam/cell/allowed_tools.h"
 #include "cam/setup/choose_setup.h"
 
 namespace qchopper {
@@ -84,6 +85,7 @@ ProjectDraft draft_project(ProjectChoices choices, const ProjectContext& context
     std::optional<Cell> cell;
     if (choices.cell_file) {
         cell = read_cell(*choices.cell_file);  // an impossible one is refused before anything is made
+        with_tools(*cell, choices.tools);      // likewise
         draft.cell_file = read_file(*choices.cell_file, settings_limit);
     }
     if (choices.plan) draft.plan = read_plan(*choices.plan);

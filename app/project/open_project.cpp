@@ -10,6 +10,7 @@
 #include "app/project/piece_program.h"
 #include "app/project/project_folder.h"
 #include "app/project/project_lines.h"
+#include "app/project/project_sheets.h"
 #include "app/project/replay.h"
 #include "app/project/shell_word.h"
 #include "app/project/stress_store.h"
@@ -102,6 +103,7 @@ Setups* OpenProject::setups() {
     if (!setups_ && std::filesystem::exists(cell)) setups_.emplace(read_cell(cell));
     if (!setups_) return nullptr;
     setups_->set_orders(committed_setup_orders(project_.history));
+    setups_->set_tools(project_.tools);
     setups_->set_count_narrow(project_.settings.stop.count_narrow);
     return &*setups_;
 }
@@ -125,12 +127,15 @@ PieceChecks OpenProject::checks() {
         const StageTimer stage(timings, "blocks chosen");
         return setups->fits(piece);
     };
-    checks.blocks_needed = [blocks = usable_blocks(setups->cell())](Vec3 size) { return blocks_needed(blocks, size); };
+    checks.blocks_needed = [blocks = usable_blocks(setups->planned())](Vec3 size) {
+        return blocks_needed(blocks, size);
+    };
     checks.is_carvable = [setups, timings = context_.timings](const Piece& piece) {
         const StageTimer stage(timings, "setups of pieces that fit");
         return setups->is_carvable(piece);
     };
-    checks.low_blocks_needed = [blocks = low_usable_blocks(setups->cell())](Vec3 size) {
+    checks.least_gain_mm2 = setups->least_gain_mm2();
+    checks.low_blocks_needed = [blocks = low_usable_blocks(setups->planned())](Vec3 size) {
         return blocks_needed(blocks, size);
     };
     return checks;
@@ -151,9 +156,14 @@ OpenProject::Next OpenProject::next(const PieceChecks& checks) {
 }
 
 std::vector<Ranked> OpenProject::ranking(std::size_t piece, std::size_t best, const Context& context) {
+    constexpr std::size_t with_neighbours = 4;  // a plane that is listed, those beside it, and the refined one
     const StageTimer stage(context, "planes ranked");
-    return rank(segmentation(), piece, project_.settings, cache(), context, best,
+    return rank(segmentation(), piece, project_.settings, cache(), context, with_neighbours * best,
                 too_large_for(project_.settings, segmentation().pieces[piece]));
+}
+
+std::vector<std::size_t> OpenProject::listed(std::size_t piece, const std::vector<Ranked>& ranked, std::size_t most) {
+    return without_neighbours(ranked, segmentation().pieces[piece], project_.settings.candidates, most);
 }
 
 BlocksNeeded OpenProject::too_large_for(const SearchSettings& settings, const Piece& piece) {
@@ -187,15 +197,20 @@ void OpenProject::adopt(const Segmentation& segmentation) {
 }
 
 void OpenProject::adopt(const Segmentation& segmentation, std::optional<BeamState> beam) {
+    take_over(segmentation, std::move(beam));
+    project_.verdict.reset();
+    save();
+}
+
+void OpenProject::take_over(const Segmentation& segmentation, std::optional<BeamState> beam) {
     remove_outputs(folder_, project_);
     segmentation_ = segmentation;
     end_.reset();
     project_.end_reason.reset();
     project_.ended_because.clear();
+    project_.reverted.clear();
     record(project_, *segmentation_);
     project_.beam = std::move(beam);
-    project_.verdict.reset();
-    save();
 }
 
 bool OpenProject::decide_weights(const Weights& weights) {
@@ -246,19 +261,23 @@ bool OpenProject::decide_setup(const SetupOrder& order) {
     };
     if (!piece_named(segmentation(), order.piece) || current(order.piece) == order) return false;
     decide(project_.history, order);
+    remove_sheets(folder_);
     std::erase_if(project_.jobs, [&](const WrittenJob& job) { return job.piece == order.piece; });
     project_.beam.reset();
     save();
     return true;
 }
 
-void OpenProject::write_job_again(std::size_t piece, const std::string& program_version) {
+std::optional<PieceReport> OpenProject::write_job_again(std::size_t piece, const std::string& program_version) {
     check_cell();
-    if (project_.stage != Stage::done) return;
+    if (project_.stage != Stage::done) return std::nullopt;
     const std::vector<PieceJoint> joints =
         piece_joints(segmentation().pieces, joint_settings(&setups()->cell()), context_);
-    write_job(folder_, project_, segmentation(), piece, *setups(), joints, program_version, context_);
+    PieceReport report =
+        write_job(folder_, project_, segmentation(), piece, *setups(), joints, program_version, context_);
+    write_sheets(folder_, project_, context_);
     save_project(folder_, project_);
+    return report;
 }
 
 std::optional<Decision> OpenProject::undo() {
@@ -272,6 +291,7 @@ std::optional<Decision> OpenProject::redo() {
 std::optional<Decision> OpenProject::change_committed(const Decision* changed, std::size_t committed) {
     if (changed == nullptr) return std::nullopt;
     if (const auto* order = std::get_if<SetupOrder>(changed)) {
+        remove_sheets(folder_);
         std::erase_if(project_.jobs, [&](const WrittenJob& job) { return job.piece == order->piece; });
     } else if (!std::holds_alternative<WeightsChange>(*changed)) {
         remove_outputs(folder_, project_);
@@ -317,6 +337,12 @@ void OpenProject::set_settings(const SearchSettings& settings) {
     save();
 }
 
+void OpenProject::set_has_programs(bool has_programs) {
+    if (has_programs == project_.has_programs) return;
+    project_.has_programs = has_programs;
+    save();
+}
+
 SearchEnd OpenProject::search(const PieceChecks& checks, const std::function<void(const Segmentation&)>& on_round,
                               const Context& context, std::optional<double> time_limit_s) {
     remove_outputs(folder_, project_);
@@ -345,6 +371,7 @@ SearchEnd OpenProject::search(const PieceChecks& checks, const std::function<voi
 void OpenProject::record_end(const SearchEnd& end) {
     project_.end_reason = end.reason;
     project_.ended_because = end.sentence;
+    project_.reverted = end.reverted;
     if (!end.is_finished()) project_.warnings.push_back(early_end(end.sentence));
 }
 
@@ -359,6 +386,7 @@ PreparedProject OpenProject::prepare(const std::string& program_version, const C
     prepared.joints = project_joints(segmentation(), &prepared.cell, context);
     prepared.pieces =
         write_jobs(folder_, project_, segmentation(), *setups(), prepared.joints.joints, program_version, context);
+    write_sheets(folder_, project_, context);
     write_pictures(folder_, segmentation().pieces, *setups(), context);
     project_.stage = is_out_of_time ? Stage::cutting : Stage::done;
     const StageTimer stage(context, "project saved");

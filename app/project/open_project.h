@@ -83,8 +83,11 @@ class OpenProject {
 
     // In the following, `piece` is an index in segmentation().pieces. All candidates of the piece, best first.
     // Evaluates those that are not evaluated yet; changes nothing but the cache.
-    // The first `best` of them are certain to be so (segment/search/rank_piece.h).
+    // The first `best` that are listed are certain to be so (segment/search/rank_piece.h).
     std::vector<Ranked> ranking(std::size_t piece, std::size_t best, const Context& context);
+    // Of a ranking of the piece the indices of the first `most` planes that are more than one step of the offsets apart
+    // (segment/search/rank.h): the places of which an operator takes one.
+    std::vector<std::size_t> listed(std::size_t piece, const std::vector<Ranked>& ranked, std::size_t most);
     // The boxes into which a piece that the stop rules of the settings call too large is cut; else empty.
     BlocksNeeded too_large_for(const SearchSettings& settings, const Piece& piece);
     // The operator's own plane, nudged once. Nothing if it misses, or leaves fewer than two pieces that are no
@@ -118,34 +121,42 @@ class OpenProject {
     SearchEnd search(const PieceChecks& checks, const std::function<void(const Segmentation&)>& on_round,
                      const Context& context, std::optional<double> time_limit_s);
 
-    // After a search with the weight `unreachable` in a project with a cell: setups judge its cuts, and a cut of which
-    // the pieces can be carved better along another plane is replaced (verdict.h). Every cut is asked once, and saved
-    // before the next; a replacement is a decision. Does nothing where that is done already, or the search has not
-    // ended. Throws Cancelled.
-    void judge_setups(const Context& context);
-    // Whether a search has ended whose cuts are still being judged: it does not go on before that is done.
+    // After a search in a project with a cell, setups judge what it made. With the weight `unreachable` a cut of which
+    // the pieces can be carved better along another plane is replaced (verdict.h); every cut is asked once, and saved
+    // before the next; a replacement is a decision. With the rule max_unreachable a piece of which the setup of its job
+    // leaves more out of reach is cut again on trial, by planes that setups compare (planes_by_setups.h); `on_round` is
+    // called with the segmentation after each such decision. project().end_reason then says of the final setups whether
+    // the rules hold. Does nothing where that is done already, or the search has not ended. Throws Cancelled.
+    void judge_setups(const Context& context, const std::function<void(const Segmentation&)>& on_round = {});
+    // Whether a search has ended that setups are still judging: it does not go on before that is done.
     bool is_being_judged() const { return project_.verdict && !project_.verdict->is_done; }
+
+    // Whether jobs are written with robot programs from now on. This is no decision: undo does not take it back.
+    void set_has_programs(bool has_programs);
 
     // Writes pieces, jobs and pictures. Of a project whose last search ran out of time too; its stage stays
     // Stage::cutting, so that it can go on. Throws what check_cell throws, and Cancelled.
-    // Whether jobs are written with robot programs from now on.
-    void set_has_programs(bool has_programs) { project_.has_programs = has_programs; }
     PreparedProject prepare(const std::string& program_version, const Context& context);
 
-    // Writes the job of one piece again, if the jobs are written; `piece` is an index in segmentation().pieces. Throws
-    // what check_cell throws.
-    void write_job_again(std::size_t piece, const std::string& program_version);
+    // Writes the job of one piece again, if the jobs are written, and says what it is; `piece` is an index in
+    // segmentation().pieces. Throws what check_cell throws.
+    std::optional<PieceReport> write_job_again(std::size_t piece, const std::string& program_version);
 
     // Makes the newest cut or discarded piece of a segmentation that is extended by others (replay_plan.h) a decision.
     void adopt(const Segmentation& segmentation);
 
  private:
     void adopt(const Segmentation& segmentation, std::optional<BeamState> beam);
+    void take_over(const Segmentation& segmentation, std::optional<BeamState> beam);
     // The pieces are made again, with samples or without, if that follows from them.
     void set_weights(const Weights& weights);
     bool asks_for_verdict();
     void drop_unfinished_verdict();
     std::map<std::int32_t, Piece> pieces_to_recut(std::vector<std::int32_t> numbers, const Context& context);
+    void judge_cuts(const Context& context);
+    void cut_by_setups(const Context& context, const std::function<void(const Segmentation&)>& on_round);
+    BeamProgress after_the_search(const Segmentation& segmentation);
+    PieceChecks checks_by_setups(const SearchSettings& settings, const Context& context);
     void judge_cut(std::int32_t number, const std::map<std::int32_t, Piece>& divided, const Context& context);
     void replace_cut(const Segmentation& alone, CutVerdict verdict);
     void record_end(const SearchEnd& end);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "app/project/project_folder.h"
+#include "app/project/project_sheets.h"
 #include "app/project/unreachable_picture.h"
 #include "base/file.h"
 #include "base/timings.h"
@@ -73,10 +74,11 @@ void write_pictures(const fs::path& folder, const std::vector<Piece>& pieces, Se
     write_file(folder / "pictures" / "exploded.png", render_png(scene, {}, context));
     std::vector<CarvedPiece> carved;
     for (const Piece& piece : pieces) {
-        const Carving& carving = setups.of(piece);
+        const Carving& carving = setups.held(piece);
         carved.push_back({carving.choice.states, carving.setup().base});
     }
-    write_file(folder / "pictures" / "unreachable.png", draw_unreachable(pieces, shifts, carved, context));
+    write_file(folder / "pictures" / "unreachable.png",
+               draw_unreachable(pieces, shifts, carved, setups.counts_narrow(), context));
 }
 
 void remove_outputs(const fs::path& folder, Project& project) {
@@ -85,9 +87,11 @@ void remove_outputs(const fs::path& folder, Project& project) {
         project.stage = Stage::cutting;
         project.end_reason.reset();
         project.ended_because.clear();
+        project.reverted.clear();
         save_project(folder, project);
     }
     for (const char* name : {"pieces", "jobs", "pictures"}) remove_but(folder / name, {});
+    remove_sheets(folder);
 }
 
 }  // namespace qchopper

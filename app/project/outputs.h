@@ -21,8 +21,8 @@ namespace qchopper {
 void write_pieces(const std::filesystem::path& folder, const Segmentation& segmentation, FragmentChoice fragments,
                   const Context& context = {});
 
-// Writes pictures/segmentation.png, pictures/exploded.png and pictures/unreachable.png (unreachable_picture.h). Throws
-// Cancelled.
+// Writes pictures/segmentation.png, pictures/exploded.png and pictures/unreachable.png (unreachable_picture.h), that
+// one by the setups that jobs are made of. Throws Cancelled.
 void write_pictures(const std::filesystem::path& folder, const std::vector<Piece>& pieces, Setups& setups,
                     const Context& context);
 

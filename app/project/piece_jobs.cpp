@@ -12,10 +12,13 @@
 #include "app/project/kept_programs.h"
 #include "app/project/ordered_job.h"
 #include "app/project/piece_program.h"
+#include "app/project/project_folder.h"
 #include "app/project/shell_word.h"
 #include "base/file.h"
 #include "base/parallel.h"
 #include "base/timings.h"
+#include "cam/cell/allowed_tools.h"
+#include "cam/job/envelope_document.h"
 #include "cam/job/job_caps.h"
 #include "cam/job/read_job.h"
 #include "cam/job/write_job.h"
@@ -95,8 +98,8 @@ JobInput job_input(const JobOrders& orders, std::size_t index, const Carving& ca
     input.program_version = orders.program_version;
     input.project_id = project_id(orders.project);
     input.scan_sha256 = orders.project.scan.sha256;
-    input.cell = orders.cell;
     input.setup = carving.setup();
+    input.cell = with_tools(orders.cell, input.setup.tools);
     input.envelope = carving.envelope;
     input.work_envelope = carving.work_envelope;
     input.alternatives.assign(carving.choice.setups.begin() + 1, carving.choice.setups.end());
@@ -130,6 +133,7 @@ JobVerdict verdict_of(const JobProof& proof, const JobOrders& orders, const std:
     verdict.figures = proof.figures;
     verdict.findings = proof.findings;
     verdict.findings_left_out = proof.findings_left_out;
+    verdict.notes = proof.notes;
     verdict.is_positive = proof.is_proven();
     return verdict;
 }
@@ -155,9 +159,10 @@ PiecePrograms programs_of(const JobOrders& orders, const JobInput& input, const 
                           const Context& context) {
     std::string none_because = no_programs_for(orders.cell);
     if (none_because.empty() && !orders.project.has_programs) none_because = "prepare was asked for none";
-    if (!none_because.empty()) return {{}, none_because, {}, caps_by_hand(input.caps, none_because)};
-    const ProgramSource source{input.piece, input.setup,        input.piece_no,
-                               input.caps,  orders.cell_sha256, orders.program_version};
+    if (!none_because.empty()) return {{}, none_because, caps_by_hand(input.caps, none_because)};
+    const std::string envelope = envelope_document(input);
+    const ProgramSource source{input.piece,        input.setup,           envelope, input.piece_no, input.caps,
+                               orders.cell_sha256, orders.program_version};
     if (std::optional<PiecePrograms> kept = kept_programs(orders.folder / "jobs", source)) return std::move(*kept);
     return make_programs(input.piece, carving, input.piece_no, orders.cell, input.caps, context);
 }
@@ -168,7 +173,8 @@ MadeJob make_job(const JobOrders& orders, std::size_t index, const Carving& carv
     MadeJob made{{piece.name, piece.mesh->triangles.size(), volume_mm3(*piece.mesh), carving, {}}, {}};
     made.report.carving.mesh.reset();
     made.report.carving.choice.states.clear();
-    made.report.advice = advice_for(orders.folder, orders.project, piece, carving.setup().reach, orders.cell);
+    made.report.advice = advice_for(orders.folder, orders.project, piece, carving.setup().reach,
+                                    with_tools(orders.cell, carving.setup().tools));
     if (!carving.fits()) {
         remove_jobs(orders.folder, piece.name);
         return made;
@@ -177,7 +183,6 @@ MadeJob make_job(const JobOrders& orders, std::size_t index, const Carving& carv
     const PiecePrograms programs = programs_of(orders, input, carving, context);
     remove_jobs(orders.folder, piece.name);
     made.report.no_program_because = programs.none_because;
-    made.report.left_out = programs.left_out;
     input.caps = programs.caps;
     if (programs.parts.empty()) {
         input.no_program_because = programs.none_because;
@@ -191,6 +196,16 @@ MadeJob make_job(const JobOrders& orders, std::size_t index, const Carving& carv
     return made;
 }
 
+// In place of those that the project has of the piece, in the order of the pieces.
+void record_jobs(Project& project, const Segmentation& segmentation, std::size_t index,
+                 const std::vector<WrittenJob>& written) {
+    const std::string& piece = segmentation.pieces[index].name;
+    std::erase_if(project.jobs, [&](const WrittenJob& job) { return job.piece == piece; });
+    const auto later = std::find_if(project.jobs.begin(), project.jobs.end(),
+                                    [&](const WrittenJob& job) { return place_of(job.piece, segmentation) > index; });
+    project.jobs.insert(later, written.begin(), written.end());
+}
+
 // Jobs are written several at a time: their number, and the steps of the first one that is not done.
 class JobProgress {
  public:
@@ -198,10 +213,10 @@ class JobProgress {
         context.progress("jobs written", 0, count);
     }
 
-    // For the work on one job.
-    Context of(std::size_t index, const std::string& piece) {
+    // For the work on one job, which is timed by itself.
+    Context of(std::size_t index, const std::string& piece, Timings* timings) {
         Context own = context_;
-        own.timings = nullptr;
+        own.timings = context_.timings == nullptr ? nullptr : timings;
         own.on_progress = [this, index, piece](const Progress& step) {
             const std::lock_guard lock(mutex_);
             const std::size_t first = std::find(is_done_.begin(), is_done_.end(), false) - is_done_.begin();
@@ -234,10 +249,7 @@ PieceReport write_job(const fs::path& folder, Project& project, const Segmentati
     const Piece& piece = segmentation.pieces[index];
     MadeJob made = make_job(orders_of(folder, project, segmentation, setups.cell(), joints, program_version), index,
                             setups.held(piece), context);
-    std::erase_if(project.jobs, [&](const WrittenJob& job) { return job.piece == piece.name; });
-    const auto later = std::find_if(project.jobs.begin(), project.jobs.end(),
-                                    [&](const WrittenJob& job) { return place_of(job.piece, segmentation) > index; });
-    project.jobs.insert(later, made.written.begin(), made.written.end());
+    record_jobs(project, segmentation, index, made.written);
     return std::move(made.report);
 }
 
@@ -253,20 +265,30 @@ std::vector<PieceReport> write_jobs(const fs::path& folder, Project& project, co
     stage.next("jobs written");
     std::vector<const Carving*> carvings;
     for (const Piece& piece : segmentation.pieces) carvings.push_back(&setups.held(piece));
-    const JobOrders orders = orders_of(folder, project, segmentation, setups.cell(), joints, program_version);
     std::vector<MadeJob> made(count);
+    const Project ordered = project;  // what the threads read, while the records change
+    const JobOrders orders = orders_of(folder, ordered, segmentation, setups.cell(), joints, program_version);
     JobProgress progress(context, count);
+    std::vector<RunTimes> times(count);
+    std::mutex recording;
     parallel_for(0, count, [&](std::size_t i) {
         context.check_cancelled();
-        made[i] = make_job(orders, i, *carvings[i], progress.of(i, segmentation.pieces[i].name));
+        Timings timings;
+        made[i] = make_job(orders, i, *carvings[i], progress.of(i, segmentation.pieces[i].name, &timings));
+        times[i] = timings.so_far();
+        const std::lock_guard lock(recording);
+        record_jobs(project, segmentation, i, made[i].written);
+        save_project(folder, project);
         progress.finish(i);
     });
-    project.jobs.clear();
+    stage.divide(times);
+    std::vector<WrittenJob> all;
     std::vector<PieceReport> reports;
     for (MadeJob& job : made) {
-        project.jobs.insert(project.jobs.end(), job.written.begin(), job.written.end());
+        all.insert(all.end(), job.written.begin(), job.written.end());
         reports.push_back(std::move(job.report));
     }
+    project.jobs = std::move(all);  // no other job stays recorded
     return reports;
 }
 

@@ -32,7 +32,6 @@ struct PieceReport {
     std::filesystem::path job;              // empty: it does not fit the cell and has no job
     std::vector<ReachAdvice> advice = {};   // of a piece of which more is out of reach than may be
     std::string no_program_because = {};    // empty: its jobs hold robot programs
-    std::string left_out = {};              // of a program made now: what no hold of the arm carries, and why
     std::vector<JobVerdict> verdicts = {};  // one per part of its program
     double time_s = 0;                      // of all its parts, as the replay finds it
     double length_mm = 0;
@@ -46,7 +45,8 @@ PieceReport write_job(const std::filesystem::path& folder, Project& project, con
                       std::size_t index, Setups& setups, std::span<const PieceJoint> joints,
                       const std::string& program_version, const Context& context);
 
-// The same for all pieces; no other job stays recorded. One report per piece. Throws Cancelled.
+// The same for all pieces; no other job stays recorded. Each is recorded and the project saved as soon as it is
+// written, so that it can be rehearsed while others are made. One report per piece. Throws Cancelled.
 std::vector<PieceReport> write_jobs(const std::filesystem::path& folder, Project& project,
                                     const Segmentation& segmentation, Setups& setups,
                                     std::span<const PieceJoint> joints, const std::string& program_version,

@@ -9,6 +9,8 @@
 #include "app/project/deviation_picture.h"
 #include "base/error.h"
 #include "base/text.h"
+#include "base/timings.h"
+#include "cam/cell/allowed_tools.h"
 #include "cam/job/job_caps.h"
 #include "cam/post/krl.h"
 #include "cam/program/hold_drilling.h"
@@ -66,7 +68,7 @@ MadePath make_path(const Piece& piece, const Carving& carving, const Cell& cell,
 
 struct PostedProgram {
     std::vector<ProgramPart> parts;
-    std::string left_out;
+    MovesLeftOut left_out;
 };
 
 PostedProgram post(const Toolpath& path, const Drilling& drilling, const Carving& carving, std::uint16_t piece_no,
@@ -76,11 +78,7 @@ PostedProgram post(const Toolpath& path, const Drilling& drilling, const Carving
     whole.operations.insert(whole.operations.end(), drilled.begin(), drilled.end());
     const Setup setup = with_drill_directions(carving.setup(), drilling.directions);
     const Program program = make_program(whole, setup, carving.work_envelope, cell, context);
-    PostedProgram posted{post_krl(program, cell, {piece_no}), {}};
-    if (program.left_out_mm > 0) {
-        posted.left_out = fixed(program.left_out_mm, 0) + " mm of its cuts: " + program.left_out_because;
-    }
-    return posted;
+    return {post_krl(program, cell, {piece_no}), {program.left_out_mm, program.left_out_because}};
 }
 
 std::vector<std::size_t> drilled_holes(const Drilling& drilling) {
@@ -141,8 +139,17 @@ std::vector<DrawnCap> decided(std::vector<DrawnCap> caps, const Drilling& drilli
 }
 
 // Of a part as it was posted; the figures of its chunks are read back later.
-ProgramInput program_of(const ProgramPart& part, std::size_t number, std::size_t count, const MadePath& made) {
+ProgramInput program_of(const PostedProgram& posted, std::size_t number, const MadePath& made,
+                        const CellMachine& machine, const ToolpathSettings& settings) {
+    const ProgramPart& part = posted.parts[number - 1];
     ProgramInput input;
+    input.program.scallop_mm = settings.scallop;
+    for (const UnusedTool& unused : made.toolpath.unused) {
+        ToolLeftOut left_out{{}, unused.direction, unused.because};
+        if (unused.tool) left_out.tool = machine.tools[*unused.tool].number;
+        input.program.left_out.push_back(std::move(left_out));
+    }
+    input.program.moves_left_out = posted.left_out;
     input.program.drilling = made.drilling.directions;
     input.program.entry = part.entry;
     for (const ProgramText& file : part.files) {
@@ -159,11 +166,8 @@ ProgramInput program_of(const ProgramPart& part, std::size_t number, std::size_t
         if (input.tools.empty() || input.tools.back() != chunk.tool_number) input.tools.push_back(chunk.tool_number);
     }
     input.program.part.number = static_cast<std::uint16_t>(number);
-    input.program.part.count = static_cast<std::uint16_t>(count);
+    input.program.part.count = static_cast<std::uint16_t>(posted.parts.size());
     std::sort(input.program.holes.begin(), input.program.holes.end());
-    for (const Operation& operation : made.toolpath.operations) {
-        input.program.scallop_mm = std::max(input.program.scallop_mm, operation.scallop);
-    }
     return input;
 }
 
@@ -193,39 +197,51 @@ std::vector<DrawnCap> caps_by_hand(std::vector<DrawnCap> caps, const std::string
 PiecePrograms make_programs(const Piece& piece, const Carving& carving, std::uint16_t piece_no, const Cell& cell,
                             std::vector<DrawnCap> caps, const Context& context) {
     const Setup& setup = carving.setup();
+    const Cell planned = with_tools(cell, setup.tools);
     PostedProgram posted;
     MadePath made;
-    const auto make = [&](const ToolpathSettings& settings) {
-        made = make_path(piece, carving, cell, caps, settings, context);
-        posted = make_parts(made, carving, piece_no, cell, context);
+    ToolpathSettings settings;
+    settings.scallop = settings.fine_scallop = cell.machine->program.scallop;
+    const auto make = [&](const ToolpathSettings& asked) {
+        StageTimer stage(context, "toolpaths made");
+        made = make_path(piece, carving, planned, caps, asked, context);
+        stage.next("programs made");
+        posted = make_parts(made, carving, piece_no, planned, context);
     };
     try {
         try {
-            make({});
+            make(settings);
         } catch (const ProgramRefused&) {
             // The work envelope was asked for tips on the block, not for all that roughing takes beside it.
-            ToolpathSettings narrow;
+            ToolpathSettings narrow = settings;
             narrow.beside_block = narrowly_beside;
             make(narrow);
         }
     } catch (const InputError& error) {
-        return {{}, error.what(), {}, caps_by_hand(std::move(caps), error.what())};
+        return {{}, error.what(), caps_by_hand(std::move(caps), error.what())};
     }
     const TriangleMesh mesh = job_mesh(to_stl(apply(setup.piece_in_setup, *piece.mesh)), piece.name);
     const std::vector<Pose> frames = frames_of(setup, cell);
     PiecePrograms programs;
-    programs.left_out = posted.left_out;
     programs.caps = decided(std::move(caps), made.drilling);
     std::vector<JobCap> job_caps;
     for (const DrawnCap& drawn : programs.caps) job_caps.push_back(drawn.cap);
     Bytes stock;  // what the part before left
-    for (const ProgramPart& part : posted.parts) {
+    while (programs.parts.size() < posted.parts.size()) {
         ProvenProgram proven;
-        proven.input = program_of(part, programs.parts.size() + 1, posted.parts.size(), made);
+        proven.input = program_of(posted, programs.parts.size() + 1, made, *planned.machine, settings);
         proven.input.stock = std::move(stock);
-        proven.proof = prove({cell, setup, frames, mesh, proven.input.program, proven.input.texts, &proven.input.stock,
-                              holes_of(job_caps)},
-                             context);
+        const StageTimer stage(context, "programs replayed");
+        ProofInput proof{cell,
+                         setup,
+                         frames,
+                         mesh,
+                         proven.input.program,
+                         proven.input.texts,
+                         &proven.input.stock,
+                         holes_of(job_caps)};
+        proof.is_stated = false;
+        proven.proof = prove(proof, context);
         stock = std::move(proven.proof.stock_left);
         add_proof(proven.input, proven.proof, mesh);
         programs.parts.push_back(std::move(proven));

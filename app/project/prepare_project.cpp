@@ -24,24 +24,30 @@ PreparedProject finish(OpenProject& project, const PrepareOptions& options, cons
                       shell_word(project.folder()) + ".");
     };
     report_kept(project.segmentation());
+    if (options.has_programs) project.set_has_programs(*options.has_programs);
     if (project.segmentation().pieces.empty()) {
         throw InputError(InputFault::mesh, project.project().scan.path.string() + " holds nothing but fragments",
                          "check the scan");
     }
     if (options.discard) discard(project, *options.discard, context);
+    const bool was_done = project.project().stage == Stage::done;
+    std::size_t told = project.project().cuts.size();
+    const auto on_round = [&](const Segmentation& s) {
+        report_kept(s);
+        for (const std::string& line : round_lines(s.cuts, told, project.project().settings)) context.message(line);
+        told = s.cuts.size();
+    };
+    std::optional<SearchEnd> end;
     if (project.project().stage == Stage::cutting && !project.is_being_judged()) {
-        std::size_t told = project.project().cuts.size();
-        const auto on_round = [&](const Segmentation& s) {
-            report_kept(s);
-            for (const std::string& line : round_lines(s.cuts, told, project.project().settings)) context.message(line);
-            told = s.cuts.size();
-        };
-        const SearchEnd end = project.search(project.checks(), on_round, context, options.time_limit_s);
-        context.warn(project.segmentation().warnings);
-        if (!end.is_finished()) context.warn({early_end(end.sentence)});
+        end = project.search(project.checks(), on_round, context, options.time_limit_s);
     }
-    project.judge_setups(context);
-    project.set_has_programs(options.has_programs);
+    project.judge_setups(context, on_round);
+    if (end) context.warn(project.segmentation().warnings);
+    if (end && end->is_out_of_time()) {
+        context.warn({early_end(end->sentence)});
+    } else if (!was_done && !project.project().do_rules_hold()) {
+        context.warn({early_end(project.project().ended_because)});
+    }
     return project.prepare(options.program_version, context);
 }
 

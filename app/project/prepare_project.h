@@ -15,10 +15,12 @@
 namespace qchopper {
 
 struct PrepareOptions {
-    std::string program_version;            // is written into the jobs
-    std::optional<double> time_limit_s;     // of the search; the round that is being made is finished
-    bool has_programs = true;               // whether jobs get robot programs, where the cell allows it
-    std::optional<DiscardRequest> discard;  // decided before the search
+    std::string program_version;         // is written into the jobs
+    std::optional<double> time_limit_s;  // of the search; the round that is being made is finished
+    // Whether jobs get robot programs, where the cell allows it, from now on; nothing: as the project says, and those
+    // of a new one do.
+    std::optional<bool> has_programs = {};
+    std::optional<DiscardRequest> discard = {};  // decided before the search
 };
 
 // Makes a project of a scan. Without a stop rule in the choices, or with those of the preset carve, every piece must

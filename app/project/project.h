@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -89,6 +90,7 @@ struct Project {
     Stage stage = Stage::cutting;
     std::optional<EndReason> end_reason;  // of the search; nothing: it has not ended
     std::string ended_because;            // the same as a sentence with its figure
+    std::vector<RevertedTrial> reverted;  // of that search: pieces that no cuts on trial made better
     History history;
     // What follows from the above; kept for readers of the file.
     std::vector<Cut> cuts;  // those in force
@@ -100,6 +102,7 @@ struct Project {
     std::optional<BeamState> beam;        // of a search that was interrupted and can go on
     std::optional<SetupVerdict> verdict;  // what setups said of the cuts after the search; nothing: they were not asked
     bool has_programs = true;             // whether jobs are written with robot programs, where the cell allows it
+    std::vector<std::uint16_t> tools;     // numbers of those that may be used; empty: all of the cell
     std::vector<WrittenJob> jobs;  // in the order of the pieces and their parts; none of a piece that does not fit
     bool operator==(const Project&) const = default;
 

@@ -126,6 +126,7 @@ Json json_of(const Decision& decision) {
         Json setup{{"piece", order->piece}};
         if (order->base) setup["base"] = *order->base;
         if (order->max_directions) setup["max_directions"] = *order->max_directions;
+        if (!order->tools.empty()) setup["tools"] = order->tools;
         return {{"setup", setup}};
     }
     return {{"reset", true}};
@@ -150,6 +151,7 @@ Decision decision_from(const Json& json) {
         SetupOrder order{setup.at("piece").get<std::string>(), {}, {}};
         if (setup.contains("base")) order.base = setup.at("base").get<int>();
         if (setup.contains("max_directions")) order.max_directions = setup.at("max_directions").get<std::size_t>();
+        if (setup.contains("tools")) order.tools = setup.at("tools").get<std::vector<std::uint16_t>>();
         return order;
     }
     if (json.contains("reset")) return Reset{};
@@ -258,13 +260,14 @@ BeamState beam_from(const Json& json, const History& history) {
 Json json_of(const SetupVerdict& verdict) {
     Json cuts = Json::array();
     for (const CutVerdict& cut : verdict.cuts) cuts.push_back(json_of(cut));
-    return {{"done", verdict.is_done}, {"cuts", cuts}};
+    return {{"done", verdict.is_done}, {"cuts_are_asked", verdict.are_cuts_asked}, {"cuts", cuts}};
 }
 
 SetupVerdict verdict_from(const Json& json) {
     SetupVerdict verdict;
     for (const Json& cut : json.at("cuts")) verdict.cuts.push_back(cut_verdict_from(cut));
     verdict.is_done = json.at("done").get<bool>();
+    verdict.are_cuts_asked = json.value("cuts_are_asked", verdict.is_done);
     return verdict;
 }
 
@@ -283,6 +286,7 @@ Project from_json(const Json& json) {
     project.stage = value_of_name(stage_names, json.at("stage"));
     project.ended_because = json.at("ended_because").get<std::string>();
     project.end_reason = end_reason_of(project.ended_because);
+    if (json.contains("reverted")) project.reverted = reverted_from(json.at("reverted"));
     project.history = history_from(json.at("history"));
     project.cuts = committed_cuts(project.history);
     project.discards = committed_discards(project.history);
@@ -296,6 +300,7 @@ Project from_json(const Json& json) {
     project.fragment_list = solids_from(json.at("fragments"));
     project.warnings = json.at("warnings").get<std::vector<std::string>>();
     project.has_programs = json.value("programs", true);
+    project.tools = json.value("tools", std::vector<std::uint16_t>());
     project.jobs = jobs_from(json.at("jobs"));
     return project;
 }
@@ -317,11 +322,13 @@ std::string to_json(const Project& project) {
               {"warnings", project.warnings},
               {"programs", project.has_programs},
               {"jobs", list_of(project.jobs)}};
+    if (!project.tools.empty()) json["tools"] = project.tools;
     if (project.ignored) json["ignored"] = json_of(*project.ignored);
     if (project.load) json["load"] = json_of(*project.load);
     if (project.no_cut) json["no_cut"] = json_of(*project.no_cut);
     if (project.beam) json["beam"] = json_of(*project.beam);
     if (project.verdict) json["verdict"] = json_of(*project.verdict);
+    for (const RevertedTrial& trial : project.reverted) json["reverted"].push_back(json_of(trial));
     return text_of(json) + "\n";
 }
 

@@ -21,6 +21,17 @@ std::vector<std::string> discarded_lines(const Project& project) {
     return lines;
 }
 
+std::string fragments_line(const Project& project) {
+    if (project.fragment_list.empty()) return {};
+    double volume = 0;
+    for (const SolidRecord& fragment : project.fragment_list) volume += fragment.volume_mm3;
+    return counted(project.fragment_list.size(), "fragment") + " (" + describe_volume(volume) +
+           " in all), listed in project.json" +
+           (project.fragments == FragmentChoice::drop ? ", dropped"
+            : project.stage == Stage::cutting         ? " and kept"
+                                                      : " and kept in pieces/fragments.ply");
+}
+
 std::string ignored_line(const IgnoredSurface& ignored) {
     std::string by = ignored.painted.empty() ? "" : "painted in " + ignored.painted.string();
     if (ignored.inside) by += by.empty() ? "inside" : ", inside";

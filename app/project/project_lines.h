@@ -15,6 +15,9 @@ namespace qchopper {
 // order of the decisions. Precondition: project.discards and project.discarded have the same length.
 std::vector<std::string> discarded_lines(const Project& project);
 
+// "2 fragments (0.012 ml in all), listed in project.json and kept in pieces/fragments.ply"; empty without fragments.
+std::string fragments_line(const Project& project);
+
 // "ignored: 12.40 % of the scan's surface (painted in FILE, inside)".
 std::string ignored_line(const IgnoredSurface& ignored);
 // "no cut: through 1,234 points of the scan (painted in FILE)".

@@ -28,6 +28,7 @@ ImportOptions options_of(const ProjectChoices& choices) {
     ImportOptions options;
     options.mm_per_unit = choices.mm_per_unit;
     options.scale = choices.scale;
+    options.on_unusual_size = choices.on_unusual_size;
     options.repair = qchopper::options_of(choices.repair);
     return options;
 }
@@ -47,7 +48,7 @@ ImportedScan import_project_scan(const ProjectChoices& choices, const Context& c
 ImportedScan import_project_scan(const Project& project, const Context& context) {
     const ScanSource& s = project.scan;
     ImportedScan imported =
-        import_scan(s.path, options_of(ProjectChoices{s.path, mm_per(s.unit), s.scale, s.repair}), context);
+        import_scan(s.path, options_of(ProjectChoices{s.path, mm_per(s.unit), s.scale, {}, s.repair}), context);
     if (imported.sha256 != s.sha256) {
         throw InputError(InputFault::mesh, s.path.string() + " is not the scan that the project was made from",
                          "put that scan back, or prepare this one as a new project");
@@ -76,6 +77,7 @@ Project new_project(const ProjectChoices& choices, const ImportedScan& imported)
     project.history.weights_at_start = project.settings.objectives.weights;
     project.fragments = choices.fragments;
     project.load = choices.load;
+    project.tools = choices.tools;
     project.warnings = imported.report.warnings;
     return project;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -22,6 +23,7 @@ struct ProjectChoices {
     std::filesystem::path scan;
     std::optional<double> mm_per_unit;  // of the scan; nothing: as in its file
     double scale = 1;
+    std::function<void(Vec3 size)> on_unusual_size = {};  // ImportOptions::on_unusual_size
     RepairChoices repair = {};
     IgnoreChoices ignore = {};
     std::optional<std::filesystem::path> no_cut = {};  // a PLY that marks surface that must not be cut
@@ -35,6 +37,7 @@ struct ProjectChoices {
     // Of the folder (make_project.h).
     std::filesystem::path folder = {};                    // NAME.qch, to be made
     std::optional<std::filesystem::path> cell_file = {};  // to be copied; nothing: no cell yet
+    std::vector<std::uint16_t> tools = {};                // Project::tools
     std::optional<std::filesystem::path> plan = {};       // whose cuts are to be made
 };
 

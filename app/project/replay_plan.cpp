@@ -95,7 +95,8 @@ class Replay {
                        : "its plane misses the piece";
         }
         Segmentation after = segmentation;
-        if (!apply(after, cut_by(segmentation, *found, {*ranked}, 0, 0), settings_.objectives.fragment_volume_mm3)) {
+        if (!apply(after, cut_by(segmentation, *found, {*ranked}, 0, settings_),
+                   settings_.objectives.fragment_volume_mm3)) {
             return "its plane misses the piece";
         }
         why = compare(planned, after);

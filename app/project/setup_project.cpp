@@ -5,11 +5,11 @@
 #include <algorithm>
 
 #include "app/project/make_project.h"
-#include "app/project/ordered_job.h"
 #include "app/project/replay.h"
 #include "app/project/shell_word.h"
 #include "base/error.h"
 #include "base/timings.h"
+#include "cam/cell/allowed_tools.h"
 #include "segment/score/piece_reach.h"
 
 namespace qchopper {
@@ -41,6 +41,7 @@ SetupOrder order_of(const Project& project, const SetupRequest& request) {
     }
     if (request.base) order.base = request.base;
     if (request.max_directions) order.max_directions = request.max_directions;
+    if (!request.tools.empty()) order.tools = request.tools;
     return order;
 }
 
@@ -67,12 +68,11 @@ SetupAnswer setup_project(const std::filesystem::path& folder, const SetupReques
     if (request.decides()) {
         const Piece& piece = pieces[*index];
         if (request.base) check_base(piece, *request.base);
+        with_tools(project.setups()->cell(), request.tools);  // throws for tools that cannot be
         if (project.decide_setup(order_of(project.project(), request))) {
             answer.done = "The setup of piece " + piece.name + " is changed.";
             context.saved("The setup of piece " + piece.name + " is changed; its job is not written yet.");
-            const bool had_jobs = project.project().stage == Stage::done;
-            project.write_job_again(*index, program_version);
-            answer.is_job_written = had_jobs && !written_jobs_of(project.project(), piece.name).empty();
+            answer.job = project.write_job_again(*index, program_version);
         } else {
             answer.done = "This setup is in force already.";
         }

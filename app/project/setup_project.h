@@ -20,8 +20,9 @@ struct SetupRequest {
     std::optional<std::string> piece;           // nothing: all pieces are shown
     std::optional<int> base;                    // number of a base of the piece
     std::optional<std::size_t> max_directions;  // of the tool
+    std::vector<std::uint16_t> tools = {};      // numbers of those that may be used
     bool is_free = false;                       // the program chooses again
-    bool decides() const { return base || max_directions || is_free; }
+    bool decides() const { return base || max_directions || !tools.empty() || is_free; }
 };
 
 struct PieceSetups {
@@ -33,8 +34,9 @@ struct PieceSetups {
 struct SetupAnswer {
     std::filesystem::path folder;
     Cell cell;
-    std::string done;  // the decision as a sentence; empty: none was made
-    bool is_job_written = false;
+    std::string done;                // the decision as a sentence; empty: none was made
+    std::optional<PieceReport> job;  // that was written again; without a file where the piece does not fit
+    bool is_job_written() const { return job && !job->job.empty(); }
     double max_unreachable = 0;  // share
     std::optional<IgnoredSurface> ignored;
     std::vector<PieceSetups> pieces;

@@ -7,6 +7,7 @@
 
 #include "app/project/unreachable_of.h"
 #include "base/parallel.h"
+#include "cam/cell/allowed_tools.h"
 #include "cam/setup/blocks_needed.h"
 #include "cam/setup/held_setup.h"
 #include "segment/mesh/oriented_box.h"
@@ -25,6 +26,16 @@ void Setups::set_orders(std::vector<SetupOrder> orders) {
     orders_ = std::move(orders);
     carvings_.clear();
     held_.clear();
+    carvable_.clear();
+}
+
+void Setups::set_tools(std::vector<std::uint16_t> tools) {
+    if (tools == tools_) return;
+    planned_ = with_tools(cell_, tools);
+    tools_ = std::move(tools);
+    carvings_.clear();
+    held_.clear();
+    fits_.clear();
     carvable_.clear();
 }
 
@@ -96,7 +107,7 @@ void Setups::keep_only(std::span<const Piece> pieces) {
 
 bool Setups::fits(const Piece& piece) {
     Answer& known = fits_[piece.mesh.get()];
-    if (known.mesh.expired()) known = {piece.mesh, fits_cell_and_machine(piece, cell_)};
+    if (known.mesh.expired()) known = {piece.mesh, fits_cell_and_machine(piece, planned_)};
     return known.is_yes;
 }
 
@@ -109,7 +120,7 @@ bool Setups::is_carvable(const Piece& piece) {
 // The setup is kept only of a piece that is not cut further.
 bool Setups::find_whether_carvable(const Piece& piece) {
     if (!cell_.machine) return true;
-    const double low = low_piece_height(cell_);
+    const double low = low_piece_height(planned_);
     const Vec3 size = oriented_box(piece.mesh->points).size();
     if (std::max({size.x, size.y, size.z}) <= low) return true;
     const auto is_low_enough = [&](const Carving& carving) {
@@ -130,34 +141,58 @@ UnreachableSurface Setups::unreachable(const Piece& piece) {
     options.mapped = 0;
     options.takes_kept_samples = !count_narrow_;
     options.samples = PieceReachOptions{}.samples;
-    const SetupChoice choice = choose_setup(piece, cell_, options);
+    const SetupChoice choice = choose_setup(piece, with_tools(cell_, tools_for(piece)), options);
     const SurfaceReach& reach = choice.setups.front().reach;
     return {reach.unreachable_mm2(), reach.unreachable_share()};
+}
+
+const SetupOrder* Setups::order_for(const Piece& piece) const {
+    const auto order =
+        std::find_if(orders_.begin(), orders_.end(), [&](const SetupOrder& o) { return o.piece == piece.name; });
+    return order == orders_.end() ? nullptr : &*order;
+}
+
+UnreachableSurface Setups::left_by_setup(const Piece& piece) {
+    const SurfaceReach& reach = held(piece).setup().reach;
+    return {reach.unreachable_mm2(), reach.unreachable_share()};
+}
+
+double Setups::least_gain_mm2() const {
+    const double side = 4 * smallest_radius(planned_);
+    return side * side;
 }
 
 SetupOptions Setups::options_for(const Piece& piece) const {
     SetupOptions options;
     options.count_narrow = count_narrow_;
-    const auto order =
-        std::find_if(orders_.begin(), orders_.end(), [&](const SetupOrder& o) { return o.piece == piece.name; });
-    if (order == orders_.end()) return options;
+    const SetupOrder* order = order_for(piece);
+    if (order == nullptr) return options;
     options.base = order->base;
     options.max_directions = order->max_directions.value_or(options.max_directions);
     return options;
 }
 
+const std::vector<std::uint16_t>& Setups::tools_for(const Piece& piece) const {
+    const SetupOrder* order = order_for(piece);
+    return order != nullptr && !order->tools.empty() ? order->tools : tools_;
+}
+
 Carving Setups::carving_of(const Piece& piece) const {
-    Carving carving{choose_setup(piece, cell_, options_for(piece)), {}, piece.mesh};
-    carving.envelope = check_envelope(carving.setup(), cell_);
+    const Cell planned = with_tools(cell_, tools_for(piece));
+    Carving carving{choose_setup(piece, planned, options_for(piece)), {}, piece.mesh};
+    for (Setup& setup : carving.choice.setups) setup.tools = tools_for(piece);
+    carving.envelope = check_envelope(carving.setup(), planned);
     return carving;
 }
 
 Carving Setups::held_of(const Piece& piece, const Carving& best, const Context& context) const {
     if (!cell_.machine) return best;
+    const Cell planned = with_tools(cell_, tools_for(piece));
     const HeldOptions options{options_for(piece), cell_.machine->max_unreachable};
-    HeldSetup held = held_setup(piece, best.choice, cell_, options, context);
+    HeldSetup held = held_setup(piece, best.choice, planned, options, context);
     Carving carving{std::move(held.choice), {}, piece.mesh, std::move(held.envelope)};
-    carving.envelope = check_envelope(carving.setup(), cell_);
+    for (Setup& setup : carving.choice.setups) setup.tools = tools_for(piece);
+    carving.envelope = check_envelope(carving.setup(), planned);
     return carving;
 }
 

@@ -30,14 +30,20 @@ struct Carving {
 
 class Setups {
  public:
-    explicit Setups(Cell cell) : cell_(std::move(cell)) {}
+    explicit Setups(Cell cell) : cell_(std::move(cell)), planned_(cell_) {}
 
     const Cell& cell() const { return cell_; }
+    // The same with the tools of set_tools() alone.
+    const Cell& planned() const { return planned_; }
 
     // What the operator decided, in place of what was decided before.
     void set_orders(std::vector<SetupOrder> orders);
+    // Numbers of the tools that may be used where a piece has no other order; empty: all. Throws what with_tools() of
+    // cam/cell/allowed_tools.h throws.
+    void set_tools(std::vector<std::uint16_t> tools);
     // Whether surface that is too narrow for the smallest tool counts as out of reach.
     void set_count_narrow(bool count_narrow);
+    bool counts_narrow() const { return count_narrow_; }
 
     // Computes those of all pieces, on several threads. Reports progress in pieces. Throws Cancelled.
     void compute(std::span<const Piece> pieces, const Context& context);
@@ -62,6 +68,11 @@ class Setups {
     // cure. True in a cell of version 1.
     bool is_carvable(const Piece& piece);
     UnreachableSurface unreachable(const Piece& piece);
+    // By the setup that its job is made of, held().
+    UnreachableSurface left_by_setup(const Piece& piece);
+    // Of cuts that make surface reachable: a square of two diameters of the finest tool, within which it cannot tell
+    // what it reaches from what its own radius leaves.
+    double least_gain_mm2() const;
 
  private:
     using Carvings = std::map<const TriangleMesh*, Carving>;
@@ -70,12 +81,16 @@ class Setups {
         bool is_yes = false;
     };
     using Answers = std::map<const TriangleMesh*, Answer>;
+    const SetupOrder* order_for(const Piece& piece) const;
     SetupOptions options_for(const Piece& piece) const;
+    const std::vector<std::uint16_t>& tools_for(const Piece& piece) const;
     Carving carving_of(const Piece& piece) const;
     bool find_whether_carvable(const Piece& piece);
     Carving held_of(const Piece& piece, const Carving& best, const Context& context) const;
 
     Cell cell_;
+    std::vector<std::uint16_t> tools_;
+    Cell planned_;
     std::vector<SetupOrder> orders_;
     bool count_narrow_ = false;
     Carvings carvings_;

@@ -30,15 +30,21 @@ struct Named {
     const char* name;
 };
 
-// In the order of SurfaceState; then the base.
-const std::array<Named, 7> colours{{{surface_colour(SurfaceState::reached), "reached"},
-                                    {surface_colour(SurfaceState::too_narrow), "too narrow for the smallest tool"},
-                                    {surface_colour(SurfaceState::steep), "steep"},
-                                    {surface_colour(SurfaceState::holder), "holder in the way"},
-                                    {surface_colour(SurfaceState::hidden), "hidden"},
-                                    {surface_colour(SurfaceState::ignored), "ignored: it may stay"},
-                                    {base_colour, "base"}}};
 constexpr std::uint8_t base_index = 6;
+
+// In the order of SurfaceState; then the base.
+std::array<Named, base_index + 1> colours(bool narrow_counts) {
+    const auto of = [&](SurfaceState state, const char* name) {
+        return Named{surface_colour(state, narrow_counts), name};
+    };
+    return {{of(SurfaceState::reached, "reached"),
+             of(SurfaceState::too_narrow, narrow_counts ? "too narrow" : "too narrow: does not count"),
+             of(SurfaceState::steep, "steep"),
+             of(SurfaceState::holder, "holder in the way"),
+             of(SurfaceState::hidden, "hidden"),
+             of(SurfaceState::ignored, "ignored: it may stay"),
+             {base_colour, "base"}}};
+}
 
 std::vector<std::uint8_t> colours_of(const Piece& piece, const CarvedPiece& carved) {
     assert(carved.states.empty() || carved.states.size() == piece.mesh->triangles.size());
@@ -58,10 +64,10 @@ void paste(Pixels& onto, const Pixels& view, int left) {
 }
 
 // Of the colours that occur, and always of the three kinds of surface that cuts and tools can open.
-void draw_legend(Pixels& pixels, const std::array<bool, colours.size()>& occurs) {
+void draw_legend(Pixels& pixels, std::span<const Named> entries, const std::array<bool, base_index + 1>& occurs) {
     double x = 30;
     const int top = pixels.height - (legend_height + square) / 2;
-    for (std::size_t i = 0; i < colours.size(); ++i) {
+    for (std::size_t i = 0; i < entries.size(); ++i) {
         const auto state = static_cast<SurfaceState>(i);
         const bool is_kind =
             state == SurfaceState::hidden || state == SurfaceState::too_narrow || state == SurfaceState::steep;
@@ -69,9 +75,9 @@ void draw_legend(Pixels& pixels, const std::array<bool, colours.size()>& occurs)
         for (int row = top; row < top + square; ++row) {
             const auto first =
                 pixels.rows.begin() + static_cast<std::ptrdiff_t>(row) * pixels.width + static_cast<std::ptrdiff_t>(x);
-            std::fill(first, first + square, colours[i].colour);
+            std::fill(first, first + square, entries[i].colour);
         }
-        const std::string name = colours[i].name;
+        const std::string name = entries[i].name;
         const double width = letter_width * static_cast<double>(name.size());
         draw_text(pixels, x + square + 10 + width / 2, top + square / 2.0, name, letter_height);
         x += square + 10 + width + 30;
@@ -81,12 +87,13 @@ void draw_legend(Pixels& pixels, const std::array<bool, colours.size()>& occurs)
 }  // namespace
 
 Bytes draw_unreachable(std::span<const Piece> pieces, std::span<const Vec3> shifts, std::span<const CarvedPiece> carved,
-                       const Context& context) {
+                       bool narrow_counts, const Context& context) {
     assert(!pieces.empty() && shifts.size() == pieces.size() && carved.size() == pieces.size());
-    std::array<Rgb, colours.size()> palette;
-    for (std::size_t i = 0; i < colours.size(); ++i) palette[i] = colours[i].colour;
+    const auto entries = colours(narrow_counts);
+    std::array<Rgb, entries.size()> palette;
+    for (std::size_t i = 0; i < entries.size(); ++i) palette[i] = entries[i].colour;
     std::vector<std::vector<std::uint8_t>> indices;
-    std::array<bool, colours.size()> occurs{};
+    std::array<bool, entries.size()> occurs{};
     for (std::size_t p = 0; p < pieces.size(); ++p) {
         indices.push_back(colours_of(pieces[p], carved[p]));
         for (const std::uint8_t i : indices.back()) occurs[i] = true;
@@ -107,7 +114,7 @@ Bytes draw_unreachable(std::span<const Piece> pieces, std::span<const Vec3> shif
     paste(all, render(scene, options, context), 0);
     options.view = {-options.view.x, -options.view.y, -options.view.z};
     paste(all, render(scene, options, context), view_width);
-    draw_legend(all, occurs);
+    draw_legend(all, entries, occurs);
     return to_png(all.rows, all.width, all.height);
 }
 

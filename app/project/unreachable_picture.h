@@ -1,8 +1,8 @@
 // Draws all pieces apart, from two opposite sides, their surface in colours by what becomes of it in their setups, with
 // a legend.
 //
-// The colours are those of the setup sheets (cam/job/setup_picture.h). Same input, same bytes, whatever the number of
-// threads (tests/app/project/unreachable_picture_test.cpp).
+// The colours are those of the setup sheets (cam/job/setup_picture.h): what does not count as out of reach is pale.
+// Same input, same bytes, whatever the number of threads (tests/app/project/unreachable_picture_test.cpp).
 
 #pragma once
 
@@ -23,9 +23,10 @@ struct CarvedPiece {
     std::optional<std::int32_t> base_cut;  // whose cap lies on the table
 };
 
-// PNG. `shifts` (mm) moves the pieces apart. Preconditions: one entry per piece in each; there is a piece. Throws
+// PNG. `shifts` (mm) moves the pieces apart; `narrow_counts`: what is too narrow for the smallest tool counts as out of
+// reach. Preconditions: one entry per piece in each; there is a piece. Throws
 // Cancelled.
 Bytes draw_unreachable(std::span<const Piece> pieces, std::span<const Vec3> shifts, std::span<const CarvedPiece> carved,
-                       const Context& context = {});
+                       bool narrow_counts, const Context& context = {});
 
 }  // namespace qchopper

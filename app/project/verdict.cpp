@@ -138,7 +138,7 @@ RecutTrial try_other_planes(const Segmentation& segmentation, const Piece& divid
         trial.verdict.best = surface;
     }
     const double gain_mm2 = trial.verdict.before.unreachable_mm2 - trial.verdict.best.unreachable_mm2;
-    if (best == nullptr || gain_mm2 < least_fall_mm2(segmentation, 0)) return trial;
+    if (best == nullptr || gain_mm2 < least_fall_mm2(divided, 0, setups.least_gain_mm2())) return trial;
     trial.verdict.outcome = VerdictOutcome::replaced;
     trial.better = std::move(*best);
     return trial;

@@ -38,9 +38,10 @@ struct RecutTrial {
 };
 
 // Cuts `divided`, the piece that the cut divides, along its first runners-up, and takes the plane of which the pieces
-// leave least out of reach by their setups, if this is less by 0.2 % of the scan's area at least and the pieces hold
-// the rules on faces, box and cell that those of the cut hold now. Precondition: is_last_of_its_pieces(cuts, number)
-// and the cut makes a piece. Reports progress in planes. Throws Cancelled.
+// leave least out of reach by their setups, if this is less by 0.2 % of the area of `divided` at least (and by
+// Setups::least_gain_mm2) and the pieces hold the rules on faces, box and cell that those of the cut hold now.
+// Precondition: is_last_of_its_pieces(cuts, number) and the cut makes a piece. Reports progress in planes. Throws
+// Cancelled.
 RecutTrial try_other_planes(const Segmentation& segmentation, const Piece& divided, std::int32_t number,
                             const SearchSettings& settings, Setups& setups, const Context& context);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 
 #include "app/project/hand_over.h"
@@ -15,6 +16,7 @@
 #include "app/project/shell_word.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "base/timings.h"
 #include "cam/job/job_caps.h"
 #include "cam/job/read_job.h"
@@ -79,6 +81,7 @@ void add_proof(const ReadJob& job, const std::string& job_file, const Cell& cell
     verdict.figures = std::move(proof.figures);
     verdict.findings.insert(verdict.findings.end(), proof.findings.begin(), proof.findings.end());
     verdict.findings_left_out = proof.findings_left_out;
+    verdict.notes = std::move(proof.notes);
 }
 
 // Lists at most most_listed_findings of them.
@@ -121,13 +124,28 @@ std::optional<VerdictFinding> fault_against_piece(const ReadJob& job, const std:
     return std::nullopt;
 }
 
-// What of the job contradicts the project: no such piece, another mesh, other holes.
+// What of the job's setup is not that which the project has for the piece.
+std::optional<VerdictFinding> fault_against_setup(const ReadJob& job, const Setup& own) {
+    if (job.setup == own) return std::nullopt;
+    const std::string text = "the setup of the job is not that of the project for piece " + job.piece;
+    const std::size_t directions = job.setup.reach.directions.size();
+    if (directions != own.reach.directions.size()) {
+        return finding("other_setup", text + ": " + counted(directions, "direction") + " instead of " +
+                                          std::to_string(own.reach.directions.size()));
+    }
+    if (job.setup.tools != own.tools) return finding("other_setup", text + ": other tools may be used");
+    return finding("other_setup", text);
+}
+
+// What of the job contradicts the project: no such piece, another mesh, another setup, other holes.
 std::vector<VerdictFinding> faults_against_project(const ReadJob& job, const std::string& job_file,
-                                                   std::span<const Piece> pieces, std::span<const PieceJoint> joints,
+                                                   OpenProject& project, std::span<const PieceJoint> joints,
                                                    const Cell& cell) {
+    const std::vector<Piece>& pieces = project.segmentation().pieces;
     const auto piece = std::find_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return p.name == job.piece; });
     if (piece == pieces.end()) return {finding("other_piece", "the project has no piece " + job.piece)};
     if (auto fault = fault_against_piece(job, job_file, *piece)) return {*fault};
+    if (auto fault = fault_against_setup(job, project.setups()->held(*piece).setup())) return {*fault};
     std::vector<JobCap> caps;
     const auto index = static_cast<std::size_t>(piece - pieces.begin());
     for (DrawnCap& drawn : caps_of(pieces, index, joints, job.setup, cell)) caps.push_back(std::move(drawn.cap));
@@ -157,6 +175,15 @@ std::optional<VerdictFinding> fault_against_part_before(const ReadJob& job, cons
         return finding("other_stock", "stock.bin is not what part " + number + " leaves");
     }
     return std::nullopt;
+}
+
+// Those that have a job.
+std::vector<Piece> pieces_of(const std::vector<PieceJob>& jobs, const std::vector<Piece>& pieces) {
+    std::vector<Piece> with_job;
+    std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(with_job), [&](const Piece& piece) {
+        return std::any_of(jobs.begin(), jobs.end(), [&](const PieceJob& job) { return job.piece == piece.name; });
+    });
+    return with_job;
 }
 
 VerifiedJob written(const fs::path& file, JobVerdict verdict) {
@@ -194,7 +221,10 @@ VerifiedJob verify_job(const fs::path& job, const std::optional<fs::path>& cell_
     if (!cell_file && !fs::exists(cell, error)) {
         throw InputError(InputFault::use, "no cell file is known for " + job.string(), "pass --cell FILE");
     }
-    return written(job, judge_job(read, job.string(), read_cell_file(cell), program_version, context));
+    JobVerdict verdict = judge_job(read, job.string(), read_cell_file(cell), program_version, context);
+    verdict.notes.emplace_back(
+        "its setup was not compared with that of its project, because a single job file does not have the project");
+    return written(job, std::move(verdict));
 }
 
 VerifyAnswer verify_project(const fs::path& folder, const std::optional<std::string>& piece,
@@ -205,6 +235,8 @@ VerifyAnswer verify_project(const fs::path& folder, const std::optional<std::str
     const Segmentation& segmentation = project.segmentation();
     StageTimer stage(context, "dowels placed");
     const std::vector<PieceJoint> joints = piece_joints(segmentation.pieces, joint_settings(&cell.cell), context);
+    stage.next("setups chosen");
+    project.setups()->compute_held(pieces_of(ordered.jobs, segmentation.pieces), context);
     stage.next("jobs verified");
     VerifyAnswer verified;
     PartBefore before;
@@ -219,7 +251,7 @@ VerifyAnswer verify_project(const fs::path& folder, const std::optional<std::str
         }
         before = {read.piece, read.program ? read.program->part.number : std::uint16_t{1}, read.file_sha256,
                   std::move(stock_left)};
-        const auto faults = faults_against_project(read, file.string(), segmentation.pieces, joints, cell.cell);
+        const auto faults = faults_against_project(read, file.string(), project, joints, cell.cell);
         verdict.findings.insert(verdict.findings.begin(), faults.begin(), faults.end());
         shorten(verdict);
         verified.push_back(written(file, std::move(verdict)));

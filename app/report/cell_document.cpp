@@ -112,6 +112,10 @@ Json machine_json(const CellMachine& machine) {
         {"max_tilt_deg", degrees(machine.max_tilt)},
         {"max_unreachable", machine.max_unreachable},
         {"margin", {{"sides", machine.margins.sides}, {"top", machine.margins.top}, {"spoil", machine.margins.spoil}}},
+        {"holding",
+         {{"cutting_force_n", machine.holding.cutting_force},
+          {"strength", machine.holding.strength},
+          {"max_slenderness", machine.holding.max_slenderness}}},
         {"obstacles", list_json(machine.obstacles,
                                 [](const Obstacle& obstacle) {
                                     Json json{{"name", obstacle.name}};
@@ -123,13 +127,22 @@ Json machine_json(const CellMachine& machine) {
          {{"dialect", to_word(machine.program.dialect)},
           {"memory_bytes", machine.program.memory_bytes},
           {"lines_per_chunk", machine.program.lines_per_chunk},
-          {"link_feed_mm_per_s", machine.program.link_feed_mm_per_s}}}};
+          {"link_feed_mm_per_s", machine.program.link_feed_mm_per_s},
+          {"acceleration_mm_per_s2", machine.program.acceleration},
+          {"turn_speed_deg_per_s", degrees(machine.program.turn_speed)},
+          {"joint_move_percent", 100 * machine.program.joint_share},
+          {"scallop", machine.program.scallop}}},
+        {"load_tolerance",
+         {{"mass_kg", machine.load_tolerance.mass_kg},
+          {"centre_mm", machine.load_tolerance.centre_mm},
+          {"inertia_kg_m2", machine.load_tolerance.inertia_kg_m2}}}};
 }
 
 Json stock_json(const Stock& stock) {
     return {{"name", stock.name},
             {"size", json_of(stock.size)},
             {"material", to_word(stock.material)},
+            {"bending_strength", bending_strength(stock)},
             {"sawn", stock.is_sawn},
             {"kerf", stock.kerf}};
 }

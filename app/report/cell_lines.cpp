@@ -94,10 +94,10 @@ void add_tools(std::vector<std::string>& text, const Cell& cell) {
 }
 
 void add_stock(std::vector<std::string>& text, const Cell& cell) {
-    Rows rows{{"block", "size", "material", "sawn"}};
+    Rows rows{{"block", "size", "material", "bending N/mm2", "sawn"}};
     for (const Stock& stock : cell.stock) {
         rows.push_back({stock.name, size_of(stock.size), std::string(to_word(stock.material)),
-                        stock.is_sawn ? "kerf " + number(stock.kerf) : "no"});
+                        number(bending_strength(stock)), stock.is_sawn ? "kerf " + number(stock.kerf) : "no"});
     }
     append(text, columns(rows));
 }
@@ -109,6 +109,9 @@ void add_limits(std::vector<std::string>& text, const CellMachine& machine) {
     text.push_back("surface    up to " + number(100 * machine.max_unreachable) + " % of a piece's may be unreachable");
     text.push_back("margins    " + number(machine.margins.sides) + " at the sides, " + number(machine.margins.top) +
                    " above, spoil layer " + number(machine.margins.spoil));
+    text.push_back("holding    by tape or glue of " + number(machine.holding.strength) +
+                   " N/mm2, against a cutting force of " + number(machine.holding.cutting_force) + " N; pieces up to " +
+                   number(machine.holding.max_slenderness) + " times as high as wide");
     for (const Obstacle& obstacle : machine.obstacles) {
         text.push_back("obstacle   " + obstacle.name + ", " + in_brackets(obstacle.box.min, 1) + " to " +
                        in_brackets(obstacle.box.max, 1));
@@ -118,6 +121,9 @@ void add_limits(std::vector<std::string>& text, const CellMachine& machine) {
                    " bytes, " + with_commas(program.lines_per_chunk) + " lines a chunk, links up to " +
                    number(program.link_feed_mm_per_s) + " mm/s, tool change by " +
                    (program.tool_change_call ? "calling " + *program.tool_change_call : "a stop"));
+    text.push_back("motion     up to " + number(program.acceleration) + " mm/s2, " + degrees(program.turn_speed) +
+                   " degrees/s of orientation, joint moves at " + number(100 * program.joint_share) +
+                   " % of each axis; finishing leaves ridges of " + number(program.scallop));
 }
 
 std::string picture_line(const Cell& cell, const ReachPicture& picture) {

@@ -18,7 +18,27 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t shown = 10;
+bool is_own(const Cut& cut) {
+    return cut.chosen.normal_index == own_index;
+}
+
+// Whose plane it is, as a sentence begins.
+std::string origin_of(const Cut& cut) {
+    switch (cut.chosen.normal_index) {
+        case own_index:
+            return "The plane is the operator's own";
+        case refined_index:
+            return "The plane is a candidate that the search moved and turned a little";
+        case symmetry_index:
+            return "The plane is the symmetry plane of the scan";
+        case given_index:
+            return "The plane is one of those given for all pieces";
+        case mirror_index:
+            return "The plane is the mirror image of another cut";
+        default:
+            return "The plane is a candidate of the search";
+    }
+}
 
 // Where one plane is better or worse than another, in what is added to the total.
 std::string differences(const Terms& a, const Terms& b, const Weights& weights) {
@@ -39,7 +59,7 @@ Json to_json(const Ranked& r) {
             {"terms", json_of(r.terms)}};
 }
 
-// Head and rows: the ten best, and the chosen plane if it is not among them.
+// Head and rows: the ten best, and the chosen plane if it is not among them, where its total puts it.
 std::vector<std::vector<std::string>> table(const Explanation& e) {
     const Weights& w = e.objectives.weights;
     std::vector<std::vector<std::string>> rows{{"", "place", "normal", "offset mm", "total"}};
@@ -52,11 +72,16 @@ std::vector<std::vector<std::string>> table(const Explanation& e) {
         for (const ObjectiveTerm& term : objective_terms(w)) row.push_back(fixed(r.terms.*term.value, 4));
         rows.push_back(row);
     };
-    for (std::size_t i = 0; i < std::min(e.ranked.size(), shown); ++i) {
+    bool is_shown = e.place && std::find(e.listed.begin(), e.listed.end(), *e.place) != e.listed.end();
+    const auto add_chosen = [&] {
+        add(e.place ? std::to_string(*e.place + 1) : is_own(e.cut) ? "own" : "-", e.chosen, true);
+        is_shown = true;
+    };
+    for (const std::size_t i : e.listed) {
+        if (!is_shown && e.chosen.terms.total < e.ranked[i].terms.total) add_chosen();
         add(std::to_string(i + 1), e.ranked[i], e.place == i);
     }
-    if (!e.place) add("own", e.chosen, true);
-    if (e.place && *e.place >= shown) add(std::to_string(*e.place + 1), e.chosen, true);
+    if (!is_shown) add_chosen();
     return rows;
 }
 
@@ -89,6 +114,16 @@ std::vector<std::string> opened_lines(const Explanation& e) {
     return text;
 }
 
+// What setups said of the cut; where they replaced it, they and not the totals decided.
+std::vector<std::string> setups_line(const Cut& cut, const Project& project) {
+    SetupVerdict of_cut;
+    if (!project.verdict) return {};
+    for (const CutVerdict& verdict : project.verdict->cuts) {
+        if (verdict.cut == cut.number) of_cut.cuts.push_back(verdict);
+    }
+    return verdict_lines(of_cut);
+}
+
 Json json_of(const OpenedSurface& o) {
     return {{"piece_mm2", o.piece_mm2},
             {"scan_mm2", o.scan_mm2},
@@ -102,24 +137,28 @@ Json json_of(const OpenedSurface& o) {
 }  // namespace
 
 std::string verdict(const Explanation& e) {
-    if (e.ranked.empty()) return "No candidate parts this piece: the plane is the operator's own.";
+    const Ranked* other = e.best_other();
+    if (other == nullptr) {
+        return e.place ? "The plane is the only candidate that parts the piece."
+                       : origin_of(e.cut) + "; no candidate parts this piece.";
+    }
     const std::string count = planes(e);
     const Weights& w = e.objectives.weights;
-    if (!e.is_best()) {
-        const Ranked& best = e.ranked.front();
-        const double more = e.chosen.terms.total - best.terms.total;
-        const std::string who =
-            e.place ? "The plane is number " + std::to_string(*e.place + 1) + " of " + count
-                    : "The plane is the operator's own, beside " + count + (e.most_judged == 0 ? " candidates" : "");
-        return who + ": the best would cost " + fixed(std::abs(more), 3) + (more < 0 ? " more" : " less") + " (" +
-               differences(e.chosen.terms, best.terms, w) + ").";
+    const double more = other->terms.total - e.chosen.terms.total;
+    const std::string why = " (" + differences(e.chosen.terms, other->terms, w) + ").";
+    const std::size_t cheaper = e.cheaper();
+    if (!e.place) {
+        const std::string beside = origin_of(e.cut) + ", beside " + count + (e.most_judged == 0 ? " candidates" : "");
+        if (std::abs(more) < 0.0005) return beside + ": the best of them costs as much.";
+        return beside + ": the best of them would cost " + fixed(std::abs(more), 3) + (more > 0 ? " more" : " less") +
+               why;
     }
-    if (e.ranked.size() == 1) return "The plane is the only candidate that parts the piece.";
-    const Ranked& next = e.ranked[1];
-    const double more = next.terms.total - e.chosen.terms.total;
+    if (cheaper > 0) {
+        return "The plane is number " + std::to_string(cheaper + 1) + " of " + count + ": the best would cost " +
+               fixed(std::abs(more), 3) + " less" + why;
+    }
     if (more < 0.0005) return "The plane is the best of " + count + "; the next is as good.";
-    return "The plane is the best of " + count + "; the next would cost " + fixed(more, 3) + " more (" +
-           differences(e.chosen.terms, next.terms, w) + ").";
+    return "The plane is the best of " + count + "; the next would cost " + fixed(more, 3) + " more" + why;
 }
 
 std::vector<std::string> lines(const Explanation& e, const Project& project, const std::string& picture) {
@@ -128,6 +167,7 @@ std::vector<std::string> lines(const Explanation& e, const Project& project, con
     for (const std::string& line : scan_lines(project)) text.push_back(line);
     for (const std::string& line : discarded_lines(project)) text.push_back(line);
     text.push_back(verdict(e));
+    for (const std::string& line : setups_line(e.cut, project)) text.push_back(line);
     for (const std::string& line : opened_lines(e)) text.push_back(line);
     for (const std::string& line : columns(table(e))) text.push_back(line);
     text.push_back("plot: " + picture);
@@ -144,7 +184,7 @@ std::vector<std::string> warnings(const Explanation& e) {
 
 std::string document(const Explanation& e, const Project& project, const std::string& picture) {
     Json best = Json::array();
-    for (std::size_t i = 0; i < std::min(e.ranked.size(), shown); ++i) best.push_back(to_json(e.ranked[i]));
+    for (const std::size_t i : e.listed) best.push_back(to_json(e.ranked[i]));
     Json json{{"schema", "qchopper-explain-2"},
               {"cut", e.cut.number},
               {"piece", e.cut.piece},

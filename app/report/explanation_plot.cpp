@@ -57,7 +57,9 @@ std::vector<Line> lines_of(const Explanation& e) {
         std::any_of(lines.begin(), lines.end(), [&](const Line& l) { return l.normal == e.chosen.plane.normal; });
     if (!has_line) {
         const Vec3 n = e.chosen.plane.normal;
-        const std::string name = e.chosen.normal_index == refined_index ? "Refined normal  " : "Own normal  ";
+        const std::string name = e.chosen.normal_index == refined_index ? "Refined normal  "
+                                 : e.chosen.normal_index == own_index   ? "Own normal  "
+                                                                        : "Its normal  ";
         lines.push_back({name + in_brackets(n, 3), n, e.along_own_normal});
     }
     return lines;
@@ -126,7 +128,7 @@ Plot plot(const Explanation& e, const std::string& project) {
             column.marks.push_back({r.plane.offset, text, is_best});
         };
         mark("chosen: ", e.chosen, false);
-        if (!e.is_best() && !e.ranked.empty()) mark("best: ", e.ranked.front(), true);
+        if (e.cheaper() > 0) mark("best: ", *e.best_other(), true);
         plot.columns.push_back(std::move(column));
     }
     add_totals(plot, e, lines);

@@ -14,8 +14,12 @@ namespace qchopper {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<std::string> warnings(const ExportedProject& exported, const ExportRequest& request) {
+std::vector<std::string> warnings(const ExportedProject& exported, const ExportRequest& request,
+                                  const Project& project) {
     std::vector<std::string> text;
+    if (!request.piece && !project.fragment_list.empty()) {
+        text.push_back(fragments_line(project) + ": not exported, because they are too small to be pieces");
+    }
     for (const ExportedPiece& row : exported.pieces) {
         if (row.simplified.is_by_queue) {
             text.push_back("piece " + row.piece.name +
@@ -71,6 +75,7 @@ std::string document(const ExportedProject& exported, const ExportRequest& reque
                     {"output", exported.out.string()},
                     {"centre_mm", json_of(project.scan.centre)},
                     {"pieces", pieces},
+                    {"fragments", project.fragment_list.size()},
                     {"discarded", discarded_json(project)}});
 }
 

@@ -10,8 +10,10 @@
 
 namespace qchopper {
 
-// One per piece that keeps more faces than request.max_faces, and per piece that took the slower way (simplify.h).
-std::vector<std::string> warnings(const ExportedProject& exported, const ExportRequest& request);
+// What of the project is not exported, where not one piece alone was asked for; then one per piece that keeps more
+// faces than request.max_faces, and per piece that took the slower way (simplify.h).
+std::vector<std::string> warnings(const ExportedProject& exported, const ExportRequest& request,
+                                  const Project& project);
 std::vector<std::string> lines(const ExportedProject& exported, const Project& project);
 // The document qchopper-export-1 (docs/export.md); `folder` is the project folder as it was typed.
 std::string document(const ExportedProject& exported, const ExportRequest& request, const Project& project,

@@ -38,9 +38,24 @@ Json job_json(const HandedOver& handed) {
             {"log", o.log}};
 }
 
+// Of those that are wanted so many ended complete before, and were passed over now.
+std::size_t carved_before(const HandOverReport& report) {
+    return static_cast<std::size_t>(std::count_if(report.handed.begin(), report.handed.end(), [](const HandedOver& h) {
+        return h.is_ordered && h.outcome.carved_complete && !h.outcome.is_complete();
+    }));
+}
+
 std::string summary(const HandOverReport& report) {
     const std::string cell = report.is_simulated ? "the simulated cell" : "the cell";
-    if (report.is_complete()) return "all " + std::to_string(report.wanted) + " jobs ended complete on " + cell;
+    const std::size_t before = carved_before(report);
+    if (report.is_complete() && before == report.wanted) {
+        return "nothing was started: " + counted(before, "job") + " ended complete on " + cell +
+               " before. Pass --again to carve once more";
+    }
+    if (report.is_complete()) {
+        return "all " + std::to_string(report.wanted) + " jobs ended complete on " + cell +
+               (before > 0 ? ", " + std::to_string(before) + " of them before" : "");
+    }
     std::size_t tried = 0;
     std::size_t complete = 0;
     for (const HandedOver& handed : report.handed) {
@@ -58,13 +73,11 @@ std::string summary(const HandOverReport& report) {
 
 bool HandOverReport::is_complete() const {
     std::size_t ordered = 0;
-    bool is_any_carved_now = false;
     for (const HandedOver& h : handed) {
         if (!h.outcome.is_complete() && !h.outcome.carved_complete) return false;
         ordered += h.is_ordered ? 1 : 0;
-        is_any_carved_now = is_any_carved_now || (h.is_ordered && h.outcome.is_complete());
     }
-    return ordered == wanted && is_any_carved_now;
+    return ordered == wanted && refused.empty();
 }
 
 bool HandOverReport::is_cancelled() const {

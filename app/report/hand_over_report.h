@@ -15,7 +15,7 @@ struct HandOverReport {
     bool is_simulated = false;         // the cell
     std::vector<std::string> refused;  // why none was sent (unreachable_jobs), or empty
     std::string next;                  // the command that comes next, if all ended complete; may be empty
-    // All jobs were handed over and ended complete, at least one of them now and the others now or before.
+    // All jobs that are wanted ended complete, now or before.
     bool is_complete() const;
     bool is_cancelled() const;
 };

@@ -11,9 +11,11 @@
 #include "app/project/value_json.h"
 #include "app/report/columns.h"
 #include "app/report/joint_report.h"
+#include "app/report/program_report.h"
 #include "app/report/segment_report.h"
 #include "app/report/setup_report.h"
 #include "app/report/work_envelope_report.h"
+#include "app/report/workholding_report.h"
 #include "base/text.h"
 
 namespace qchopper {
@@ -53,52 +55,6 @@ std::string advice_words(const std::vector<ReachAdvice>& advice) {
     return words;
 }
 
-Json program_json(const PieceReport& piece) {
-    if (piece.verdicts.empty()) return {{"parts", 0}, {"none_because", piece.no_program_because}};
-    Json verdicts = Json::array();
-    for (const JobVerdict& verdict : piece.verdicts) {
-        Json figures = Json::object();
-        for (const ProofFigure& figure : verdict.figures) figures[figure.key] = figure.value;
-        verdicts.push_back({{"job", verdict.job},
-                            {"positive", verdict.is_positive},
-                            {"figures", figures},
-                            {"findings", verdict.findings.size() + verdict.findings_left_out}});
-    }
-    return {{"parts", piece.verdicts.size()},
-            {"proven", piece.is_proven()},
-            {"time_s", piece.time_s},
-            {"length_mm", piece.length_mm},
-            {"verdicts", verdicts}};
-}
-
-// Of all parts of a program.
-std::size_t drilled_holes(const PieceReport& piece) {
-    double holes = 0;
-    for (const JobVerdict& verdict : piece.verdicts) {
-        for (const ProofFigure& figure : verdict.figures) holes += figure.key == "holes_drilled" ? figure.value : 0;
-    }
-    return static_cast<std::size_t>(holes);
-}
-
-// "3 h 20 min, 4 holes, verified", "-" without a program.
-std::string program_word(const PieceReport& piece) {
-    if (piece.verdicts.empty()) return "-";
-    std::string word = duration(static_cast<std::uint32_t>(piece.time_s));
-    if (piece.verdicts.size() > 1) word += " in " + std::to_string(piece.verdicts.size()) + " parts";
-    if (const std::size_t holes = drilled_holes(piece); holes > 0) word += ", " + counted(holes, "hole");
-    return word + (piece.is_proven() ? ", verified" : ", REFUSED");
-}
-
-// What the proof says against the program of a piece.
-std::string refusal_word(const PieceReport& piece, const std::string& folder) {
-    const auto refused = std::find_if(piece.verdicts.begin(), piece.verdicts.end(),
-                                      [](const JobVerdict& verdict) { return !verdict.is_positive; });
-    if (refused == piece.verdicts.end()) return {};
-    const std::string why = refused->findings.empty() ? "nothing was carved" : describe(refused->findings.front());
-    return "piece " + piece.name + ": its program is not proven: " + why + "; see qchopper verify " + folder +
-           " --piece " + piece.name;
-}
-
 // Why no job of a cell that takes programs has one, once for all pieces of the same reason.
 std::vector<std::string> missing_programs(const PreparedProject& prepared) {
     std::vector<std::string> sentences;
@@ -125,6 +81,7 @@ Json piece_json(const PieceReport& piece, const Cell& cell) {
             {"base_cut", s.base ? Json(*s.base) : Json()},
             {"base", s.base_description},
             {"undercut", s.undercut},
+            {"workholding", workholding_json(s)},
             {"reach", reach_json(s.reach)},
             {"fits", piece.carving.fits()},
             {"margins_mm", margins},
@@ -145,17 +102,16 @@ std::vector<std::string> warnings(const PreparedProject& prepared) {
                                                       : describe_envelope(p.name, p.carving.envelope)) +
                            "; it gets no job");
         } else if (share > prepared.max_unreachable) {
-            text.push_back("piece " + p.name + ": " + share_word(share) +
-                           " of its surface is out of reach, more than " + share_word(prepared.max_unreachable) +
-                           advice_words(p.advice) + "; see qchopper setup " + shell_word(prepared.folder) +
-                           " --piece " + p.name + ", or dispatch it with --accept-unreachable");
+            text.push_back(out_of_reach_sentence(p.name, share, prepared.max_unreachable) + advice_words(p.advice) +
+                           "; see qchopper setup " + shell_word(prepared.folder) + " --piece " + p.name +
+                           ", or dispatch it with --accept-unreachable");
         }
-        const std::string refusal = refusal_word(p, shell_word(prepared.folder));
-        if (!refusal.empty()) text.push_back(refusal);
-        if (!p.left_out.empty()) {
-            text.push_back("piece " + p.name + ": no hold of the arm carries " + p.left_out +
-                           "; they are left out, and the proof counts the foam that stays");
+        const std::optional<Workholding>& held = p.carving.setup().workholding;
+        if (held && !held->passes() && !p.job.empty()) {
+            text.push_back("piece " + p.name + " is not held safely: " + workholding_problem(*held) + "; " +
+                           workholding_remedy(*held) + "; dispatch asks before it sends it");
         }
+        for (const std::string& sentence : program_warnings(p, prepared.folder)) text.push_back(sentence);
     }
     if (prepared.has_programs()) {
         for (const std::string& sentence : missing_programs(prepared)) text.push_back(sentence);
@@ -165,15 +121,15 @@ std::vector<std::string> warnings(const PreparedProject& prepared) {
 
 std::vector<std::string> table(const PreparedProject& prepared) {
     std::vector<std::vector<std::string>> rows{{"piece", "faces", "volume", "box mm", "block", "base", "directions",
-                                                "unreachable", "foam", "depth mm", "fits"}};
+                                                "unreachable", "foam", "depth mm", "workholding", "fits"}};
     for (const PieceReport& p : prepared.pieces) {
         const Setup& s = p.carving.setup();
         const bool is_mapped = s.reach.method == ReachMethod::mapped;
-        rows.push_back({p.name, with_commas(p.faces), describe_volume(p.volume_mm3), lengths(s.box.size()),
-                        prepared.cell.stock[s.block.stock].name, base_word(s),
-                        std::to_string(s.reach.directions.size()), share_word(s.reach.unreachable_share()),
-                        is_mapped ? describe_volume(s.reach.foam_mm3) : "-",
-                        is_mapped ? fixed(s.reach.foam_depth_mm, 0) : "-", p.job.empty() ? "no" : "yes"});
+        rows.push_back(
+            {p.name, with_commas(p.faces), describe_volume(p.volume_mm3), lengths(s.box.size()),
+             prepared.cell.stock[s.block.stock].name, base_word(s), std::to_string(s.reach.directions.size()),
+             share_word(s.reach.unreachable_share()), is_mapped ? describe_volume(s.reach.foam_mm3) : "-",
+             is_mapped ? fixed(s.reach.foam_depth_mm, 0) : "-", workholding_word(s), p.job.empty() ? "no" : "yes"});
         if (prepared.cell.machine) rows.back().push_back(margin_word(p.carving.work_envelope));
         if (prepared.has_programs()) rows.back().push_back(program_word(p));
     }
@@ -182,18 +138,11 @@ std::vector<std::string> table(const PreparedProject& prepared) {
     std::vector<std::string> lines = columns(rows);
     lines.emplace_back(
         "unreachable: of the surface without the base, along the directions of the setup; foam: what they leave, and "
-        "its depth.");
+        "its depth; workholding: whether table, foam and base hold the piece while it is carved.");
     if (const std::string note = arm_note(prepared.cell); !note.empty()) lines.push_back(note);
     for (const std::string& line : joint_lines(prepared.joints)) lines.push_back(line);
     for (const std::string& line : scan_lines(prepared.project)) lines.push_back(line);
-    const std::size_t fragments = prepared.project.fragment_list.size();
-    if (fragments > 0) {
-        double volume = 0;
-        for (const SolidRecord& fragment : prepared.project.fragment_list) volume += fragment.volume_mm3;
-        lines.push_back(
-            counted(fragments, "fragment") + " (" + describe_volume(volume) + " in all), listed in project.json" +
-            (prepared.project.fragments == FragmentChoice::keep ? " and kept in pieces/fragments.ply" : ", dropped"));
-    }
+    if (const std::string line = fragments_line(prepared.project); !line.empty()) lines.push_back(line);
     for (const std::string& line : discarded_lines(prepared.project)) lines.push_back(line);
     if (prepared.project.verdict) {
         for (const std::string& line : verdict_lines(*prepared.project.verdict)) lines.push_back(line);

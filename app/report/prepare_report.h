@@ -9,7 +9,7 @@
 
 namespace qchopper {
 
-// One per piece that does not fit, or of which more is out of reach than may be.
+// Of pieces that do not fit, or of which more is out of reach than may be, and of programs (program_report.h).
 std::vector<std::string> warnings(const PreparedProject& prepared);
 // A row per piece, then the fragments, the discarded pieces and the next command.
 std::vector<std::string> table(const PreparedProject& prepared);

@@ -64,15 +64,15 @@ std::vector<std::string> proposal_lines(const Proposal& p, const Project& projec
                                         const std::filesystem::path& folder) {
     std::vector<std::string> text;
     text.push_back("Piece " + p.piece + ", " + with_commas(p.faces) +
-                   " faces: " + describe_planes(p.ranked.size(), project.settings) + ", best first." +
+                   " faces: " + describe_planes(p.candidates, project.settings) + ", best first." +
                    (p.rules_hold ? " The stop rules hold already; this is the piece with most faces." : ""));
     const Objectives& objectives = project.settings.objectives;
     const std::vector<ObjectiveTerm> terms = objective_terms(objectives.weights);
     std::vector<std::vector<std::string>> rows{{"K", "normal", "offset mm"}};
     for (const ObjectiveTerm& term : terms) rows.front().emplace_back(term.name);
     rows.front().emplace_back("total");
-    for (std::size_t k = 0; k < std::min(p.top, p.ranked.size()); ++k) {
-        const Ranked& r = p.ranked[k];
+    for (std::size_t k = 0; k < p.listed.size(); ++k) {
+        const Ranked& r = p.listed[k];
         rows.push_back({
             std::to_string(k + 1),
             describe(r.plane.normal, 4),
@@ -82,7 +82,7 @@ std::vector<std::string> proposal_lines(const Proposal& p, const Project& projec
         rows.back().push_back(fixed(r.terms.total, 4));
     }
     add(text, columns(rows));
-    if (!p.ranked.empty() && is_forbidden(p.ranked.front().terms, objectives))
+    if (!p.listed.empty() && is_forbidden(p.listed.front().terms, objectives))
         text.emplace_back("Every plane has a forbidden value.");
     if (has_reach(project)) {
         text.emplace_back("unreachable: of the scan's surface, over all pieces, once this plane has cut.");
@@ -90,7 +90,7 @@ std::vector<std::string> proposal_lines(const Proposal& p, const Project& projec
     std::string crossing;
     for (const std::size_t k : p.crossing) crossing += (crossing.empty() ? "K " : ", ") + std::to_string(k);
     if (!crossing.empty()) text.push_back(sections_cross(crossing));
-    if (!p.ranked.empty()) {
+    if (!p.listed.empty()) {
         text.push_back("Nothing was cut. Take one by: qchopper segment " + shell_word(folder) + " --piece " + p.piece +
                        " --accept K");
     }
@@ -168,16 +168,16 @@ Json plane_json(const Ranked& r, const Project& project) {
 
 Json proposal_json(const Proposal& p, const Project& project) {
     Json planes = Json::array();
-    for (std::size_t k = 0; k < std::min(p.top, p.ranked.size()); ++k) {
+    for (std::size_t k = 0; k < p.listed.size(); ++k) {
         Json plane{{"k", k + 1}};
-        plane.update(plane_json(p.ranked[k], project));
+        plane.update(plane_json(p.listed[k], project));
         plane["sections_cross"] = std::find(p.crossing.begin(), p.crossing.end(), k + 1) != p.crossing.end();
         planes.push_back(plane);
     }
     Json json{{"piece", p.piece},
               {"faces", p.faces},
               {"rules_hold", p.rules_hold},
-              {"candidates", p.ranked.size()},
+              {"candidates", p.candidates},
               {"planes", planes}};
     if (const std::size_t judged = most_judged_planes(project.settings); judged > 0) json["most_judged"] = judged;
     return json;

@@ -11,8 +11,11 @@
 #include "app/project/shell_word.h"
 #include "app/project/value_json.h"
 #include "app/report/columns.h"
+#include "app/report/program_report.h"
 #include "app/report/work_envelope_report.h"
+#include "app/report/workholding_report.h"
 #include "base/text.h"
+#include "cam/cell/allowed_tools.h"
 
 namespace qchopper {
 namespace {
@@ -27,8 +30,9 @@ std::string size_word(Vec3 v) {
     return fixed(v.x, 0) + " x " + fixed(v.y, 0) + " x " + fixed(v.z, 0);
 }
 
-const std::vector<std::string> setup_columns{"base", "unreachable", "hidden",  "steep",      "holder",   "too narrow",
-                                             "foam", "depth mm",    "residue", "directions", "block mm", "fits"};
+const std::vector<std::string> setup_columns{"base",       "unreachable", "hidden",   "steep",   "holder",
+                                             "too narrow", "foam",        "depth mm", "residue", "directions",
+                                             "block mm",   "workholding", "fits"};
 
 // `is_held`: whether the machine holds all poses, as far as it was asked.
 std::vector<std::string> row_of(const Setup& setup, const Cell& cell, bool is_held) {
@@ -46,7 +50,8 @@ std::vector<std::string> row_of(const Setup& setup, const Cell& cell, bool is_he
             is_mapped ? describe_volume(r.residue_mm3) : "-",
             std::to_string(r.directions.size()),
             size_word(setup.block.size),
-            check_envelope(setup, cell).fits() && is_held ? "yes" : "no"};
+            workholding_word(setup),
+            check_envelope(setup, with_tools(cell, setup.tools)).fits() && is_held ? "yes" : "no"};
 }
 
 // Degrees from x towards y of the setup, of the way the tool comes out.
@@ -91,6 +96,12 @@ void add_piece(const PieceSetups& p, const SetupAnswer& answer, std::vector<std:
         lines.push_back("One more direction (" + direction_line(chosen, *reach.further) + ") would reach " +
                         share_word(reach.further->gained_share) + " more.");
     }
+    if (!chosen.tools.empty()) {
+        lines.push_back("Of the cell's tools it is carved with " + describe_tools(chosen.tools) + " alone, by order.");
+    }
+    if (chosen.workholding) {
+        for (const std::string& line : qchopper::lines(*chosen.workholding)) lines.push_back(line);
+    }
     for (const std::string& warning : chosen.warnings) lines.push_back("Note: " + warning + ".");
     for (const std::string& line : qchopper::lines(p.piece, p.carving.work_envelope)) lines.push_back(line);
     if (!p.carving.envelope.fits()) {
@@ -100,19 +111,26 @@ void add_piece(const PieceSetups& p, const SetupAnswer& answer, std::vector<std:
     }
 }
 
+// "; its program: 3 h 20 min, verified"; empty without one.
+std::string program_words(const PieceReport& job) {
+    return job.verdicts.empty() ? std::string() : "; its program: " + program_word(job);
+}
+
 Json setup_json(const Setup& setup, const Cell& cell) {
     Json offcuts = Json::array();
     for (const Vec3 size : setup.block.offcuts) offcuts.push_back(json_of(size));
     return {{"base_number", setup.base_number},
             {"base_cut", setup.base ? Json(*setup.base) : Json()},
             {"base", setup.base_description},
-            {"fits", check_envelope(setup, cell).fits()},
+            {"fits", check_envelope(setup, with_tools(cell, setup.tools)).fits()},
             {"block", cell.stock[setup.block.stock].name},
             {"block_mm", json_of(setup.block.size)},
             {"sawn", setup.block.is_sawn},
             {"offcuts_mm", offcuts},
             {"undercut", setup.undercut},
             {"undercut_by_count", setup.undercut_by_count},
+            {"tools", setup.tools.empty() ? Json() : Json(setup.tools)},
+            {"workholding", workholding_json(setup)},
             {"reach", reach_json(setup.reach)}};
 }
 
@@ -160,6 +178,25 @@ nlohmann::ordered_json reach_json(const SurfaceReach& r) {
     return json;
 }
 
+std::string out_of_reach_sentence(const std::string& piece, double share, double limit) {
+    return "piece " + piece + ": " + share_word(share) + " of its surface is out of reach, more than " +
+           share_word(limit);
+}
+
+std::vector<std::string> warnings(const SetupAnswer& answer) {
+    std::vector<std::string> sentences;
+    for (const PieceSetups& p : answer.pieces) {
+        const double share = p.carving.setup().reach.unreachable_share();
+        if (share <= answer.max_unreachable) continue;
+        const bool is_ordered = p.order && (p.order->base || p.order->max_directions);
+        sentences.push_back(out_of_reach_sentence(p.piece, share, answer.max_unreachable) +
+                            (is_ordered ? "; its setup was decided: qchopper setup " + shell_word(answer.folder) +
+                                              " --piece " + p.piece + " --auto lets the program choose again"
+                                        : std::string()));
+    }
+    return sentences;
+}
+
 std::vector<std::string> lines(const SetupAnswer& answer) {
     std::vector<std::string> text;
     if (!answer.done.empty()) text.push_back(answer.done);
@@ -179,11 +216,12 @@ std::vector<std::string> lines(const SetupAnswer& answer) {
     if (answer.ignored) text.push_back(ignored_line(*answer.ignored) + "; it counts in no share.");
     if (const std::string note = arm_note(answer.cell); !note.empty()) text.push_back(note);
     const std::string word = shell_word(answer.folder);
-    if (answer.is_job_written) text.push_back("The job of the piece is written again.");
+    if (answer.is_job_written())
+        text.push_back("The job of the piece is written again" + program_words(*answer.job) + ".");
     const std::string piece = answer.pieces.empty() ? "A" : answer.pieces.front().piece;
-    text.push_back(answer.pieces.size() == 1
-                       ? "Choose: qchopper setup " + word + " --piece " + piece + " --base N --directions N   or --auto"
-                       : "One piece: qchopper setup " + word + " --piece " + piece);
+    text.push_back(answer.pieces.size() == 1 ? "Choose: qchopper setup " + word + " --piece " + piece +
+                                                   " --base N --directions N --tools N,...   or --auto"
+                                             : "One piece: qchopper setup " + word + " --piece " + piece);
     return text;
 }
 
@@ -195,7 +233,8 @@ std::string document(const SetupAnswer& answer) {
         Json ordered;
         if (p.order) {
             ordered = Json{{"base", p.order->base ? Json(*p.order->base) : Json()},
-                           {"max_directions", p.order->max_directions ? Json(*p.order->max_directions) : Json()}};
+                           {"max_directions", p.order->max_directions ? Json(*p.order->max_directions) : Json()},
+                           {"tools", p.order->tools.empty() ? Json() : Json(p.order->tools)}};
         }
         pieces.push_back({{"name", p.piece},
                           {"ordered", ordered},
@@ -207,8 +246,9 @@ std::string document(const SetupAnswer& answer) {
               {"cell", answer.cell.name},
               {"max_unreachable", answer.max_unreachable},
               {"done", answer.done},
-              {"job_written", answer.is_job_written},
+              {"job_written", answer.is_job_written()},
               {"pieces", pieces}};
+    if (answer.is_job_written()) json["program"] = program_json(*answer.job);
     if (answer.ignored) json["ignored"] = json_of(*answer.ignored);
     return text_of(json);
 }

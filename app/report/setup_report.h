@@ -15,6 +15,12 @@ namespace qchopper {
 std::string base_word(const Setup& setup);
 // "3.14 %"
 std::string share_word(double share);
+
+// "piece A: 30.11 % of its surface is out of reach, more than 2.00 %"
+std::string out_of_reach_sentence(const std::string& piece, double share, double limit);
+
+// One for each piece that is shown of which the setup in force leaves more out of reach than may be.
+std::vector<std::string> warnings(const SetupAnswer& answer);
 // Said of a cell that describes no arm; empty for any other.
 std::string arm_note(const Cell& cell);
 

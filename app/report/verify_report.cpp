@@ -38,6 +38,7 @@ Json json_of_job(const VerifiedJob& job) {
             {"figures", figures},
             {"findings", findings},
             {"findings_left_out", v.findings_left_out},
+            {"notes", v.notes},
             {"verdict", verdict_file(job.file).string()}};
 }
 
@@ -67,6 +68,7 @@ std::vector<std::string> lines(const VerifyAnswer& answer) {
                        "): " + (job.verdict.is_positive ? "verified" : "REFUSED"));
         if (!job.verdict.figures.empty()) text.push_back("  " + figures_word(job.verdict));
         add_findings(job.verdict, text);
+        for (const std::string& note : job.verdict.notes) text.push_back("  Note: " + note + ".");
     }
     const auto positive = static_cast<std::size_t>(
         std::count_if(answer.begin(), answer.end(), [](const VerifiedJob& job) { return job.verdict.is_positive; }));

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,8 +39,9 @@ struct Stock {
     std::string name;
     Vec3 size;  // before a quarter turn (CarvingBlock::is_turned)
     Material material = Material::unspecified;
-    bool is_sawn = false;  // may be sawn down to any smaller size
-    double kerf = 0;       // width of foam that a saw cut takes
+    bool is_sawn = false;                         // may be sawn down to any smaller size
+    double kerf = 0;                              // width of foam that a saw cut takes
+    std::optional<double> bending_strength = {};  // N/mm2; nothing: assumed_bending_strength() of its material
     bool operator==(const Stock&) const = default;
 };
 
@@ -69,6 +71,19 @@ struct Margins {
     bool operator==(const Margins&) const = default;
 };
 
+// What holds a block on the table, and against what (cam/setup/workholding.h).
+//
+// The defaults are assumed. Force: a chip 20 mm deep at 0.2 mm a tooth, 4 mm2, times 5 N/mm2, which is the specific
+// cutting force of particleboard, 32 N/mm2 (B. Palubicki, "Cutting forces in peripheral up-milling of particleboard",
+// Materials 14, 2021, 2208), scaled by the density to foam of 100 kg/m3. Strength: double-sided tape; glue that is as
+// strong as the foam has several times as much.
+struct Holding {
+    double cutting_force = 20;   // N, sideways, the largest
+    double strength = 0.1;       // N/mm2, of tape or glue in tension
+    double max_slenderness = 4;  // height of a piece over the smallest width of its base
+    bool operator==(const Holding&) const = default;
+};
+
 // A box in which nothing of robot, spindle and tool may be.
 struct Obstacle {
     std::string name;
@@ -90,8 +105,20 @@ struct ProgramSettings {
     std::uint32_t memory_bytes = 3'000'000;  // of the controller, for programs
     std::uint32_t lines_per_chunk = 1'400;
     double link_feed_mm_per_s = 0;                // largest, of moves that remove no foam
+    double acceleration = 2'000;                  // of the tip on straight moves, mm/s2
+    double turn_speed = std::numbers::pi / 1.8;   // of the tool's orientation on straight moves, radians/s
+    double joint_share = 0.5;                     // of the largest speed and acceleration of each axis, in joint moves
+    double scallop = 0.25;                        // mm, height of the ridges that finishing may leave
     std::optional<std::string> tool_change_call;  // program that changes the tool; nothing: stop for a person
     bool operator==(const ProgramSettings&) const = default;
+};
+
+// By how much the load data of a program may differ from those of spindle and tool.
+struct LoadTolerance {
+    double mass_kg = 0.5;
+    double centre_mm = 20;
+    double inertia_kg_m2 = 0.05;
+    bool operator==(const LoadTolerance&) const = default;
 };
 
 // What only version 2 tells.
@@ -104,9 +131,11 @@ struct CellMachine {
     double max_tilt = 0;                      // of the tool axis from the vertical, radians
     double max_unreachable = 0.02;            // share of a piece's area without its base, 0..1
     Margins margins;
+    Holding holding;
     std::vector<Obstacle> obstacles;
     StartPose start;
     ProgramSettings program;
+    LoadTolerance load_tolerance;
     std::vector<ValueOrigin> origins;  // in the order of the tables; of keys that are given or have a default
     bool operator==(const CellMachine&) const = default;
 };
@@ -126,6 +155,8 @@ struct Cell {
     std::optional<CellMachine> machine;  // version 2; nothing: version 1, boxes only
     bool operator==(const Cell&) const = default;
 };
+
+double bending_strength(const Stock& stock);  // N/mm2
 
 const char* to_word(Dialect dialect);  // "krl", "rapid", "ngc"
 

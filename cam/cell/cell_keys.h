@@ -42,9 +42,10 @@ inline constexpr auto all = std::to_array<TableKeys>(
 namespace keys_2 {
 
 inline constexpr auto root_keys = std::to_array<std::string_view>(
-    {"version", "name",     "id",           "clearance", "max_tilt_deg", "max_unreachable", "margin",
-     "reach",   "table",    "rotary_table", "robot",     "spindle",      "extraction",      "tool",
-     "stock",   "obstacle", "start",        "program",   "link",         "dowel",           "dowel_play"});
+    {"version",    "name",  "id",         "clearance",      "max_tilt_deg", "max_unreachable",
+     "margin",     "reach", "table",      "rotary_table",   "robot",        "spindle",
+     "extraction", "tool",  "stock",      "obstacle",       "start",        "program",
+     "link",       "dowel", "dowel_play", "load_tolerance", "holding"});
 inline constexpr auto box_keys = std::to_array<std::string_view>({"min", "max", "source", "sources"});
 inline constexpr auto table_keys = std::to_array<std::string_view>({"centre", "size", "height", "source", "sources"});
 inline constexpr auto rotary_table_keys = std::to_array<std::string_view>(
@@ -83,13 +84,17 @@ inline constexpr auto extraction_keys = std::to_array<std::string_view>({"on", "
 inline constexpr auto tool_keys = std::to_array<std::string_view>(
     {"diameter", "corner_radius", "tip_angle_deg", "flute_length", "stick_out", "holder", "feed_mm_per_s", "rpm",
      "mass_kg", "removal_mm3_per_s", "source", "sources", "number", "name", "shape", "length_measured"});
-inline constexpr auto stock_keys =
-    std::to_array<std::string_view>({"size", "kerf", "source", "sources", "name", "material", "sawn"});
+inline constexpr auto stock_keys = std::to_array<std::string_view>(
+    {"size", "kerf", "bending_strength", "source", "sources", "name", "material", "sawn"});
 inline constexpr auto obstacle_keys = std::to_array<std::string_view>({"min", "max", "source", "sources", "name"});
+inline constexpr auto holding_keys =
+    std::to_array<std::string_view>({"cutting_force", "strength", "max_slenderness", "source", "sources"});
 inline constexpr auto margin_keys = std::to_array<std::string_view>({"sides", "top", "spoil"});
 inline constexpr auto start_keys = std::to_array<std::string_view>({"joints_deg", "tip"});
 inline constexpr auto program_keys = std::to_array<std::string_view>(
-    {"memory_bytes", "lines_per_chunk", "source", "sources", "dialect", "link_feed", "tool_change"});
+    {"memory_bytes", "lines_per_chunk", "source", "sources", "dialect", "link_feed", "tool_change", "acceleration",
+     "turn_speed_deg_per_s", "joint_move_percent", "scallop"});
+inline constexpr auto load_tolerance_keys = std::to_array<std::string_view>({"mass_kg", "centre_mm", "inertia_kg_m2"});
 
 inline constexpr auto dowel_keys = std::to_array<std::string_view>({"diameter", "depth", "wall"});
 
@@ -113,15 +118,18 @@ inline constexpr TableKeys tool{"tool", tool_keys};
 inline constexpr TableKeys stock{"stock", stock_keys};
 inline constexpr TableKeys obstacle{"obstacle", obstacle_keys};
 inline constexpr TableKeys margin{"margin", margin_keys};
+inline constexpr TableKeys holding{"holding", holding_keys};
 inline constexpr TableKeys start{"start", start_keys};
 inline constexpr TableKeys program{"program", program_keys};
+inline constexpr TableKeys load_tolerance{"load_tolerance", load_tolerance_keys};
 inline constexpr TableKeys link{"link", keys_1::link};
 inline constexpr TableKeys dowel{"dowel", dowel_keys};
 
 inline constexpr auto all = std::to_array<TableKeys>(
-    {root,    reach,      table,         rotary_table,     robot,       base,       cable,         capsule,
-     spindle, spindle_on, spindle_speed, spindle_at_speed, spindle_off, extraction, extraction_on, extraction_off,
-     tool,    stock,      obstacle,      margin,           start,       program,    link,          dowel});
+    {root,    reach,      table,         rotary_table,     robot,       base,       cable,          capsule,
+     spindle, spindle_on, spindle_speed, spindle_at_speed, spindle_off, extraction, extraction_on,  extraction_off,
+     tool,    stock,      obstacle,      margin,           start,       program,    load_tolerance, link,
+     dowel,   holding});
 
 }  // namespace keys_2
 }  // namespace qchopper

@@ -41,5 +41,6 @@ Spindle read_spindle(const TomlReader& root, const std::optional<Robot>& robot, 
                      Dialect dialect, Origins& origins);
 std::optional<Extraction> read_extraction(const TomlReader& root, Dialect dialect);
 ProgramSettings read_program(const TomlReader& root, bool has_robot, Origins& origins);
+LoadTolerance read_load_tolerance(const TomlReader& root);
 
 }  // namespace qchopper

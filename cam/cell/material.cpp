@@ -23,6 +23,10 @@ std::string to_word(Material material) {
     return "other";
 }
 
+double assumed_bending_strength(Material material) {
+    return material == Material::pu_foam ? 0.6 : material == Material::xps ? 0.2 : 0.15;
+}
+
 std::optional<Material> material_of(std::string_view word) {
     for (const auto& [value, name] : names) {
         if (name == word) return value;

@@ -142,7 +142,10 @@ Stock read_block_2(const TomlReader& reader, Origins& origins) {
     } else if (reader.has("kerf")) {
         reader.refuse("kerf", "has no meaning for a block that is not sawn", "add sawn = true, or leave it out");
     }
-    add_origins(reader, keys_2::stock, "stock " + stock.name, origins);
+    if (reader.has("bending_strength")) stock.bending_strength = reader.number("bending_strength", 0.001, 1'000);
+    const std::string name = "stock " + stock.name;
+    add_origins(reader, keys_2::stock, name, origins);
+    add_defaults(reader, std::to_array<std::string_view>({"bending_strength"}), name, origins);
     return stock;
 }
 
@@ -206,8 +209,26 @@ Margins read_margins(const TomlReader& root, Origins& origins) {
     return margins;
 }
 
+Holding read_holding(const TomlReader& root, Origins& origins) {
+    Holding holding;
+    if (!root.has("holding")) {
+        for (const std::string_view key : keys_2::holding.with_origin()) {
+            origins.push_back({"holding", std::string(key), Origin::by_default});
+        }
+        return holding;
+    }
+    const TomlReader reader = root.table("holding", keys_2::holding.keys);
+    if (reader.has("cutting_force")) holding.cutting_force = reader.number("cutting_force", 0.1, 10'000);
+    if (reader.has("strength")) holding.strength = reader.number("strength", 0.001, 1'000);
+    if (reader.has("max_slenderness")) holding.max_slenderness = reader.number("max_slenderness", 0.1, 1'000);
+    add_origins(reader, keys_2::holding, "holding", origins);
+    add_defaults(reader, keys_2::holding.with_origin(), "holding", origins);
+    return holding;
+}
+
 void read_limits(const TomlReader& root, Cell& cell, CellMachine& machine) {
     machine.margins = read_margins(root, machine.origins);
+    machine.holding = read_holding(root, machine.origins);
     cell.stock_margin = std::max(machine.margins.sides, machine.margins.top);
     if (root.has("clearance")) cell.clearance = root.number("clearance", 0, 1'000);
     if (root.has("max_unreachable")) machine.max_unreachable = root.number("max_unreachable", 0, 1);
@@ -246,6 +267,7 @@ Cell read_version_2(const TomlReader& root, const std::filesystem::path& path) {
     add_origins(reach, keys_2::reach, "reach", machine.origins);
     read_tables(root, cell, machine);
     machine.program = read_program(root, machine.robot.has_value(), machine.origins);
+    machine.load_tolerance = read_load_tolerance(root);
     machine.tools = read_tools(root, machine.origins);
     cell.tool = job_tool(machine.tools.front());
     machine.spindle = read_spindle(root, machine.robot, machine.tools, machine.program.dialect, machine.origins);
@@ -263,6 +285,10 @@ Cell read_version_2(const TomlReader& root, const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+double bending_strength(const Stock& stock) {
+    return stock.bending_strength.value_or(assumed_bending_strength(stock.material));
+}
 
 Cell parse_cell(std::string_view text, const std::filesystem::path& path) {
     const TomlReader root = TomlReader::parse(text, path.string());

@@ -106,6 +106,15 @@ std::optional<std::string> read_tool_change(const TomlReader& reader) {
     return name;
 }
 
+void read_motion(const TomlReader& reader, ProgramSettings& program) {
+    if (reader.has("acceleration")) program.acceleration = reader.number("acceleration", 10, 20'000);
+    if (reader.has("turn_speed_deg_per_s")) {
+        program.turn_speed = reader.number("turn_speed_deg_per_s", 1, 3'600) * degree;
+    }
+    if (reader.has("joint_move_percent")) program.joint_share = 0.01 * reader.whole("joint_move_percent", 1, 100);
+    if (reader.has("scallop")) program.scallop = reader.number("scallop", 0.01, 2);
+}
+
 }  // namespace
 
 const char* to_word(Dialect dialect) {
@@ -151,9 +160,20 @@ ProgramSettings read_program(const TomlReader& root, bool has_robot, Origins& or
     if (reader.has("lines_per_chunk")) program.lines_per_chunk = reader.whole("lines_per_chunk", 10, 10'000'000);
     program.link_feed_mm_per_s = reader.number("link_feed", 1, 5'000);
     program.tool_change_call = read_tool_change(reader);
+    read_motion(reader, program);
     add_origins(reader, keys_2::program, "program", origins);
     add_defaults(reader, keys_2::program.with_origin(), "program", origins);
     return program;
+}
+
+LoadTolerance read_load_tolerance(const TomlReader& root) {
+    LoadTolerance tolerance;
+    if (!root.has("load_tolerance")) return tolerance;
+    const TomlReader reader = root.table("load_tolerance", keys_2::load_tolerance.keys);
+    if (reader.has("mass_kg")) tolerance.mass_kg = reader.number("mass_kg", 0, 100);
+    if (reader.has("centre_mm")) tolerance.centre_mm = reader.number("centre_mm", 0, 1'000);
+    if (reader.has("inertia_kg_m2")) tolerance.inertia_kg_m2 = reader.number("inertia_kg_m2", 0, 100);
+    return tolerance;
 }
 
 }  // namespace qchopper

@@ -28,8 +28,9 @@ std::string holes_of(const JobCap& cap) {
 std::string drawing_of(const JobCap& cap) {
     const std::string svg = template_name(cap.cut, "svg");
     const std::string caption = "Cap of cut " + std::to_string(cap.cut) + " seen from outside, not in true size. " +
-                                template_name(cap.cut, "pdf") + " and " + svg + " are the template in true size.";
-    return "<figure><img src=\"" + svg + "\" style=\"max-width:100%;max-height:120mm\" alt=\"" + svg_text(caption) +
+                                template_name(cap.cut, "pdf") + " and " + svg +
+                                " are the template in true size, the PDF on pages of A4.";
+    return "<figure><img src=\"" + svg + "\" style=\"max-height:120mm;width:auto\" alt=\"" + svg_text(caption) +
            "\"><figcaption>" + svg_text(caption) + "</figcaption></figure>\n";
 }
 
@@ -44,9 +45,9 @@ std::string cap_section(const JobInput& input) {
         }
         html += holes_of(drawn.cap) + drawing_of(drawn.cap);
     }
-    if (html.empty()) return section("14. Joints", paragraph("The piece is joined to no other one."));
+    if (html.empty()) return section("Joints", paragraph("The piece is joined to no other one."));
     return section(
-        "14. Joints",
+        "Joints",
         paragraph("Holes for dowels are perpendicular to their cap. x, y and z are those of the setup. What is "
                   "drilled by the robot is part of the program; drill the others by hand with the template.") +
             html);

@@ -1,4 +1,4 @@
-// The section of the setup sheet on joints: holes, who drills them, and the templates.
+// The section of the details on joints: holes, who drills them, and the templates.
 //
 // Tests: tests/cam/job/job_caps_test.cpp.
 

@@ -1,4 +1,5 @@
-// The template of a cap for print, in true size: outline, holes, names, and a bar of 100 mm to check the print.
+// The template of a cap for print, in true size: outline, holes with the numbers that they have in the job, names, and
+// a bar of 100 mm to check the print.
 //
 // mm. Drawn as one sees the cap who looks at it. The same cap gives the same bytes
 // (tests/cam/job/job_caps_test.cpp).
@@ -8,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "base/file.h"
 #include "cam/job/job_cap.h"
 
 namespace qchopper {
@@ -32,12 +32,15 @@ struct CapTemplate {
     std::vector<std::vector<Point2>> lines;
     std::vector<TemplateCircle> circles;
     std::vector<TemplateText> texts;
+    std::string title;  // stands on every sheet
 };
 
 CapTemplate cap_template(const DrawnCap& cap, const std::string& piece);
 
+// Draws a bar of 100 mm from there along x, divided into ten, and below it what it is for.
+void add_scale_bar(CapTemplate& drawing, Point2 at);
+
+// On one sheet, with title and bar.
 std::string template_svg(const CapTemplate& drawing);
-// Throws InputError (io) if the PDF library fails; (use) for a sheet larger than a PDF page can be, 5 m.
-Bytes template_pdf(const CapTemplate& drawing);
 
 }  // namespace qchopper

@@ -7,26 +7,23 @@
 #include "base/text.h"
 #include "cam/job/envelope_picture.h"
 #include "cam/job/sheet_html.h"
-#include "segment/picture/svg.h"
 
 namespace qchopper {
 namespace {
 
 using namespace sheet;
 
-constexpr const char* title = "11. Work envelope";
+constexpr const char* title = "Work envelope";
 
 std::string degrees(double radians) {
     return fixed(radians * 180 / std::numbers::pi, 1);
 }
 
-std::string figure(const WorkEnvelope& envelope) {
-    const std::string caption = "The tightest pose: " + describe_margin(envelope.tightest()) + ".";
-    return "<figure><img src=\"envelope.png\" width=\"" + std::to_string(envelope_picture_width) + "\" height=\"" +
-           std::to_string(envelope_picture_height) + "\" style=\"width:100%;height:auto\" alt=\"" + svg_text(caption) +
-           "\"><figcaption>" + svg_text(caption) +
-           " Links of the arm as capsules; what the margin lies between is red. The block is drawn by its edges."
-           "</figcaption></figure>\n";
+std::string picture_of(const WorkEnvelope& envelope) {
+    return figure({"envelope.png", envelope_picture_width, envelope_picture_height},
+                  "The tightest pose: " + describe_margin(envelope.tightest()) +
+                      ". Links of the arm as capsules; what the margin lies between is red. The block is drawn by its "
+                      "edges.");
 }
 
 std::string joints_of(const EnvelopePose& pose) {
@@ -76,7 +73,7 @@ std::string envelope_section(const JobInput& input) {
     if (envelope.holds() && envelope.cure != EnvelopeCure::none) {
         html += paragraph(std::string("What it takes: ") + to_words(envelope.cure) + ".");
     }
-    return section(title, html + figure(envelope) + joints_of(envelope.tightest().pose) + checks_of(envelope) +
+    return section(title, html + picture_of(envelope) + joints_of(envelope.tightest().pose) + checks_of(envelope) +
                               angles_of(input.setup.placement));
 }
 

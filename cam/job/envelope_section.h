@@ -1,4 +1,4 @@
-// The section of the setup sheet on the work envelope: every check with its margin, and the tightest pose.
+// The section of the details on the work envelope: every check with its margin, and the tightest pose.
 
 #pragma once
 

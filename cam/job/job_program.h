@@ -42,6 +42,21 @@ struct JobPart {
     bool operator==(const JobPart&) const = default;
 };
 
+// Cuts that the program leaves out, because no hold of the arm carries them.
+struct MovesLeftOut {
+    double length_mm = 0;
+    std::string because;  // of the first ones, without a full stop; empty: none is left out
+    bool operator==(const MovesLeftOut&) const = default;
+};
+
+// A ball-ended tool that may be used and that the program does not use along a direction of the setup, and why.
+struct ToolLeftOut {
+    std::optional<std::uint16_t> tool;     // CarvingTool::number; nothing: no tool at all
+    std::optional<std::size_t> direction;  // index in SurfaceReach::directions; nothing: along none of them
+    std::string because;                   // without a full stop
+    bool operator==(const ToolLeftOut&) const = default;
+};
+
 struct JobProgram {
     Dialect dialect = Dialect::krl;
     std::string entry;               // the file that is started
@@ -52,6 +67,8 @@ struct JobProgram {
     std::vector<std::size_t> holes;        // numbers of those that this program drills, ascending
     double scallop_mm = 0;                 // scallop height that finishing was made for
     double time_s = 0;                     // estimated, accelerations and tool changes included
+    std::vector<ToolLeftOut> left_out;     // of all parts
+    MovesLeftOut moves_left_out;           // of all parts
     bool operator==(const JobProgram&) const = default;
 };
 

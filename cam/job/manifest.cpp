@@ -12,6 +12,7 @@
 #include "cam/job/cap_document.h"
 #include "cam/job/pose_json.h"
 #include "cam/job/program_document.h"
+#include "cam/job/workholding_json.h"
 #include "cam/setup/block_placement.h"
 
 namespace qchopper {
@@ -101,12 +102,14 @@ Json from_setup(const JobInput& input) {
             {"piece_in_setup", from_pose(setup.piece_in_setup)},
             {"box", from_box(setup.box)},
             {"spoil", setup.spoil},
+            {"tools", setup.tools.empty() ? Json(nullptr) : Json(setup.tools)},
             {"placement", from_placement(setup.placement)},
             {"setup_in_cell", from_frames(input)},
             {"undercut", setup.undercut},
             {"undercut_by_count", setup.undercut_by_count},
             {"base_mm2", setup.base_mm2},
             {"projected_area_mm2", setup.projected_area_mm2},
+            {"workholding", setup.workholding ? from_workholding(*setup.workholding) : Json(nullptr)},
             {"reach", from_reach(setup.reach)},
             {"warnings", setup.warnings}};
 }
@@ -143,15 +146,6 @@ Json from_stock(const JobInput& input) {
             {"offcuts", offcuts},
             {"holds", input.setup.block.holds},
             {"margin", input.cell.stock_margin}};
-}
-
-std::vector<std::string> texts(const Json& object, const std::string& key) {
-    std::vector<std::string> list;
-    for (const Json& value : items(object, key)) {
-        if (!value.is_string()) throw wrong(key, "is not a list of texts");
-        list.push_back(value.get<std::string>());
-    }
-    return list;
 }
 
 double not_negative(const Json& object, const std::string& key) {
@@ -237,7 +231,21 @@ std::vector<Pose> to_frames(const Json& json, const Setup& setup) {
     return frames;
 }
 
-Setup to_setup(const Json& json, const Json& stock) {
+// Ascending numbers, or null.
+std::vector<std::uint16_t> to_tools(const Json& json) {
+    std::vector<std::uint16_t> tools;
+    if (json.is_null()) return tools;
+    if (!json.is_array() || json.empty()) throw wrong("tools", "is not a list of numbers of tools");
+    for (const Json& number : json) {
+        const bool is_number = number.is_number_unsigned() && number.get<std::uint64_t>() <= 0xFFFF;
+        if (!is_number) throw wrong("tools", "is not a list of numbers of tools");
+        tools.push_back(number.get<std::uint16_t>());
+        if (tools.size() > 1 && tools[tools.size() - 2] >= tools.back()) throw wrong("tools", "are not in order");
+    }
+    return tools;
+}
+
+Setup to_setup(const Json& json, const Json& stock, std::uint32_t schema) {
     Setup setup;
     setup.base_number = base_number(json);
     if (!member(json, "base").is_null()) setup.base = cut_number(json, "base");
@@ -246,11 +254,15 @@ Setup to_setup(const Json& json, const Json& stock) {
     setup.piece_in_setup = to_pose(member(json, "piece_in_setup"), "piece_in_setup");
     setup.box = box(json, "box");
     setup.spoil = not_negative(json, "spoil");
+    if (schema >= schema_of_left_out) setup.tools = to_tools(member(json, "tools"));
     setup.placement = to_placement(member(json, "placement"));
     setup.undercut = real(json, "undercut");
     setup.undercut_by_count = real(json, "undercut_by_count");
     setup.base_mm2 = real(json, "base_mm2");
     setup.projected_area_mm2 = real(json, "projected_area_mm2");
+    if (json.contains("workholding") && !json["workholding"].is_null()) {
+        setup.workholding = to_workholding(json["workholding"]);
+    }
     setup.reach = to_reach(member(json, "reach"));
     setup.warnings = texts(json, "warnings");
     setup.block.stock = whole<std::uint16_t>(stock, "number");
@@ -311,7 +323,7 @@ ReadJob to_job(const Json& json) {
     job.cell_id = whole<std::uint16_t>(member(json, "cell"), "id");
     if (job.cell_id == 0) throw wrong("id", "is the number of no cell");
     job.half_spaces = to_half_spaces(json);
-    job.setup = to_setup(member(json, "setup"), member(json, "stock"));
+    job.setup = to_setup(member(json, "setup"), member(json, "stock"), schema);
     job.caps = to_caps(member(json, "caps"), job.setup.piece_in_setup, schema);
     job.setup_in_cell = to_frames(member(json, "setup"), job.setup);
     job.alternatives = to_alternatives(json);
@@ -327,6 +339,8 @@ ReadJob to_job(const Json& json) {
     job.program = to_program(member(json, "programs"), schema);
     const std::string fault = fault_of_holes(job.program, job.caps);
     if (!fault.empty()) throw wrong("holes", fault);
+    const std::string of_tools = fault_of_tools(job.program, job.setup.tools);
+    if (!of_tools.empty()) throw wrong("tools", of_tools);
     job.no_program_because = text(json, "no_program_because");
     if (job.program.has_value() != job.no_program_because.empty()) {
         throw wrong("no_program_because", "contradicts the programs");

@@ -50,6 +50,40 @@ JobChunk to_chunk(const Json& json) {
     return chunk;
 }
 
+Json from_left_out(const std::vector<ToolLeftOut>& left_out) {
+    Json list = Json::array();
+    for (const ToolLeftOut& tool : left_out) {
+        list.push_back({{"tool", tool.tool ? Json(*tool.tool) : Json(nullptr)},
+                        {"direction", tool.direction ? Json(*tool.direction + 1) : Json(nullptr)},
+                        {"because", tool.because}});
+    }
+    return list;
+}
+
+std::vector<ToolLeftOut> to_left_out(const Json& list) {
+    std::vector<ToolLeftOut> left_out;
+    for (const Json& json : list) {
+        ToolLeftOut tool;
+        if (!member(json, "tool").is_null()) tool.tool = whole<std::uint16_t>(json, "tool");
+        if (!member(json, "direction").is_null()) {
+            const auto direction = whole<std::uint32_t>(json, "direction");
+            if (direction < 1) throw wrong("direction", "counts from 1");
+            tool.direction = direction - 1;
+        }
+        tool.because = text(json, "because");
+        if (tool.because.empty()) throw wrong("because", "is empty");
+        left_out.push_back(std::move(tool));
+    }
+    return left_out;
+}
+
+MovesLeftOut to_moves_left_out(const Json& json) {
+    MovesLeftOut moves{real_within(json, "length_mm", 0, most), text(json, "because")};
+    if ((moves.length_mm > 0) == moves.because.empty())
+        throw wrong("because", "contradicts the length that is left out");
+    return moves;
+}
+
 JobPart to_part(const Json& json) {
     JobPart part;
     part.number = whole<std::uint16_t>(json, "number");
@@ -105,6 +139,10 @@ JobProgram to_single(const Json& json, std::uint32_t schema) {
     if (schema >= schema_of_drilling) read_drilling(json, program);
     program.scallop_mm = real_within(json, "scallop_mm", 0, most);
     program.time_s = real_within(json, "time_s", 0, most);
+    if (schema >= schema_of_left_out) {
+        program.left_out = to_left_out(items(json, "left_out"));
+        program.moves_left_out = to_moves_left_out(member(json, "moves_left_out"));
+    }
     return program;
 }
 
@@ -123,15 +161,19 @@ Json from_program(const std::optional<JobProgram>& program) {
     for (const DrillDirection& direction : program->drilling) {
         drilling.push_back({{"out", from_vector(direction.out)}, {"table_angle_rad", direction.table_angle}});
     }
-    return Json::array({Json{{"dialect", to_word(program->dialect)},
-                             {"entry", program->entry},
-                             {"files", program->files},
-                             {"part", from_part(program->part)},
-                             {"drilling", drilling},
-                             {"holes", program->holes},
-                             {"scallop_mm", program->scallop_mm},
-                             {"time_s", program->time_s},
-                             {"chunks", chunks}}});
+    return Json::array(
+        {Json{{"dialect", to_word(program->dialect)},
+              {"entry", program->entry},
+              {"files", program->files},
+              {"part", from_part(program->part)},
+              {"drilling", drilling},
+              {"holes", program->holes},
+              {"scallop_mm", program->scallop_mm},
+              {"time_s", program->time_s},
+              {"left_out", from_left_out(program->left_out)},
+              {"moves_left_out",
+               {{"length_mm", program->moves_left_out.length_mm}, {"because", program->moves_left_out.because}}},
+              {"chunks", chunks}}});
 }
 
 std::optional<JobProgram> to_program(const Json& json, std::uint32_t schema) {
@@ -153,6 +195,16 @@ std::string fault_of_holes(const std::optional<JobProgram>& program, const std::
     }
     const bool is_whole = !program || program->part.count == 1;
     return is_whole && drilled != by_robot ? "holes of the robot are drilled by no program" : "";
+}
+
+std::string fault_of_tools(const std::optional<JobProgram>& program, const std::vector<std::uint16_t>& allowed) {
+    if (!program || allowed.empty()) return {};
+    for (const JobChunk& chunk : program->chunks) {
+        if (std::find(allowed.begin(), allowed.end(), chunk.tool) == allowed.end()) {
+            return "tool " + std::to_string(chunk.tool) + " of " + chunk.file + " is none of those that are allowed";
+        }
+    }
+    return {};
 }
 
 std::string fault_of_program_files(const std::optional<JobProgram>& program,

@@ -16,6 +16,9 @@
 
 namespace qchopper {
 
+// Of the manifest: since when it says what the program leaves out.
+constexpr std::uint32_t schema_of_left_out = 7;
+
 // A list of one program, or of none. Precondition: all numbers are finite.
 nlohmann::ordered_json from_program(const std::optional<JobProgram>& program);
 
@@ -25,6 +28,9 @@ std::optional<JobProgram> to_program(const nlohmann::ordered_json& json, std::ui
 // Why the files of a job do not belong to its program: a file that is missing, or a program file that the program does
 // not name. Empty: they do.
 std::string fault_of_program_files(const std::optional<JobProgram>& program, const std::map<std::string, Bytes>& files);
+
+// Why the tools of a program are not those that the operator allows; none: all are. Empty: they are.
+std::string fault_of_tools(const std::optional<JobProgram>& program, const std::vector<std::uint16_t>& allowed);
 
 // Why the holes that a program drills are not those of the caps that are the robot's: of a part of several each must be
 // one of them, otherwise they are the same. Empty: they are.

@@ -1,4 +1,4 @@
-// The section of the setup sheet about the robot program: tools, time, files, and what the proof of it found.
+// The section of the details about the robot program: its files, and what the proof of it found.
 
 #pragma once
 
@@ -11,7 +11,7 @@ namespace qchopper {
 constexpr int deviation_picture_width = 1000;
 constexpr int deviation_picture_height = 750;
 
-// HTML. Without a program it says why there is none, and the crude time of the ticket (seconds).
-std::string program_section(const JobInput& input, std::uint32_t estimated_time_s);
+// HTML. Without a program it says why there is none.
+std::string program_section(const JobInput& input);
 
 }  // namespace qchopper

@@ -89,12 +89,12 @@ std::vector<std::uint8_t> colours_of(const JobInput& input, const TriangleMesh& 
 
 }  // namespace
 
-Rgb surface_colour(SurfaceState state) {
+Rgb surface_colour(SurfaceState state, bool narrow_counts) {
     switch (state) {
         case SurfaceState::reached:
             return bone_colour;
         case SurfaceState::too_narrow:
-            return {20, 105, 215};
+            return narrow_counts ? Rgb{20, 105, 215} : Rgb{165, 200, 235};
         case SurfaceState::steep:
             return {250, 195, 0};
         case SurfaceState::holder:
@@ -118,7 +118,9 @@ SetupPictures setup_pictures(const JobInput& input, const TriangleMesh& lying) {
     const Setup& setup = input.setup;
     const double diagonal = norm(setup.block.size);
     std::array<Rgb, states.size() + 1> palette;
-    for (const SurfaceState state : states) palette[static_cast<std::size_t>(state)] = surface_colour(state);
+    for (const SurfaceState state : states) {
+        palette[static_cast<std::size_t>(state)] = surface_colour(state, setup.reach.narrow_counts);
+    }
     palette[base_index] = base_colour;
     const std::vector<std::uint8_t> colours = colours_of(input, lying);
     std::vector<std::pair<TriangleMesh, std::string>> named;  // with what is written on each

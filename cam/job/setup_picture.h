@@ -23,8 +23,9 @@ struct SetupPictures {
 constexpr int setup_picture_width = 900;
 constexpr int setup_picture_height = 675;
 
-// Colours that differ for colour-blind eyes too.
-Rgb surface_colour(SurfaceState state);
+// Colours that differ for colour-blind eyes too. What is too narrow is pale unless it counts as out of reach: it covers
+// much of a bone, and what does count must be seen beside it.
+Rgb surface_colour(SurfaceState state, bool narrow_counts);
 constexpr Rgb base_colour{130, 134, 140};  // of the base, which is left out of all shares
 
 // A corner of the block that the operator touches off with the tool tip.

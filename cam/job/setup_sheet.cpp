@@ -1,4 +1,5 @@
-// One function per section of the sheet, on helpers that escape every text. O(size of the sheet).
+// One function per section of the page. What may be long, names and reasons, is cut short: the page is one page of A4,
+// and the details have the whole. O(size of the sheet).
 
 #include "cam/job/setup_sheet.h"
 
@@ -7,14 +8,11 @@
 #include <numbers>
 #include <vector>
 
-#include "base/hex.h"
 #include "base/text.h"
-#include "cam/job/cap_section.h"
-#include "cam/job/envelope_picture.h"
-#include "cam/job/envelope_section.h"
-#include "cam/job/manifest.h"
-#include "cam/job/program_section.h"
+#include "cam/job/holding_section.h"
+#include "cam/job/left_out.h"
 #include "cam/job/setup_picture.h"
+#include "cam/job/sheet_details.h"
 #include "cam/job/sheet_html.h"
 #include "segment/picture/svg.h"
 
@@ -23,99 +21,67 @@ namespace {
 
 using namespace sheet;
 
-constexpr const char* style = R"(
-  body { font: 10.5pt/1.35 sans-serif; color: #111; max-width: 190mm; margin: 8mm auto; padding: 0 4mm; }
-  h1 { font-size: 17pt; margin: 0 0 2mm; }
-  h2 { font-size: 12pt; margin: 5mm 0 1.5mm; border-bottom: 0.3mm solid #999; break-after: avoid; }
-  p { margin: 1mm 0; }
-  ul { margin: 1mm 0; padding-left: 6mm; }
-  table { border-collapse: collapse; margin: 1.5mm 0; break-inside: avoid; }
-  th, td { text-align: left; vertical-align: top; padding: 0.4mm 3mm 0.4mm 0; border-bottom: 0.1mm solid #ccc; }
-  th { font-weight: 600; }
-  .n { text-align: right; font-variant-numeric: tabular-nums; }
-  .stop { border: 0.8mm solid #a00; padding: 2mm; margin: 2mm 0; font-weight: 700; }
-  .key { display: inline-block; width: 4mm; height: 3mm; border: 0.2mm solid #333; }
-  .sides { display: flex; gap: 2%; break-inside: avoid; }
-  .sides figure { margin: 1mm 0; width: 49%; }
-  .sides img { width: 100%; }
-  figcaption, footer { font-size: 8.5pt; color: #444; }
-  footer { margin-top: 5mm; overflow-wrap: anywhere; }
-  @page { size: A4; margin: 13mm; }
-  @media print {
-    body { max-width: none; margin: 0; padding: 0; font-size: 9.5pt; }
-    .key { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
-    section { break-inside: avoid; }
-  }
-)";
-
-// "100 x 60.5 x 50": to tenths.
-std::string size_text(Vec3 size) {
-    const auto length = [](double mm) { return significant(std::round(10 * mm) / 10, 8); };
-    return length(size.x) + " x " + length(size.y) + " x " + length(size.z);
-}
-
-std::string percent(double share, int decimals = 2) {
-    return fixed(100 * share, decimals) + " %";
-}
-
-double degrees(double radians) {
-    return radians * 180 / std::numbers::pi;
-}
-
-std::string title_of(const JobInput& input) {
-    return "piece " + input.piece.name + " (" + std::to_string(input.piece_no) + " of " +
-           std::to_string(input.piece_count) + ")";
-}
+constexpr std::size_t longest_line = 150;  // bytes of a warning
+constexpr std::size_t longest_stop = 300;
+constexpr std::size_t most_warnings = 4;
 
 std::string head(const JobInput& input) {
+    const JobPart part = input.program ? input.program->program.part : JobPart{};
     std::string html = "<h1>" + svg_text("Setup sheet: " + title_of(input)) + "</h1>\n" +
                        paragraph("Cell " + input.cell.name + ". Lengths are in mm where nothing else is stated.");
-    const auto stop = [&](const std::string& text) { html += "<p class=\"stop\">" + svg_text(text) + "</p>\n"; };
-    if (!input.envelope.fits()) stop("DO NOT START: " + describe_envelope(input.piece.name, input.envelope) + ".");
-    if (!input.work_envelope.holds()) {
-        stop("DO NOT START: " + describe_work_envelope(input.piece.name, input.work_envelope) + ".");
+    const auto refuse = [&](const std::string& why) { html += stop(clipped("DO NOT START: " + why, longest_stop)); };
+    if (part.count > 1) {
+        html += stop("Part " + std::to_string(part.number) + " of " + std::to_string(part.count) +
+                     ": carved one after the other from the same block, which must not be moved between them.");
+    }
+    if (!input.envelope.fits()) refuse(describe_envelope(input.piece.name, input.envelope) + ".");
+    if (!input.work_envelope.holds()) refuse(describe_work_envelope(input.piece.name, input.work_envelope) + ".");
+    if (input.program && !input.program->is_proven) {
+        const std::vector<std::string>& findings = input.program->findings;
+        refuse("the replay of the program found faults" + (findings.empty() ? "." : ": " + findings.front() + "."));
+    }
+    if (input.setup.workholding && !input.setup.workholding->passes()) {
+        html += stop("The piece is not held safely: " + workholding_problem(*input.setup.workholding) +
+                     ". See 3. Holding.");
     }
     if (is_unreachable(input.setup, input.max_unreachable)) {
-        stop("The state of this job is \"unreachable\": the tool does not reach " +
-             percent(input.setup.reach.unreachable_share()) + " of the surface, and the limit is " +
-             percent(input.max_unreachable) +
-             ". Foam stays there. qchopper dispatch sends the job only with --accept-unreachable.");
+        html += stop(
+            "The state of this job is \"unreachable\": qchopper dispatch sends it only with "
+            "--accept-unreachable (section 6).");
     }
     return html;
-}
-
-std::string figure(const std::string& file, const std::string& caption) {
-    return "<figure><img src=\"" + file + "\" width=\"" + std::to_string(setup_picture_width) + "\" height=\"" +
-           std::to_string(setup_picture_height) + "\" alt=\"" + svg_text(caption) + "\"><figcaption>" +
-           svg_text(caption) + "</figcaption></figure>\n";
-}
-
-Entry key(Rgb colour, const std::string& text) {
-    return {"<span class=\"key\" style=\"background:" + svg_colour(colour) + "\"></span> " + svg_text(text)};
 }
 
 // The colours of the pictures; none where they show the piece in one colour.
 std::string keys_of(const JobInput& input) {
     std::string html;
-    const auto add = [&](Rgb colour, const char* name) { html += (html.empty() ? "" : ", ") + key(colour, name).html; };
+    const auto add = [&](Rgb colour, const char* name) {
+        html += (html.empty() ? "" : ", ") + key(svg_colour(colour), name).html;
+    };
+    const SurfaceReach& reach = input.setup.reach;
+    const auto add_state = [&](SurfaceState state, const char* name) {
+        add(surface_colour(state, reach.narrow_counts), name);
+    };
     if (!input.states.empty()) {
-        add(surface_colour(SurfaceState::reached), "reached");
-        add(surface_colour(SurfaceState::hidden), "hidden");
-        add(surface_colour(SurfaceState::steep), "steep");
-        add(surface_colour(SurfaceState::holder), "holder");
-        add(surface_colour(SurfaceState::too_narrow), "too narrow");
-        if (input.setup.reach.ignored_mm2 > 0) add(surface_colour(SurfaceState::ignored), "ignored");
+        add_state(SurfaceState::reached, "reached");
+        add_state(SurfaceState::hidden, "hidden");
+        add_state(SurfaceState::steep, "steep");
+        add_state(SurfaceState::holder, "holder");
+        add_state(SurfaceState::too_narrow, reach.narrow_counts ? "too narrow" : "too narrow (does not count)");
+        if (reach.ignored_mm2 > 0) add_state(SurfaceState::ignored, "ignored");
     }
     if (input.setup.base) add(base_colour, "base");
     if (html.empty()) return {};
-    return "<p>" + html + (input.states.empty() ? "" : "; what the words mean is said under 7") + ".</p>\n";
+    return "<p>" + html + (input.states.empty() ? "" : "; what the words mean is said in details.html") + ".</p>\n";
 }
 
 std::string pictures(const JobInput& input) {
+    const auto side = [](const char* file, const char* caption) {
+        return figure({file, setup_picture_width, setup_picture_height}, caption);
+    };
     return "<div class=\"sides\">\n" +
-           figure("setup-1.png",
-                  "From the side of -y, a little from above. Numbered arrows: the directions of the tool.") +
-           figure("setup-2.png", "From the side of +y, a little from below. P1, P2, P3: the points to touch off.") +
+           side("setup-1.png", "From the side of -y, a little from above. Arrows: the directions of the tool.") +
+           side("setup-2.png", "From the side of +y, a little from below. P1, P2, P3: the points to touch off.") +
            "</div>\n" + keys_of(input);
 }
 
@@ -130,12 +96,9 @@ std::string block_section(const JobInput& input) {
     } else if (block.is_sawn) {
         html += paragraph("Saw it down to " + size_text(block.size) + " mm; a saw cut takes " +
                           significant(stock.kerf, 6) + " mm of foam.");
-        Rows rows{{word("offcut that is left"), right("x"), right("y"), right("z")}};
-        for (const Vec3& offcut : block.offcuts) {
-            rows.push_back(
-                {right(std::to_string(rows.size())), number(offcut.x, 1), number(offcut.y, 1), number(offcut.z, 1)});
-        }
-        html += table(rows);
+        std::string offcuts;
+        for (const Vec3& offcut : block.offcuts) offcuts += (offcuts.empty() ? "" : ", ") + size_text(offcut);
+        html += paragraph("Offcuts that are left: " + offcuts + " mm.");
     } else if (block.is_turned) {
         html += paragraph("Not sawn. It stands turned by a quarter about the vertical from how the list gives it.");
     } else {
@@ -156,8 +119,8 @@ std::string where_it_stands(const Cell& cell, const Setup& setup) {
     std::string text = "Stand the block, " + size + ", with its middle " + fixed(place.x, 1) + " mm along x and " +
                        fixed(place.y, 1) + " mm along y from the middle of the table";
     if (place.turn == 0) return text + ", its sides along the axes of " + axes + ".";
-    return text + ", its x turned by " + fixed(degrees(place.turn), 1) + " degrees from that of " + axes +
-           ", counted from x towards y.";
+    return text + ", its x turned by " + fixed(place.turn * 180 / std::numbers::pi, 1) + " degrees from that of " +
+           axes + ", counted from x towards y.";
 }
 
 std::string place_section(const JobInput& input) {
@@ -196,193 +159,140 @@ std::string place_section(const JobInput& input) {
     return section("2. Place of the block and base frame", html + table(rows));
 }
 
-std::string holding_section(const Setup& setup) {
-    std::string html;
-    if (setup.spoil > 0) {
-        html += paragraph(
-            "Glue or clamp the underside of the spoil layer, which is the underside of the block, to the "
-            "table. Clamps must stay within the lowest " +
-            fixed(setup.spoil, 1) + " mm: above that the tool works.");
-    } else {
-        html += paragraph(
-            "There is no spoil layer. Glue the base of the piece, which is the underside of the block, to "
-            "the table: the tool works down to the table, so no clamp may hold the sides.");
+// Of the cell's tools those that the program takes, in its order; without a program the one that the ticket names.
+std::vector<std::uint16_t> used_tools(const JobInput& input) {
+    if (!input.program) return {input.cell.tool.number};
+    std::vector<std::uint16_t> numbers;
+    for (const std::uint16_t number : input.program->tools) {
+        if (std::find(numbers.begin(), numbers.end(), number) == numbers.end()) numbers.push_back(number);
     }
-    return section("3. Holding", html);
+    return numbers;
 }
 
-std::string piece_section(const Setup& setup) {
-    const Vec3 size = setup.box.size();
-    std::string base = "Base " + std::to_string(setup.base_number) + ": " + setup.base_description;
-    if (setup.base) base += ", " + fixed(setup.base_mm2 / 100, 1) + " cm2";
-    return section("4. Piece", paragraph("It lies in the middle of the block, " + fixed(size.x, 1) + " mm along x, " +
-                                         fixed(size.y, 1) + " mm along y, " + fixed(size.z, 1) +
-                                         " mm high, its base at z = 0. preview.glb shows it as it lies.") +
-                                   paragraph(base + ". Up is (" + fixed(setup.up.x, 4) + ", " + fixed(setup.up.y, 4) +
-                                             ", " + fixed(setup.up.z, 4) + ") of the scan.") +
-                                   paragraph("Undercut: " + percent(setup.undercut, 1) + " of the projected area, " +
-                                             percent(setup.undercut_by_count, 1) + " of the triangles."));
-}
-
-std::string tool_section(const Cell& cell) {
+std::string tool_section(const JobInput& input) {
+    const Cell& cell = input.cell;
+    Rows rows;
     if (!cell.machine) {
         const Tool& tool = cell.tool;
-        return section(
-            "5. Tools",
-            table({{right("number"), word("name"), right("diameter"), right("rpm, at most"), right("mm/min, at most")},
-                   {right(std::to_string(tool.number)), word(tool.name), number(tool.diameter, 1),
-                    right(std::to_string(tool.spindle_max_rpm)), right(std::to_string(tool.feed_max_mm_per_min))}}));
+        rows = {{right("number"), word("name"), right("diameter"), right("rpm, at most"), right("mm/min, at most")},
+                {right(std::to_string(tool.number)), word(tool.name), number(tool.diameter, 1),
+                 right(std::to_string(tool.spindle_max_rpm)), right(std::to_string(tool.feed_max_mm_per_min))}};
+        return section("4. Tools", table(rows));
     }
-    Rows rows{{right("number"), word("name"), word("shape"), right("diameter"), right("stick-out"),
-               right("rpm, at most"), right("mm/s, at most"), word("length")}};
-    for (const CarvingTool& tool : cell.machine->tools) {
-        rows.push_back({right(std::to_string(tool.number)), word(tool.name), word(to_word(tool.shape)),
-                        number(tool.diameter, 1), number(tool.stick_out, 1), right(std::to_string(tool.rpm_max)),
-                        number(tool.feed_max_mm_per_s, 1),
-                        word(tool.is_length_measured ? "measured" : "NOT MEASURED: measure it first")});
+    rows = {{right("number"), word("name"), word("shape"), right("diameter"), right("stick-out"), right("rpm, at most"),
+             right("mm/s, at most"), word("length")}};
+    const std::vector<std::uint16_t> used = used_tools(input);
+    for (const std::uint16_t wanted : used) {
+        for (const CarvingTool& tool : cell.machine->tools) {
+            if (tool.number != wanted) continue;
+            rows.push_back({right(std::to_string(tool.number)), word(tool.name), word(to_word(tool.shape)),
+                            number(tool.diameter, 1), number(tool.stick_out, 1), right(std::to_string(tool.rpm_max)),
+                            number(tool.feed_max_mm_per_s, 1),
+                            word(tool.is_length_measured ? "measured" : "NOT MEASURED: measure it first")});
+        }
     }
-    return section("5. Tools", table(rows));
-}
-
-std::vector<Entry> direction_row(const Setup& setup, const std::string& name, const SetupDirection& direction) {
-    const Vec3 out = rotate(setup.piece_in_setup, direction.out);
-    const bool is_vertical = std::hypot(out.x, out.y) < 1e-6;
-    const double azimuth = degrees(std::atan2(out.y, out.x));
-    return {word(name), number(direction.tilt_deg, 1),
-            is_vertical ? right("any") : number(azimuth < -0.05 ? azimuth + 360 : azimuth, 1),
-            number(100 * direction.gained_share, 1), number(direction.depth_mm, 1)};
-}
-
-std::string direction_section(const JobInput& input) {
-    const SurfaceReach& reach = input.setup.reach;
-    const std::string arm = paragraph(reach.is_arm_checked ? "Arm checked: it holds the tool in all these directions."
-                                                           : "Arm not checked: whether it holds the tool in these "
-                                                             "directions is not known.");
-    if (reach.directions.empty()) return section("6. Directions", paragraph("None was chosen.") + arm);
-    Rows rows{{word("direction"), right("tilt, degrees"), right("azimuth, degrees"), right("surface gained, %"),
-               right("depth")}};
-    for (std::size_t i = 0; i < reach.directions.size(); ++i) {
-        rows.push_back(direction_row(input.setup, std::to_string(i + 1), reach.directions[i]));
-    }
-    if (reach.further) rows.push_back(direction_row(input.setup, "worth adding", *reach.further));
-    return section(
-        "6. Directions",
-        table(rows) +
-            paragraph("Tilt: of the tool from the vertical. Azimuth: towards which the upper end of the tool "
-                      "then leans, from x towards y. Gained: reached by this direction and by none before "
-                      "it. Depth: from where the tool enters the block to the deepest surface.") +
-            arm);
-}
-
-std::string reach_section(const JobInput& input) {
-    const SurfaceReach& reach = input.setup.reach;
-    if (reach.area_mm2 <= 0) {
-        return section("7. What the tool reaches", paragraph("Not judged: the pictures show the piece in one colour."));
-    }
-    Rows rows{{word("surface"), right("cm2"), right("% of the surface"), word("unreachable"), word("because")}};
-    const auto add = [&](SurfaceState state, const char* name, double mm2, bool counts, const char* why) {
-        rows.push_back({key(surface_colour(state), name), number(mm2 / 100, 1), number(100 * mm2 / reach.area_mm2, 2),
-                        word(state == SurfaceState::reached ? ""
-                             : counts                       ? "yes"
-                                                            : "does not count"),
-                        word(why)});
-    };
-    const double not_reached = reach.hidden_mm2 + reach.steep_mm2 + reach.holder_mm2 + reach.too_narrow_mm2;
-    add(SurfaceState::reached, "reached", std::max(0.0, reach.area_mm2 - not_reached), false, "");
-    add(SurfaceState::hidden, "hidden", reach.hidden_mm2, true, "in sight of no direction");
-    add(SurfaceState::steep, "steep", reach.steep_mm2, reach.steep_counts, "within 3 degrees of a direction");
-    add(SurfaceState::holder, "holder", reach.holder_mm2, true, "the tool is too short: its holder would touch");
-    add(SurfaceState::too_narrow, "too narrow", reach.too_narrow_mm2, reach.narrow_counts,
-        "the smallest tool does not fit in");
-    rows.push_back({word("unreachable together"), number(reach.unreachable_mm2() / 100, 1),
-                    number(100 * reach.unreachable_share(), 2), word(""), word("")});
-    rows.push_back({word("limit"), word(""),
-                    input.max_unreachable < 1 ? number(100 * input.max_unreachable, 2) : right("none"), word(""),
-                    word("")});
     std::string html = table(rows);
-    html += "<p>" + key(base_colour, "the base, which is left out of all shares").html + "</p>\n";
-    if (reach.ignored_mm2 > 0) {
-        html += "<p>" + key(surface_colour(SurfaceState::ignored), "ignored").html + ": " +
-                fixed(reach.ignored_mm2 / 100, 1) +
-                " cm2 that may stay as they are by the operator's choice; left out of all shares</p>\n";
+    if (input.program && input.program->tools.size() > used.size()) {
+        html += paragraph("A tool is taken more than once: the program says when.");
     }
-    if (input.states.empty()) {
-        html += paragraph("The pictures show the piece in one colour: which triangles are reached was not computed.");
+    return section("4. Tools", html);
+}
+
+std::string start_section(const JobInput& input, std::uint32_t seconds) {
+    if (!input.program) {
+        return section(
+            "5. Program and time",
+            paragraph(clipped("This job holds no robot program: " + input.no_program_because, longest_stop) + ".") +
+                paragraph("About " + duration(seconds) + ". Crude: foam to remove over " +
+                          fixed(input.cell.tool.removal_mm3_per_s / 1000, 1) + " cm3/s, no finishing, no travel."));
     }
+    const JobProgram& program = input.program->program;
+    double length_mm = 0;
+    for (const JobChunk& chunk : program.chunks) length_mm += chunk.length_mm;
+    return section("5. Program and time",
+                   paragraph("About " + duration(seconds) + ", path of " + fixed(length_mm / 1000, 0) +
+                             " m, started as " + program.entry + " (" + to_word(program.dialect) + "), " +
+                             counted(program.chunks.size(), "chunk") + "."));
+}
+
+// The only figure of the sheet for what stays out of reach: that by which the job is judged.
+std::string foam_that_stays(const JobInput& input) {
+    const SurfaceReach& reach = input.setup.reach;
+    if (reach.area_mm2 <= 0) return paragraph("What the tool reaches was not judged.");
+    std::string text = "Out of reach of the tool: " + percent(reach.unreachable_share()) + " of the surface" +
+                       (input.max_unreachable < 1 ? ", limit " + percent(input.max_unreachable) : std::string()) + ".";
     if (reach.method == ReachMethod::mapped) {
-        html += table(
-            {{word("foam that stays"), right("cm3"), right("depth, at most")},
-             {word("where no tool of these directions reaches"), number(reach.foam_mm3 / 1000, 1),
-              number(reach.foam_depth_mm, 1)},
-             {word("residue of the smallest tool's radius, besides"), number(reach.residue_mm3 / 1000, 1), word("")}});
-        html += paragraph("Take it off by hand.");
-    } else {
-        html +=
-            paragraph("Judged by samples of the surface: volume and depth of the foam that stays are not computed.");
+        text += " " + fixed(reach.foam_mm3 / 1000, 1) + " cm3 of foam stay there, up to " +
+                fixed(reach.foam_depth_mm, 1) + " mm deep: take it off by hand.";
     }
-    html += paragraph("With all directions that can be held, " + percent(reach.all_directions_share) +
-                      " of the surface would stay out of reach.");
-    return section("7. What the tool reaches", html);
+    return paragraph(text);
 }
 
-std::string parting_section(const Setup& setup) {
-    if (setup.spoil <= 0) {
-        return section("8. Parting", paragraph("There is no spoil layer: loosen the piece from the table."));
+// What the program does not carve; the details say of tools and directions why.
+std::string left_out(const JobInput& input) {
+    if (!input.program) return {};
+    const JobProgram& program = input.program->program;
+    std::string html;
+    const std::string moves = describe(program.moves_left_out);
+    if (!moves.empty()) html += paragraph(clipped("Foam stays: " + moves, longest_line) + ".");
+    if (!program.left_out.empty()) {
+        html += paragraph("Tools or directions left out: " + std::to_string(program.left_out.size()) +
+                          ", details.html says why.");
     }
+    return html;
+}
+
+std::string parting(const Setup& setup) {
+    if (setup.spoil <= 0) return paragraph("There is no spoil layer: loosen the piece from the table.");
     const std::string area = setup.base ? ", " + fixed(setup.base_mm2 / 100, 1) + " cm2" : "";
-    return section(
-        "8. Parting",
-        paragraph("When the program has ended, the piece stands on the spoil layer, joined to it by its base" + area +
-                  ". Saw it off in the plane of its base, z = 0, " + fixed(setup.spoil, 1) +
-                  " mm above the table and parallel to it. The spoil layer stays on the table and is "
-                  "waste.") +
-            (setup.base ? std::string()
-                        : paragraph("The piece has no flat base: it touches that plane at "
-                                    "its lowest point only, so finish there by hand.")));
+    return paragraph("The piece stands on the spoil layer, joined to it by its base" + area +
+                     ". Saw it off in the plane of its base, z = 0, " + fixed(setup.spoil, 1) +
+                     " mm above the table and parallel to it. The spoil layer stays on the table and is waste." +
+                     (setup.base ? "" : " The piece has no flat base: finish there by hand."));
 }
 
-std::string alternative_section(const JobInput& input) {
-    if (input.alternatives.empty()) return section("9. Other bases", paragraph("None."));
-    Rows rows{{right("base"), word("what it is"), word("judged by"), right("unreachable, %"), right("foam, cm3"),
-               right("residue, cm3"), word("block"), right("directions")}};
-    for (const Alternative& other : alternatives_of(input)) {
-        const bool is_mapped = other.method == ReachMethod::mapped;
-        rows.push_back({right(std::to_string(other.base_number)), word(other.base_description),
-                        word(is_mapped ? "height maps" : "samples"), number(100 * other.unreachable_share, 2),
-                        is_mapped ? number(other.foam_mm3 / 1000, 1) : right("-"),
-                        is_mapped ? number(other.residue_mm3 / 1000, 1) : right("-"), word(size_text(other.block)),
-                        right(std::to_string(other.directions))});
+std::string dowel_holes(const JobInput& input) {
+    std::size_t robot = 0;
+    std::string by_hand;  // numbers and templates
+    for (const DrawnCap& drawn : input.caps) {
+        std::string numbers;
+        for (const JobHole& hole : holes_of({drawn.cap})) {
+            if (hole.by_robot) ++robot;
+            if (!hole.by_robot) numbers += (numbers.empty() ? "" : ", ") + std::to_string(hole.number);
+        }
+        if (numbers.empty()) continue;
+        by_hand += (by_hand.empty() ? "" : "; ") + numbers + " by " + template_name(drawn.cap.cut, "pdf");
     }
-    return section("9. Other bases", table(rows) + paragraph("qchopper setup --base takes the number of a base."));
+    std::string text;
+    if (robot > 0) text += "The robot drills " + counted(robot, "hole") + " for dowels. ";
+    if (!by_hand.empty()) text += clipped("Drill by hand: " + by_hand, longest_line) + ". ";
+    return text.empty() ? text : paragraph(text + "details.html lists all holes.");
 }
 
-std::string margin_section(const EnvelopeReport& envelope) {
-    Rows rows{{word("margin"), right("mm")}};
-    for (const Margin& margin : envelope.margins) rows.push_back({word(margin.name), number(margin.mm, 1)});
-    return section("10. Margins", table(rows) + paragraph("What is negative does not fit."));
+std::string end_section(const JobInput& input) {
+    return section("6. When the program has ended",
+                   parting(input.setup) + foam_that_stays(input) + left_out(input) + dowel_holes(input));
 }
 
 std::string warning_section(const JobInput& input) {
+    const std::vector<std::string> all = warnings_of(input);
     std::string list;
-    for (const std::vector<std::string>& warnings : {input.setup.warnings, input.warnings}) {
-        for (const std::string& warning : warnings) list += "<li>" + svg_text(warning) + "</li>\n";
+    for (std::size_t i = 0; i < std::min(all.size(), most_warnings); ++i) {
+        list += "<li>" + svg_text(clipped(all[i], longest_line)) + "</li>\n";
     }
-    return section("12. Warnings", list.empty() ? paragraph("None.") : "<ul>\n" + list + "</ul>\n");
+    if (all.size() > most_warnings) {
+        list += "<li>" + std::to_string(all.size() - most_warnings) + " more in details.html</li>\n";
+    }
+    return section("7. Warnings", list.empty() ? paragraph("None.") : "<ul>\n" + list + "</ul>\n");
 }
 
 }  // namespace
 
 std::string setup_sheet(const JobInput& input, std::uint32_t estimated_time_s) {
-    return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" +
-           svg_text("Setup sheet: " + title_of(input)) + "</title>\n<style>" + style + "</style>\n</head>\n<body>\n" +
-           head(input) + pictures(input) + block_section(input) + place_section(input) + holding_section(input.setup) +
-           piece_section(input.setup) + tool_section(input.cell) + direction_section(input) + reach_section(input) +
-           parting_section(input.setup) + alternative_section(input) + margin_section(input.envelope) +
-           envelope_section(input) + warning_section(input) + program_section(input, estimated_time_s) +
-           cap_section(input) + "<footer>" +
-           svg_text("Project " + to_hex(input.project_id) + ". Scan " + to_hex(input.scan_sha256) +
-                    ". Written by qchopper " + input.program_version + ".") +
-           "</footer>\n</body>\n</html>\n";
+    return document("Setup sheet: " + title_of(input),
+                    page_begin + head(input) + pictures(input) + block_section(input) + place_section(input) +
+                        holding_section(input.setup) + tool_section(input) + start_section(input, estimated_time_s) +
+                        end_section(input) + warning_section(input) + sheet_footer(input) + page_end);
 }
 
 }  // namespace qchopper

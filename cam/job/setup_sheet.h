@@ -1,8 +1,8 @@
 // Writes the setup sheet: what a person at the cell has to do, as HTML to be read beside the pictures of
-// setup_picture.h and to be printed on A4.
+// setup_picture.h and to be printed on one page of A4. What is behind it stands in sheet_details.h.
 //
 // Well-formed, without scripts and without anything from elsewhere; every text is escaped
-// (tests/cam/job/setup_sheet_test.cpp).
+// (tests/cam/job/setup_sheet_test.cpp, tests/cam/job/sheet_pages_test.cpp).
 
 #pragma once
 

@@ -16,6 +16,8 @@
 #include "cam/job/read_job.h"
 #include "cam/job/setup_picture.h"
 #include "cam/job/setup_sheet.h"
+#include "cam/job/sheet_details.h"
+#include "cam/job/template_pdf.h"
 #include "segment/io/write_stl.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/transform.h"
@@ -113,6 +115,7 @@ Bytes job_file(const JobInput& input) {
     }
     const TicketTemplate ticket = ticket_template(input);
     files["setup.html"] = to_bytes(setup_sheet(input, ticket.estimated_time_s));
+    files["details.html"] = to_bytes(sheet_details(input));
     files["envelope.json"] = to_bytes(envelope_document(input));
     files[ticket_name] = to_bytes(to_json(ticket));
     std::vector<JobEntry> entries;

@@ -70,7 +70,7 @@ class Mains {
         text.comment("part " + std::to_string(part + 1) + " of " + std::to_string(names_.parts));
         text.line("BAS(#INITMOV,0)");
         text.line("$ADVANCE = 5");
-        KrlChunks::add_axis_speeds(text);
+        chunks_.add_axis_speeds(text);
         double angle = 0;
         std::optional<std::size_t> tool;
         for (std::size_t i = first; i < last; ++i) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -19,9 +20,9 @@ constexpr std::size_t longest_name = 24;
 constexpr double most_speed = 5;  // m/s
 constexpr int point_decimals = 2;
 constexpr int speed_decimals = 4;
-constexpr double rounding_unit = 0.001;                // mm, of $APO.CDIS
-constexpr double speed_unit = 0.1;                     // mm/s, of the last decimal in m/s
-constexpr const char* orientation_speed = "100.0000";  // degrees/s
+constexpr double rounding_unit = 0.001;  // mm, of $APO.CDIS
+constexpr double speed_unit = 0.1;       // mm/s, of the last decimal in m/s
+constexpr double degrees = 180 / std::numbers::pi;
 
 // In m/s, rounded down so that no speed is above the one that was asked for.
 std::string metres_per_s(double speed_mm_s) {
@@ -61,8 +62,8 @@ void begin_program(const std::string& name, KrlText& text) {
     text.line("DEF " + name + "( )");
 }
 
-void KrlChunks::add_axis_speeds(KrlText& text) {
-    const std::string percent = " = " + fixed(joint_move_percent, 0);
+void KrlChunks::add_axis_speeds(KrlText& text) const {
+    const std::string percent = " = " + fixed(100 * machine_.program.joint_share, 0);
     for (std::size_t i = 1; i <= axes_of_arm; ++i) text.line("$VEL_AXIS[" + std::to_string(i) + "]" + percent);
     for (std::size_t i = 1; i <= axes_of_arm; ++i) text.line("$ACC_AXIS[" + std::to_string(i) + "]" + percent);
 }
@@ -101,9 +102,10 @@ void KrlChunks::add_settings(const ProgramSection& section, KrlText& text) const
     add_axis_speeds(text);
     add_tool(section.tool, text);
     add_base(text);
-    text.line("$ACC.CP = " + krl::number("$ACC.CP", path_acceleration / 1000, 4, 100));
-    text.line(std::string("$VEL.ORI1 = ") + orientation_speed);
-    text.line(std::string("$VEL.ORI2 = ") + orientation_speed);
+    text.line("$ACC.CP = " + krl::number("$ACC.CP", machine_.program.acceleration / 1000, 4, 100));
+    for (const char* name : {"$VEL.ORI1", "$VEL.ORI2"}) {
+        text.line(std::string(name) + " = " + krl::number(name, degrees * machine_.program.turn_speed, 4, 10'000));
+    }
     text.line("$APO.CDIS = " + krl::number("$APO.CDIS", rounding, 3, 1000.001));
 }
 

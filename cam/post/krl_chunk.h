@@ -33,7 +33,7 @@ class KrlChunks {
     // A joint move; angle of the table in radians.
     void add_joint_move(const Joints& joints, double table_angle, KrlText& text) const;
     // Speeds and accelerations of the axes.
-    static void add_axis_speeds(KrlText& text);
+    void add_axis_speeds(KrlText& text) const;
 
  private:
     void add_base(KrlText& text) const;

@@ -20,11 +20,6 @@
 
 namespace qchopper {
 
-// Of tips on straight moves, in every program: $ACC.CP of KRL.
-inline constexpr double path_acceleration = 2000;  // mm/s2
-// Of the largest speed and acceleration of each axis, in joint moves.
-inline constexpr double joint_move_percent = 50;
-
 // What the flange carries, as the controller's dynamics want it.
 struct LoadData {
     double mass_kg = 0;

@@ -22,7 +22,7 @@ struct StraightLeg {
     bool is_rounded = false;
 };
 
-double corner_speed(const StraightLeg& before, const StraightLeg& after, double rounding) {
+double corner_speed(const StraightLeg& before, const StraightLeg& after, double rounding, double acceleration) {
     if (!before.is_rounded || before.length <= 0 || after.length <= 0) return 0;
     const double speed = std::min(before.speed, after.speed);
     const double cosine = std::clamp(dot(before.by, after.by) / (before.length * after.length), -1.0, 1.0);
@@ -31,7 +31,7 @@ double corner_speed(const StraightLeg& before, const StraightLeg& after, double 
     const double sine = std::sin(half);
     if (sine < 1e-9) return speed;
     const double radius = arm * std::cos(half) * std::cos(half) / sine;
-    return std::min(speed, std::sqrt(path_acceleration * radius));
+    return std::min(speed, std::sqrt(acceleration * radius));
 }
 
 // From one speed to another with a trapezoid or a triangle of speed.
@@ -59,11 +59,13 @@ std::vector<StraightLeg> legs_of(const ProgramSection& section) {
     return legs;
 }
 
-void set_corner_speeds(std::vector<StraightLeg>& legs, double rounding) {
-    const auto reached = [](double speed, double length) {
-        return std::sqrt(speed * speed + 2 * path_acceleration * length);
+void set_corner_speeds(std::vector<StraightLeg>& legs, double rounding, double acceleration) {
+    const auto reached = [&](double speed, double length) {
+        return std::sqrt(speed * speed + 2 * acceleration * length);
     };
-    for (std::size_t i = 0; i + 1 < legs.size(); ++i) legs[i].end_speed = corner_speed(legs[i], legs[i + 1], rounding);
+    for (std::size_t i = 0; i + 1 < legs.size(); ++i) {
+        legs[i].end_speed = corner_speed(legs[i], legs[i + 1], rounding, acceleration);
+    }
     for (std::size_t i = legs.size(); i-- > 1;) {
         legs[i - 1].end_speed = std::min(legs[i - 1].end_speed, reached(legs[i].end_speed, legs[i].length));
     }
@@ -74,12 +76,12 @@ void set_corner_speeds(std::vector<StraightLeg>& legs, double rounding) {
     }
 }
 
-void add_section(const ProgramSection& section, ProgramTime& time) {
+void add_section(const ProgramSection& section, double acceleration, ProgramTime& time) {
     std::vector<StraightLeg> legs = legs_of(section);
-    set_corner_speeds(legs, section.rounding);
+    set_corner_speeds(legs, section.rounding, acceleration);
     double speed = 0;
     for (const StraightLeg& leg : legs) {
-        const double seconds = seconds_of(leg.length, leg.speed, speed, leg.end_speed, path_acceleration);
+        const double seconds = seconds_of(leg.length, leg.speed, speed, leg.end_speed, acceleration);
         speed = leg.end_speed;
         (leg.kind == MoveKind::cut ? time.cut_mm : time.link_mm) += leg.length;
         (leg.kind == MoveKind::cut        ? time.cut_s
@@ -89,11 +91,14 @@ void add_section(const ProgramSection& section, ProgramTime& time) {
     time.lowered_moves += section.lowered_moves;
 }
 
-void add_joint_moves(const Program& program, const ProgramSection& section, const JointRanges& ranges,
+void add_joint_moves(const Program& program, const ProgramSection& section, const CellMachine& machine,
                      ProgramTime& time) {
+    const auto seconds = [&](const Joints& from, const Joints& to) {
+        return joint_move_s(machine.robot->ranges, machine.program.joint_share, from, to);
+    };
     Joints at = program.home;
     for (const Joints& target : section.entry.targets) {
-        time.joint_s += joint_move_s(ranges, at, target);
+        time.joint_s += seconds(at, target);
         at = target;
     }
     const std::vector<Joints>& back = section.exit.targets;
@@ -101,17 +106,16 @@ void add_joint_moves(const Program& program, const ProgramSection& section, cons
     // end.
     at = section.runs.back().end_joints;
     for (const Joints& target : back) {
-        time.joint_s += joint_move_s(ranges, at, target);
+        time.joint_s += seconds(at, target);
         at = target;
     }
 }
 
 }  // namespace
 
-double joint_move_s(const JointRanges& ranges, const Joints& from, const Joints& to) {
+double joint_move_s(const JointRanges& ranges, double share, const Joints& from, const Joints& to) {
     double longest = 0;
     for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
-        const double share = joint_move_percent / 100;
         const double turn = std::abs(to[axis] - from[axis]);
         longest =
             std::max(longest, seconds_of(turn, share * ranges[axis].speed, 0, 0, share * ranges[axis].acceleration));
@@ -125,8 +129,8 @@ ProgramTime program_time(const Program& program, const Cell& cell) {
     double angle = 0;
     for (std::size_t i = 0; i < program.sections.size(); ++i) {
         const ProgramSection& section = program.sections[i];
-        add_section(section, time);
-        if (machine.robot) add_joint_moves(program, section, machine.robot->ranges, time);
+        add_section(section, machine.program.acceleration, time);
+        if (machine.robot) add_joint_moves(program, section, machine, time);
         if (i > 0 && section.tool != program.sections[i - 1].tool) time.change_s += tool_change_s;
         const auto turn = [&](double to) {
             if (to == angle || !machine.rotary_table) return;

@@ -1,9 +1,9 @@
 // How long a program takes: with the acceleration of the tip, the speeds of the joints, tool changes and table turns.
 //
 // Seconds; mm. Every straight move has a trapezoid of speed. A corner that is not rounded is a stop; a rounded one is
-// passed at the speed at which path_acceleration holds the tip on the parabola between the points where the rounding
-// begins and ends. Joint moves run from stop to stop, all axes together. The spindle's starting and the controller's
-// own waiting are not known here (tests/cam/program/program_time_test.cpp).
+// passed at the speed at which the acceleration of the cell file holds the tip on the parabola between the points where
+// the rounding begins and ends. Joint moves run from stop to stop, all axes together. The spindle's starting and the
+// controller's own waiting are not known here (tests/cam/program/program_time_test.cpp).
 
 #pragma once
 
@@ -33,7 +33,7 @@ inline constexpr double tool_change_s = 60;  // by hand, with the check of its l
 // Precondition: the program is of the cell. O(moves).
 ProgramTime program_time(const Program& program, const Cell& cell);
 
-// Of a joint move at joint_move_percent.
-double joint_move_s(const JointRanges& ranges, const Joints& from, const Joints& to);
+// Of a joint move with this share of the speed and the acceleration of each axis.
+double joint_move_s(const JointRanges& ranges, double share, const Joints& from, const Joints& to);
 
 }  // namespace qchopper

@@ -6,10 +6,15 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <limits>
+#include <optional>
+#include <tuple>
 
 namespace qchopper {
 namespace {
+
+// mm3 more in a block that needs no saw cut are worth the cut: to carve them takes a robot about an hour, at the rate
+// measured over the programs of docs/performance.md.
+constexpr double foam_for_a_saw_cut = 20e6;
 
 constexpr double rounding = 1e-6;      // mm
 constexpr double above_the_table = 2;  // mm of foam that no tool cuts, under the deepest one
@@ -60,10 +65,15 @@ Lengths sawn_to(const Lengths& needed, const Lengths& stock, double kerf) {
     return size;
 }
 
+// Nothing sawn off is best, then the largest offcut.
+bool leaves_more(const std::vector<Vec3>& offcuts, const std::vector<Vec3>& other) {
+    if (offcuts.empty() || other.empty()) return offcuts.empty() && !other.empty();
+    return volume(offcuts.front()) > volume(other.front());
+}
+
 // Nothing if no orientation of the stock holds the size.
 std::optional<CarvingBlock> sawn(const Stock& stock, Vec3 needed) {
     std::optional<CarvingBlock> best;
-    double largest_offcut = -1;
     for (const auto& turn : orders) {
         const Lengths listed = lengths(stock.size);
         const Lengths as_it_stands{listed[turn[0]], listed[turn[1]], listed[turn[2]]};
@@ -71,9 +81,7 @@ std::optional<CarvingBlock> sawn(const Stock& stock, Vec3 needed) {
         const Lengths size = sawn_to(lengths(needed), as_it_stands, stock.kerf);
         for (const auto& order : orders) {
             std::vector<Vec3> offcuts = offcuts_of(as_it_stands, size, stock.kerf, order);
-            const double largest = offcuts.empty() ? 0 : volume(offcuts.front());
-            if (largest <= largest_offcut) continue;
-            largest_offcut = largest;
+            if (best && !leaves_more(offcuts, best->offcuts)) continue;
             best = CarvingBlock{0, false, true, {size[0], size[1], size[2]}, true, std::move(offcuts)};
         }
     }
@@ -100,22 +108,23 @@ CarvingBlock choose_block(const Cell& cell, Vec3 piece_size) {
     const Margins margins = margins_of(cell);
     const Vec3 needed = piece_size + Vec3{2 * margins.sides, 2 * margins.sides, margins.top + margins.spoil};
     CarvingBlock best;
-    double least_lack = std::numeric_limits<double>::infinity();
-    double least_volume = least_lack;
+    std::optional<std::tuple<double, double, bool>> least;
     const auto consider = [&](CarvingBlock block, double lacks) {
-        if (lacks > least_lack || (lacks == least_lack && volume(block.size) >= least_volume)) return;
-        least_lack = lacks;
-        least_volume = volume(block.size);
+        const bool needs_saw = !block.offcuts.empty();
+        const std::tuple key(lacks, volume(block.size) + (needs_saw ? foam_for_a_saw_cut : 0), needs_saw);
+        if (least && !(key < *least)) return;
+        least = key;
         block.holds = lacks == 0;
         best = std::move(block);
     };
     for (std::size_t i = 0; i < cell.stock.size(); ++i) {
-        const Vec3 size = cell.stock[i].size;
-        consider({i, false, false, size, true, {}}, lack(needed, size));
-        const Vec3 turned{size.y, size.x, size.z};
-        consider({i, true, false, turned, true, {}}, lack(needed, turned));
-        if (!cell.stock[i].is_sawn) continue;
-        std::optional<CarvingBlock> smaller = sawn(cell.stock[i], needed);
+        std::optional<CarvingBlock> smaller = cell.stock[i].is_sawn ? sawn(cell.stock[i], needed) : std::nullopt;
+        if (!smaller || smaller->offcuts.empty()) {
+            const Vec3 size = cell.stock[i].size;
+            consider({i, false, false, size, true, {}}, lack(needed, size));
+            const Vec3 turned{size.y, size.x, size.z};
+            consider({i, true, false, turned, true, {}}, lack(needed, turned));
+        }
         if (!smaller) continue;
         smaller->stock = i;
         consider(std::move(*smaller), 0);

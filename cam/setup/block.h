@@ -25,8 +25,9 @@ struct CarvingBlock {
     bool operator==(const CarvingBlock&) const = default;
 };
 
-// For a piece of a size (x along its length): the block of least volume; of equal ones the first of the list, not sawn
-// before sawn. A sawn block is cut from the stock in whichever orientation leaves the largest offcut.
+// For a piece of a size (x along its length), of the blocks that hold it: the one of least volume, where a saw cut
+// counts as 20 l; of equal ones the first of the list. Stock that may be sawn is sawn down to the piece, in an
+// orientation in which nothing need be sawn off or else the largest offcut is left.
 CarvingBlock choose_block(const Cell& cell, Vec3 piece_size);
 
 }  // namespace qchopper

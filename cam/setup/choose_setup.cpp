@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <tuple>
@@ -17,6 +18,7 @@
 #include "cam/setup/mapped_reach.h"
 #include "cam/setup/paint_narrow.h"
 #include "cam/setup/place_block.h"
+#include "cam/setup/standing_sections.h"
 #include "cam/setup/undercut.h"
 #include "segment/score/piece_reach.h"
 #include "segment/score/tool_fit.h"
@@ -70,8 +72,20 @@ void describe(Setup& setup) {
     setup.warnings.push_back("the piece has no flat cap to lie on: keep it held from below");
 }
 
+// The cell without the stock that is not sawn and does not stand in it; the numbers of the rest stay.
+Cell with_standing_stock(const Cell& cell) {
+    const Vec3 most = largest_block(cell);
+    const auto stands = [&](Vec3 size) { return size.x <= most.x && size.y <= most.y && size.z <= most.z; };
+    Cell standing = cell;
+    for (Stock& stock : standing.stock) {
+        const Vec3 size = stock.size;
+        if (!stock.is_sawn && !stands(size) && !stands({size.y, size.x, size.z})) stock.size = {};  // holds nothing
+    }
+    return standing;
+}
+
 // The piece on one base in its block, before anything is asked of the tool. It is turned by a quarter where its block
-// fits into the cell only so.
+// fits into the cell only so; where an unsawn one fits in neither way, other stock is asked for.
 Setup laid_out(const Piece& piece, const PieceBase& base, const Cell& cell) {
     Setup setup;
     setup.base_number = base.number;
@@ -82,12 +96,21 @@ Setup laid_out(const Piece& piece, const PieceBase& base, const Cell& cell) {
     describe(setup);
     place(*piece.mesh, setup);
     setup.spoil = margins_of(cell).spoil;
-    setup.block = choose_block(cell, setup.box.size());
-    if (check_envelope(setup, cell).fits()) return setup;
     Setup turned = setup;
     turn(turned);
-    turned.block = choose_block(cell, turned.box.size());
-    return check_envelope(turned, cell).fits() ? turned : setup;
+    const auto fits = [&](Setup& lying, const Cell& stocked) {
+        lying.block = choose_block(stocked, lying.box.size());
+        return check_envelope(lying, cell).fits();
+    };
+    if (fits(setup, cell)) return setup;
+    if (fits(turned, cell)) return turned;
+    const Cell standing = with_standing_stock(cell);
+    if (standing.stock == cell.stock) return setup;
+    Setup other = setup;
+    for (Setup* lying : {&other, &turned}) {
+        if (fits(*lying, standing)) return *lying;
+    }
+    return setup;
 }
 
 Box block_box(const Setup& setup) {
@@ -97,16 +120,6 @@ Box block_box(const Setup& setup) {
 
 double tilt_of(const Cell& cell, const SetupOptions& options) {
     return options.max_tilt_deg.value_or(max_tilt_deg(cell));
-}
-
-// Of the tools of the cell.
-double smallest_radius(const Cell& cell) {
-    if (!cell.machine) return cell.tool.diameter / 2;
-    double least = cell.machine->tools.front().diameter;
-    for (const CarvingTool& tool : cell.machine->tools) {
-        if (!is_drill(tool)) least = std::min(least, tool.diameter);
-    }
-    return least / 2;
 }
 
 std::optional<ToolBody> deepest_tool(const Cell& cell) {
@@ -152,7 +165,10 @@ class Choice {
  public:
     Choice(const Piece& piece, const Cell& cell, const SetupOptions& options)
         : piece_(piece), cell_(cell), options_(options), bases_(bases_of(piece)) {
-        for (const PieceBase& base : bases_) setups_.push_back(laid_out(piece, base, cell));
+        for (const PieceBase& base : bases_) {
+            setups_.push_back(laid_out(piece, base, cell));
+            add_workholding(setups_.back(), nullptr);
+        }
     }
 
     SetupChoice run() {
@@ -181,6 +197,12 @@ class Choice {
                 options_.samples,
                 options_.takes_kept_samples,
                 asks_dense};
+    }
+
+    // Without the foam that stays, which only maps tell, a setup holds less.
+    void add_workholding(Setup& setup, const FoamPoints* foam) const {
+        if (!cell_.machine) return;
+        setup.workholding = check_workholding(standing_sections(*piece_.mesh, setup, foam), setup, cell_);
     }
 
     // Which directions the arm holds over a piece that lies on one of bases_.
@@ -266,13 +288,25 @@ class Choice {
         reach.further = setup.reach.further;
         reach.is_arm_checked = setup.reach.is_arm_checked;
         setup.reach = std::move(reach);
+        add_workholding(setup, result.foam ? &*result.foam : nullptr);
         return std::move(result.states);
     }
 
     static long steps(double share) { return std::lround(share / equal_share); }
+    // The largest share out of reach with which a setup is preferred for its workholding: the cell's limit, or that of
+    // the setup that leaves least.
+    double most_for_workholding() const {
+        double least = 1;
+        for (const Setup& s : setups_) {
+            if (check_envelope(s, cell_).fits()) least = std::min(least, s.reach.unreachable_share());
+        }
+        return cell_.machine ? std::max(cell_.machine->max_unreachable, least + equal_share) : least;
+    }
+
     // What counts for the order before what only maps tell.
-    auto before_foam(const Setup& s) const {
-        return std::tuple(options_.base != s.base_number, !check_envelope(s, cell_).fits(),
+    auto before_foam(const Setup& s, double most) const {
+        const bool holds = s.workholding && s.workholding->passes() && s.reach.unreachable_share() <= most;
+        return std::tuple(options_.base != s.base_number, !check_envelope(s, cell_).fits(), !holds,
                           steps(s.reach.unreachable_share()));
     }
 
@@ -284,19 +318,24 @@ class Choice {
         if (mapped >= options_.mapped) return std::nullopt;
         const auto next = std::find_if(setups_.begin(), setups_.end(),
                                        [](const Setup& s) { return s.reach.method == ReachMethod::sampled; });
-        if (next == setups_.end() || before_foam(*next) != before_foam(setups_.front())) return std::nullopt;
+        const double most = most_for_workholding();
+        if (next == setups_.end() || before_foam(*next, most) != before_foam(setups_.front(), most)) {
+            return std::nullopt;
+        }
         return static_cast<std::size_t>(next - setups_.begin());
     }
 
     // Equal shares are compared as whole steps, because a comparison with a tolerance is no order. Of two, what is
     // known by maps comes first: of samples no foam is known.
     void rank() {
+        const double most = most_for_workholding();
         const auto key = [&](const Setup& s) {
             const Vec3 size = s.block.size;
             const double block_mm3 = size.x * size.y * size.z;
             return std::tuple_cat(
-                before_foam(s), std::tuple(s.reach.method == ReachMethod::sampled, steps(s.reach.foam_mm3 / block_mm3),
-                                           steps(s.reach.residue_mm3 / block_mm3), block_mm3, s.base_number));
+                before_foam(s, most),
+                std::tuple(s.reach.method == ReachMethod::sampled, steps(s.reach.foam_mm3 / block_mm3),
+                           steps(s.reach.residue_mm3 / block_mm3), !s.block.offcuts.empty(), block_mm3, s.base_number));
         };
         std::stable_sort(setups_.begin(), setups_.end(),
                          [&](const Setup& a, const Setup& b) { return key(a) < key(b); });
@@ -315,6 +354,15 @@ class Choice {
 
 double max_tilt_deg(const Cell& cell) {
     return cell.machine ? cell.machine->max_tilt / degree : default_tilt_deg;
+}
+
+double smallest_radius(const Cell& cell) {
+    if (!cell.machine) return cell.tool.diameter / 2;
+    double least = std::numeric_limits<double>::infinity();
+    for (const CarvingTool& tool : cell.machine->tools) {
+        if (!is_drill(tool)) least = std::min(least, tool.diameter);
+    }
+    return least / 2;
 }
 
 SetupChoice choose_setup(const Piece& piece, const Cell& cell, const SetupOptions& options) {

@@ -45,10 +45,14 @@ struct SetupChoice {
 // The largest tilt of the tool axis from the vertical, degrees: that of the cell, without a machine default_tilt_deg.
 double max_tilt_deg(const Cell& cell);
 
-// Ranked are, first of all, those whose block fits into the cell; then by the least unreachable area, the least foam
-// that stays, the least residue and the smallest block. With options.base that base is first. Preconditions: the mesh
-// is closed and has triangles, half_space.up() are unit vectors, the cell has a block, and options.base is a number of
-// bases_of(piece).
+// Of the tools of a cell, without its drills, the smallest radius. Precondition: as longest_tool() (holder_limit.h).
+double smallest_radius(const Cell& cell);
+
+// Ranked are, first of all, those whose block fits into the cell; then those whose workholding passes (workholding.h),
+// unless they leave a larger share out of reach than the cell's max_unreachable and the setup that leaves least; then
+// by the least unreachable area, the least foam that stays, the least residue and the smallest block. With options.base
+// that base is first. Preconditions: the mesh is closed and has triangles, half_space.up() are unit vectors, the cell
+// has a block, and options.base is a number of bases_of(piece).
 SetupChoice choose_setup(const Piece& piece, const Cell& cell, const SetupOptions& options = {});
 
 // Whether some way to lay the piece fits into the cell, by boxes alone: the stop rule of that name. Far cheaper than

@@ -221,4 +221,18 @@ double FoamPoints::volume_mm3() const {
     return static_cast<double>(points) * step_.x * step_.y * step_.z;
 }
 
+std::vector<Point2> FoamPoints::standing_up_to(double z) const {
+    std::vector<Point2> standing;
+    for (std::size_t index = 0; index < counts_[0] * counts_[1]; ++index) {
+        const Column at = column(index);
+        // The lowest point is asked always: it stands for what is below it too.
+        const double steps = std::clamp((z - at.start) / step_.z, 0.0, static_cast<double>(counts_[2] - 1));
+        const auto last = static_cast<std::size_t>(steps);
+        std::size_t k = 0;
+        while (k <= last && (left_[index * words_ + k / bits_per_word] >> (k % bits_per_word) & 1U) != 0) ++k;
+        if (k > last) standing.push_back({at.x, at.y});
+    }
+    return standing;
+}
+
 }  // namespace qchopper

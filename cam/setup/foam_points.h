@@ -16,6 +16,7 @@
 #include "base/box.h"
 #include "base/pose.h"
 #include "cam/setup/height_map.h"
+#include "segment/mesh/polygon.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {
@@ -40,6 +41,11 @@ class FoamPoints {
 
     // Of the points that are left; each stands for an equal share of the box.
     double volume_mm3() const;
+
+    // Of the columns whose points are all left from the bottom of the box up to a height: where they stand, and the
+    // area for which each does. O(columns x points below).
+    std::vector<Point2> standing_up_to(double z) const;
+    double column_mm2() const { return step_.x * step_.y; }
 
  private:
     struct Column {

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "base/parallel.h"
 #include "cam/setup/foam_points.h"
@@ -295,6 +296,7 @@ MappedReach mapped_reach(const MappedSetup& setup, const MapOptions& options) {
     result.reach.steep_counts = setup.steep_counts;
     result.reach.foam_mm3 = foam ? foam->volume_mm3() : 0;
     if (foam_after_ball) result.reach.residue_mm3 = foam_after_ball->volume_mm3() - result.reach.foam_mm3;
+    result.foam = std::move(foam);
     return result;
 }
 

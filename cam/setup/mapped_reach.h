@@ -13,6 +13,7 @@
 
 #include "base/box.h"
 #include "base/pose.h"
+#include "cam/setup/foam_points.h"
 #include "cam/setup/holder_limit.h"
 #include "cam/setup/surface_reach.h"
 #include "segment/mesh/triangle_mesh.h"
@@ -40,6 +41,7 @@ struct MappedReach {
     SurfaceReach reach;                // method mapped; all_directions_share, further, too_narrow_mm2 are left at 0
     std::vector<SurfaceState> states;  // per triangle, of the largest part of it; the base's are `reached`
     std::vector<float> reached;        // per triangle, the share that is reached with the holder
+    std::optional<FoamPoints> foam;    // what is left in the piece's box; nothing where that is flat
 };
 
 // Of a triangle the part that no map reaches is steep if it is steep to one of the directions, else hidden; the part

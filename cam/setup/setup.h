@@ -19,6 +19,7 @@
 #include "cam/setup/block.h"
 #include "cam/setup/block_placement.h"
 #include "cam/setup/surface_reach.h"
+#include "cam/setup/workholding.h"
 #include "segment/mesh/measure.h"
 
 namespace qchopper {
@@ -31,15 +32,19 @@ struct Setup {
     Pose piece_in_setup;
     Box box;  // of the piece in setup coordinates
 
+    // Numbers of the tools that may be used, by order of the operator; empty: all of the cell.
+    std::vector<std::uint16_t> tools;
+
     double spoil = 0;  // thickness of the layer under the piece that stays on the table; 0 in a cell of version 1
     CarvingBlock block;
     BlockPlacement placement;  // of the block on the table
 
-    SurfaceReach reach;             // what the tool reaches
-    double undercut = 0;            // share of the projected area that faces down, base left out
-    double undercut_by_count = 0;   // share of the triangles that face down, base left out
-    double base_mm2 = 0;            // projected area of the base; 0 without one
-    double projected_area_mm2 = 0;  // of the piece, along up
+    std::optional<Workholding> workholding;  // nothing: not checked, in a cell of version 1
+    SurfaceReach reach;                      // what the tool reaches
+    double undercut = 0;                     // share of the projected area that faces down, base left out
+    double undercut_by_count = 0;            // share of the triangles that face down, base left out
+    double base_mm2 = 0;                     // projected area of the base; 0 without one
+    double projected_area_mm2 = 0;           // of the piece, along up
     std::vector<std::string> warnings;
     bool operator==(const Setup&) const = default;
 };

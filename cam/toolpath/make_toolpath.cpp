@@ -23,6 +23,7 @@
 #include "cam/toolpath/roughing.h"
 #include "cam/toolpath/roughing_limit.h"
 #include "cam/toolpath/tip_surface.h"
+#include "cam/toolpath/unused_tools.h"
 
 namespace qchopper {
 namespace {
@@ -83,6 +84,7 @@ class ToolpathMaker {
             throw InputError(InputFault::use, "the toolpath is empty: no tool has anything to cut",
                              "check the block, the tools and the base of the piece");
         }
+        toolpath_.unused = unused_tools(machine_, tools_, setup_.reach.directions.size(), toolpath_, is_empty_);
         toolpath_.cell = settings_.cell;
         toolpath_.path_tolerance = settings_.path_tolerance;
         return std::move(toolpath_);
@@ -195,6 +197,7 @@ class ToolpathMaker {
         if (over_foam) raise_to_limit(tip, limit_now(operation));
         const FinishingRegion region = finishing_region(operation, tip);
         const bool is_empty = std::all_of(region.begin(), region.end(), [](float low) { return low == not_finished; });
+        if (is_empty && !over_foam) is_empty_.insert({tool_index, direction});
         const bool has_floor = direction == 0 && kind == OperationKind::finishing && !over_foam;
         if (is_empty && !has_floor) return;
         const FinishingRegion floor = has_floor ? floor_band(over_piece->piece, tool.diameter) : FinishingRegion();
@@ -356,6 +359,7 @@ class ToolpathMaker {
     InProcessStock middle_stock_;
     SurfaceLeft left_;
     std::vector<PassesLeft> blocked_;
+    ToolsAlong is_empty_;  // tools that have nothing to finish along a direction
     double foam_cell_ = 1;
     std::vector<HeightMap> coarse_targets_;  // of each direction; empty until it is asked for
     double border_ = 0;

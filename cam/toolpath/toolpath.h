@@ -7,6 +7,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "base/vec3.h"
@@ -59,10 +61,19 @@ struct Operation {
     bool operator==(const Operation&) const = default;
 };
 
+// A ball-ended tool that the toolpath does not use along a direction, and why.
+struct UnusedTool {
+    std::optional<std::size_t> tool;       // index in CellMachine::tools; nothing: no tool of the cell
+    std::optional<std::size_t> direction;  // index in SurfaceReach::directions; nothing: along none
+    std::string because;                   // for people, without a full stop
+    bool operator==(const UnusedTool&) const = default;
+};
+
 struct Toolpath {
     std::vector<Operation> operations;  // in the order in which they are carved; at least one
     double cell = 0;                    // of the height maps that finishing was made from
     double path_tolerance = 0;  // by how much points were reduced: the path is at most so far above the exact one
+    std::vector<UnusedTool> unused = {};  // of all directions of the setup
     bool operator==(const Toolpath&) const = default;
 };
 

@@ -16,7 +16,6 @@ namespace qchopper {
 namespace {
 
 constexpr double largest_mm = 1e11;  // beyond this a double does not resolve 0.0001 mm
-constexpr const char* repair_first = "repair the scan in the scanning software, then try again";
 
 std::string place(Vec3 p) {
     return significant(p.x, 6) + ", " + significant(p.y, 6) + ", " + significant(p.z, 6);
@@ -62,32 +61,11 @@ std::string scale_warning(double scale) {
     return "The scan is scaled by " + significant(scale, 6) + " (--scale): its pieces are not in true size.";
 }
 
-// Throws InputError (mesh) with the first reason why the result is no solid.
+// Throws InputError (mesh) for a result that is no solid. One that may be open must have faces.
 void check_solid(const RepairedScan& scan, const std::string& name, bool may_be_open) {
-    const RepairReport& r = scan.report;
-    const auto refuse = [&](const std::string& why, const std::string& to_do = repair_first) {
-        throw InputError(InputFault::mesh, name + why, to_do);
-    };
-    if (scan.mesh.triangles.empty()) {
-        refuse(r.of_doubled_components > 0 ? ": nothing but flat doubled components, which enclose nothing"
-                                           : ": no face has an area");
-    }
-    if (may_be_open) return;
-    if (r.open_components_left > 0) {
-        refuse(" is open: " + counted(r.open_components_left, "open component encloses", "open components enclose") +
-                   " nothing; the first around (" + place(r.first_open_component) + ") in the units of the file",
-               "scan the other side too, or close the surface in the scanning software");
-    }
-    if (!r.left_open.empty()) {
-        const OpenHole& hole = r.left_open.front();
-        refuse(": " + counted(r.left_open.size(), "hole") + " cannot be closed; the first has " +
-               std::to_string(hole.edges) + " edges around (" + place(hole.centre) + ") in the units of the file");
-    }
-    if (r.open_edges > 0) {
-        refuse(" does not close at " + counted(r.open_edges, "edge") + "; the first near (" + place(r.first_open_edge) +
-               ") in the units of the file");
-    }
-    if (!(r.volume > 0)) refuse(" has no volume");
+    const std::optional<Refusal> refused = refusal_of(scan.report);
+    if (!refused || (may_be_open && !scan.mesh.triangles.empty())) return;
+    throw InputError(InputFault::mesh, name + refused->why, refused->to_do);
 }
 
 // The hash of the bytes; with further files the hash over the hashes of all.
@@ -99,14 +77,16 @@ Sha256 hash_of(const Bytes& bytes, const std::vector<Sha256>& beside) {
     return sha256(all);
 }
 
-void warn_of_size(const ImportedScan& imported, std::vector<std::string>& warnings) {
-    const Vec3 size = bounds(imported.mesh).size();
+}  // namespace
+
+bool is_usual_size(Vec3 size) {
     const double longest = std::max({size.x, size.y, size.z});
-    if (longest >= 10 && longest <= 20000) return;
-    warnings.push_back("The scan measures " + describe_size(size) + ": is --units right?");
+    return longest >= 10 && longest <= 20'000;
 }
 
-}  // namespace
+std::string size_warning(Vec3 size) {
+    return "The scan measures " + describe_size(size) + ": is --units right?";
+}
 
 RepairedScan repair_scan(const std::filesystem::path& path, const ImportOptions& options, const Context& context) {
     check(options);
@@ -128,6 +108,8 @@ RepairedScan repair_scan(const std::filesystem::path& path, const ImportOptions&
     const double unit = result.mm_per_unit.value_or(1);
     result.scanned = box_of(scan.mesh);
     check_range(result.scanned, unit * options.scale, name);
+    const Vec3 size = unit * options.scale * result.scanned.size();
+    if (result.mm_per_unit && options.on_unusual_size && !is_usual_size(size)) options.on_unusual_size(size);
     stage.next("scan repaired");
     RepairOptions repairs = options.repair;
     repairs.mm_per_unit = unit;
@@ -160,7 +142,8 @@ ImportedScan import_scan(const std::filesystem::path& path, const ImportOptions&
     imported.report = {std::move(scan.report), {}};
     if (options.scale != 1) imported.report.warnings.push_back(scale_warning(options.scale));
     for (std::string& warning : scan.warnings) imported.report.warnings.push_back(std::move(warning));
-    warn_of_size(imported, imported.report.warnings);
+    const Vec3 size = bounds(imported.mesh).size();
+    if (!is_usual_size(size)) imported.report.warnings.push_back(size_warning(size));
     return imported;
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,11 +36,19 @@ Unit unit_of(double mm);
 std::optional<double> agreed_mm_per_unit(std::optional<double> in_file, std::optional<double> given,
                                          const std::string& name);
 
+// A bone, or a model of one, is 1 cm to 20 m long: another length tells of a wrong unit. Lengths in mm.
+bool is_usual_size(Vec3 size);
+// "The scan measures 3.0 mm x 2.0 mm x 1.0 mm: is --units right?", of a size that is not usual.
+std::string size_warning(Vec3 size);
+
 struct ImportOptions {
     std::optional<double> mm_per_unit;  // the operator's; nothing: that of the file. Above 0
     double scale = 1;                   // the operator's factor, above 0; other than 1 it is reported as a warning
     RepairOptions repair = {};          // its mm_per_unit is not used: the scan's is
     bool may_lack_unit = false;         // a scan without a unit is repaired as if it were in mm
+    // Called with a size, in mm and scaled, that is not usual, before the repair. It may throw to refuse the scan;
+    // empty: every size is taken.
+    std::function<void(Vec3 size)> on_unusual_size = {};
 };
 
 // A repaired scan in the unit and place of its file.

@@ -1,9 +1,10 @@
 // Welds, then counts by points (links.h) and by shells (shells.h, containment.h). O(n log n) in the triangles apart
-// from the search for self-intersections; the mesh is not copied.
+// from the search for self-intersections and the repair that is tried where anything is wrong; the mesh is not copied.
 
 #include "segment/import/inspect.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 
@@ -14,6 +15,7 @@
 #include "segment/mesh/shells.h"
 #include "segment/repair/fragments.h"
 #include "segment/repair/open_components.h"
+#include "segment/repair/repair.h"
 #include "segment/repair/self_intersections.h"
 #include "segment/repair/weld.h"
 
@@ -52,13 +54,26 @@ class Inspecting {
         step("shells counted");
         count_shells();
         if (options_.deep) find_self_intersections();
+        if (!is_solid()) ask_repair();
         return std::move(result_);
     }
 
  private:
     void step(const char* what) {
         context_.check_cancelled();
-        context_.progress(what, ++steps_, 3);
+        context_.progress(what, ++steps_, 4);
+    }
+
+    // Whether there is nothing to repair but surfaces that touch in points.
+    bool is_solid() const {
+        return result_.is_closed() && result_.repeated + result_.degenerate + result_.inside_out == 0 &&
+               result_.volume > 0;
+    }
+
+    // By the same steps as the import: what counts as a solid is decided there alone.
+    void ask_repair() {
+        step("repair tried");
+        result_.refused = refusal_of(repair(std::move(mesh_), {}, context_).report);
     }
 
     void find_self_intersections() {
@@ -242,17 +257,12 @@ Inspection inspect(RawMesh scan, const InspectOptions& options, const Context& c
 
 Judgement judge(const Inspection& i) {
     Judgement judgement;
-    const auto unrepairable = [&](const std::string& why) {
-        judgement.verdict = Verdict::unrepairable;
-        judgement.reasons = {why};
-        return judgement;
-    };
-    if (i.triangles == i.degenerate) return unrepairable("No face has an area.");
-    if (i.open_component_area_share > open_component_share) {
-        return unrepairable(counted(i.open_components, "open component encloses", "open components enclose") +
-                            " nothing: scan the other side too.");
+    if (i.refused) {
+        const std::string& why = i.refused->why;
+        std::string sentence = why.starts_with(": ") ? why.substr(2) : "It" + why;
+        sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
+        return {Verdict::unrepairable, {sentence + ": " + i.refused->to_do + "."}};
     }
-    if (i.is_closed() && i.volume == 0) return unrepairable("It has no volume.");
     const auto note = [&](std::size_t count, const char* one, const char* many) {
         if (count > 0) judgement.reasons.push_back(counted(count, one, many));
     };
@@ -271,7 +281,8 @@ Judgement judge(const Inspection& i) {
     add(i.inconsistent, "edge has faces of opposite orientation, which are turned.",
         "edges have faces of opposite orientation, which are turned.");
     add(i.degenerate, "face has no area and is removed.", "faces have no area and are removed.");
-    add(i.open_components, "small open component is dropped.", "small open components are dropped.");
+    add(i.open_components, "open component is stitched to what it meets, or dropped.",
+        "open components are stitched to what they meet, or dropped.");
     add(i.holes.size() - std::min(i.holes.size(), i.open_components), "hole is closed.", "holes are closed.");
     add(i.inside_out, "shell is inside out and turned.", "shells are inside out and turned.");
     if (i.self_intersected && i.self_intersected->pairs > 0) {

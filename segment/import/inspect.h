@@ -1,4 +1,4 @@
-// Counts what a scan consists of and what is wrong with it, without repairing anything.
+// Counts what a scan consists of and what is wrong with it, and asks whether repair() makes a solid of it.
 //
 // Lengths and places are in the unit and the coordinates of the file. Bad meshes are described, not refused
 // (tests/segment/import/inspect_test.cpp). All values but the first counts are those after equal points are welded, so
@@ -14,6 +14,7 @@
 #include "base/context.h"
 #include "segment/io/read_mesh.h"
 #include "segment/mesh/measure.h"
+#include "segment/repair/report.h"
 
 namespace qchopper {
 
@@ -64,6 +65,7 @@ struct Inspection {
     double volume = 0;                                // signed, file unit cubed; meaningful only when closed
     double area = 0;                                  // file unit squared
     std::optional<SelfIntersected> self_intersected;  // with InspectOptions::deep
+    std::optional<Refusal> refused;  // by repair(), as its result is no solid; nothing: it makes a solid of the scan
 
     bool is_closed() const { return open_edges == 0 && inconsistent == 0 && non_manifold == 0; }
     // The first of the longest holes; nullptr without a hole.
@@ -79,17 +81,16 @@ Inspection inspect(RawMesh scan, const InspectOptions& options = {}, const Conte
 
 enum class Verdict {
     ready,        // a solid as it is, or after what every import does
-    to_repair,    // prepare and repair are expected to make a solid of it
-    unrepairable  // there is no solid in it
+    to_repair,    // prepare and repair make a solid of it
+    unrepairable  // they refuse it
 };
 
 // The verdict, and what stands between the scan and a solid, in whole sentences; if it is ready, what every import does
-// to it.
+// to it; of a refused one why, and what to do.
 struct Judgement {
     Verdict verdict = Verdict::ready;
     std::vector<std::string> reasons;
 };
-// From the counts alone, without a repair.
 Judgement judge(const Inspection& inspection);
 
 // "1.82 m x 0.94 m x 0.71 m": all in the unit, mm, cm or m, in which the longest has three digits.

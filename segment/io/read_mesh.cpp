@@ -2,6 +2,10 @@
 
 #include "segment/io/read_mesh.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include "base/error.h"
 #include "segment/io/glb_file.h"
 #include "segment/io/gunzip.h"
@@ -11,26 +15,64 @@
 #include "segment/io/read_off.h"
 #include "segment/io/read_ply.h"
 #include "segment/io/read_stl.h"
+#include "segment/io/text.h"
 #include "segment/io/to_utf8.h"
 
 namespace qchopper {
 namespace {
 
+// A binary file has a zero byte soon; text has none.
+bool is_binary(const Bytes& bytes) {
+    constexpr std::ptrdiff_t looked_at = 1024;
+    const auto end = bytes.begin() + std::min(looked_at, static_cast<std::ptrdiff_t>(bytes.size()));
+    return std::find(bytes.begin(), end, 0) != end;
+}
+
 [[noreturn]] void refuse_unknown(const Bytes& bytes, const std::string& name) {
     throw InputError(InputFault::mesh,
-                     name + " does not begin like a " + mesh_formats + " file, and " + why_no_binary_stl(bytes),
+                     name + " does not begin like a " + mesh_formats + " file" +
+                         (is_binary(bytes) ? ", and " + why_no_binary_stl(bytes) : ""),
                      "give a file of one of these formats; if it was one, export or copy it again");
 }
 
-// OBJ comes last: its only mark is the first word of its first line.
+struct Format {
+    std::string_view ending;
+    bool (*is)(const Bytes&);
+    RawMesh (*parse)(const Bytes&, const std::string&, const std::filesystem::path& folder);
+};
+
+template <RawMesh (*parse)(const Bytes&, const std::string&)>
+RawMesh alone(const Bytes& bytes, const std::string& name, const std::filesystem::path&) {
+    return parse(bytes, name);
+}
+
+// By the strength of their marks.
+constexpr std::array<Format, 7> formats{{{".ply", is_ply, alone<parse_ply>},
+                                         {".stl", is_ascii_stl, alone<parse_ascii_stl>},
+                                         {".glb", is_glb, parse_gltf},
+                                         {".gltf", is_gltf, parse_gltf},
+                                         {".3mf", is_3mf, alone<parse_3mf>},
+                                         {".off", is_off, alone<parse_off>},
+                                         {".obj", is_obj, alone<parse_obj>}}};
+
+// Of the name, or of what it was before gzip.
+bool has_ending(std::filesystem::path name, std::string_view lower) {
+    if (equals_ignoring_case(name.extension().string(), ".gz")) name.replace_extension();
+    return equals_ignoring_case(name.extension().string(), lower);
+}
+
+// An OBJ may begin with a line like the first one of an STL or PLY: of several formats whose marks the bytes bear, that
+// of the ending is taken.
 RawMesh parse_by_content(const Bytes& bytes, const std::string& name, const std::filesystem::path& folder) {
-    if (is_ply(bytes)) return parse_ply(bytes, name);
-    if (is_ascii_stl(bytes)) return parse_ascii_stl(bytes, name);
-    if (is_glb(bytes) || is_gltf(bytes)) return parse_gltf(bytes, name, folder);
-    if (is_3mf(bytes)) return parse_3mf(bytes, name);
-    if (is_off(bytes)) return parse_off(bytes, name);
-    if (is_obj(bytes)) return parse_obj(bytes, name);
-    refuse_unknown(bytes, name);
+    const auto find = [&](bool by_ending) {
+        return std::find_if(formats.begin(), formats.end(), [&](const Format& format) {
+            return (!by_ending || has_ending(name, format.ending)) && format.is(bytes);
+        });
+    };
+    auto found = find(true);
+    if (found == formats.end()) found = find(false);
+    if (found == formats.end()) refuse_unknown(bytes, name);
+    return found->parse(bytes, name, folder);
 }
 
 // After unpacking. A binary STL comes first: its length is a better mark than the first bytes.

@@ -30,13 +30,19 @@ bool has(const std::array<std::string_view, n>& words, std::string_view word) {
     return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-// Whether an unknown first word can be the keyword of another program: "attr", "xyzrgb". A word that begins like a
-// number or holds bytes that are no text is damage, and skipping its line could lose a face.
-bool is_like_a_keyword(std::string_view word) {
-    const auto is_text = [](char c) { return c > 0x20 && c < 0x7f; };
+// Whether a word can begin a line of text above the first OBJ line, as some programs write it: "$WaveFront *.obj file".
+bool is_like_a_title(std::string_view word) {
+    const auto is_text = [](char c) { return static_cast<unsigned char>(c) > 0x20 && c != 0x7f; };
     const char first = word.front();
     return std::all_of(word.begin(), word.end(), is_text) && (first < '0' || first > '9') && first != '-' &&
            first != '+' && first != '.';
+}
+
+// Whether an unknown first word can be the keyword of another program: "attr", "xyzrgb". A word that begins like a
+// number or holds bytes that are no text is damage, and skipping its line could lose a face.
+bool is_like_a_keyword(std::string_view word) {
+    const auto is_ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
+    return is_like_a_title(word) && std::all_of(word.begin(), word.end(), is_ascii);
 }
 
 bool is_obj_word(std::string_view word) {
@@ -106,14 +112,17 @@ class ObjReader {
     void read_line(std::string_view line) {
         Text words(line);
         const std::string_view word = words.word();
-        if (word.empty() || has(ignored_words, word) || word == "trace_obj") return;
+        if (word.empty()) return;
+        if (is_above_ && is_obj_word(word)) is_above_ = false;
+        if (has(ignored_words, word) || word == "trace_obj") return;
         if (word == "v") return read_point(words);
         if (word == "f" || word == "fo") return read_face(words);
         if (has(curved_words, word)) {
             if (curved_++ == 0) first_curved_ = lines_.number();
             return;
         }
-        if (!is_like_a_keyword(word)) refuse("begins with " + quoted(word) + ", which no OBJ line does");
+        if (!(is_above_ ? is_like_a_title(word) : is_like_a_keyword(word)))
+            refuse("begins with " + quoted(word) + ", which no OBJ line does");
         if (unknown_++ > 0) return;
         first_unknown_ = lines_.number();
         unknown_word_ = quoted(word);
@@ -211,6 +220,7 @@ class ObjReader {
     EarlyFaces early_;                    // the note is the line
     std::size_t curved_ = 0;
     std::size_t first_curved_ = 0;
+    bool is_above_ = true;  // the first line of OBJ
     std::size_t unknown_ = 0;
     std::size_t first_unknown_ = 0;
     std::string unknown_word_;
@@ -220,9 +230,15 @@ class ObjReader {
 
 bool is_obj(const Bytes& bytes) {
     Lines lines(as_text(bytes));
+    bool is_first = true;
     while (const std::optional<std::string_view> line = lines.next()) {
-        const std::string_view word = Text(*line).word();
-        if (!word.empty()) return is_obj_word(word);
+        Text words(*line);
+        const std::string_view word = words.word();
+        if (word.empty()) continue;
+        if (is_first && is_obj_word(word)) return true;
+        if (word == "v" && number(words.word()) && number(words.word()) && number(words.word())) return true;
+        if (!is_like_a_title(word)) return false;
+        is_first = false;
     }
     return false;
 }

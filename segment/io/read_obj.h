@@ -14,7 +14,8 @@
 
 namespace qchopper {
 
-// Whether the first word that is not in a comment is a keyword of the format: OBJ has no other mark.
+// Whether the first word that is not in a comment is a keyword of the format, or a line with a point follows after
+// lines of text: OBJ has no other mark. O(bytes) at most.
 bool is_obj(const Bytes& bytes);
 
 // Throws InputError (mesh) with the line for a line that is damaged and for a face that names no point; `name` stands

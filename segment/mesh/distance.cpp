@@ -1,11 +1,13 @@
 // Branch and bound over the triangles, after M. Guthe, P. Borodin and R. Klein, "Fast and accurate Hausdorff distance
 // calculation between meshes" (2005): a triangle whose bound stays below the distance found is dropped, the others are
-// split in four. O(log triangles) per point on average; a triangle tree of `to` in memory.
+// split in four. A bound sees three triangles of the other surface at once, so that parts across their sides need not
+// be split. O(log triangles) per point on average; a triangle tree of `to` in memory.
 
 #include "segment/mesh/distance.h"
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -31,10 +33,73 @@ struct TrianglePart {
     Vec3 at{};           // the corner with the largest distance
 };
 
+// A convex polygon: a triangle of which up to three sides were cut off.
+class Polygon {
+ public:
+    explicit Polygon(const TriangleCorners& corners) {
+        for (const Vec3& p : corners) add(p);
+    }
+
+    // Removes and returns what lies where dot(normal, p) < offset.
+    Polygon cut_off(Vec3 normal, double offset) {
+        Polygon below;
+        Polygon above;
+        for (std::size_t k = 0; k < count_; ++k) {
+            const Vec3 a = corners_[k];
+            const Vec3 b = corners_[(k + 1) % count_];
+            const double height_a = dot(normal, a) - offset;
+            const double height_b = dot(normal, b) - offset;
+            (height_a < 0 ? below : above).add(a);
+            if ((height_a < 0) == (height_b < 0)) continue;
+            const Vec3 crossing = a + height_a / (height_a - height_b) * (b - a);
+            below.add(crossing);
+            above.add(crossing);
+        }
+        *this = above;
+        return below;
+    }
+
+    // The largest distance of a corner from a triangle: it is convex, so no other point of the polygon is farther.
+    double farthest_from(const TriangleCorners& triangle) const {
+        double farthest = 0;
+        for (std::size_t k = 0; k < count_; ++k) {
+            farthest = std::max(farthest, norm(corners_[k] - closest_on_triangle(corners_[k], triangle)));
+        }
+        return farthest;
+    }
+
+ private:
+    Polygon() = default;
+    void add(Vec3 p) {
+        assert(count_ < corners_.size());
+        corners_[count_++] = p;
+    }
+
+    std::array<Vec3, 9> corners_;  // rounding may cut a side twice: two more per cut at most
+    std::size_t count_ = 0;
+};
+
+// No point of the part is farther from the three triangles: what lies over the first one is bounded by that, and what
+// is cut off at each of its sides by the best of the three. So a part across the common side of two triangles in its
+// own plane need not be split down to the tolerance.
+double bound_by_sides(const TriangleCorners& part, const std::array<TriangleCorners, 3>& near) {
+    const Vec3 normal = cross(near[0][1] - near[0][0], near[0][2] - near[0][0]);
+    Polygon over(part);
+    double bound = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 inwards = cross(normal, near[0][(k + 1) % 3] - near[0][k]);
+        const Polygon beside = over.cut_off(inwards, dot(inwards, near[0][k]));
+        double least = infinite;
+        for (const TriangleCorners& triangle : near) least = std::min(least, beside.farthest_from(triangle));
+        bound = std::max(bound, least);
+    }
+    return std::max(bound, over.farthest_from(near[0]));
+}
+
 // The distance to one triangle of the other surface is convex: where that triangle is nearest to all corners, no inner
 // point is farther than a corner. Otherwise no point is farther than a corner's distance plus its distance from that
-// corner.
-void compute_bounds(TrianglePart& part, const TriangleTree& tree, const TriangleMesh& to) {
+// corner. Bounds of at most `enough` are not made tighter.
+void compute_bounds(TrianglePart& part, const TriangleTree& tree, const TriangleMesh& to, double enough) {
     std::array<TriangleTree::Nearest, 3> nearest;
     part.found = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -46,9 +111,10 @@ void compute_bounds(TrianglePart& part, const TriangleTree& tree, const Triangle
     }
     double longest_edge = 0;  // every inner point is nearest to some corner, at most 0.58 of the longest edge away
     double by_plane = infinite;
+    std::array<TriangleCorners, 3> near;
     for (std::size_t k = 0; k < 3; ++k) {
         longest_edge = std::max(longest_edge, norm(part.corner[(k + 1) % 3] - part.corner[k]));
-        const TriangleCorners target = corners_of(to, nearest[k].triangle);
+        const TriangleCorners target = near[k] = corners_of(to, nearest[k].triangle);
         double above = 0;
         for (const Vec3& corner : part.corner) {
             above = std::max(above, norm(corner - closest_on_triangle(corner, target)));
@@ -58,6 +124,10 @@ void compute_bounds(TrianglePart& part, const TriangleTree& tree, const Triangle
     // In a right or obtuse triangle the point farthest from all corners lies on the longest edge, at half of it. In an
     // acute one it is the circumcentre, at most the longest edge divided by the root of three away.
     part.at_most = std::max(part.found, std::min(part.found + 0.578 * longest_edge, by_plane));
+    for (std::size_t k = 0; k < 3 && part.found <= enough && part.at_most > enough; ++k) {
+        std::rotate(near.begin(), near.begin() + (k > 0 ? 1 : 0), near.end());
+        part.at_most = std::max(part.found, std::min(part.at_most, bound_by_sides(part.corner, near)));
+    }
 }
 
 std::array<TrianglePart, 4> split(const TrianglePart& part) {
@@ -116,6 +186,11 @@ std::vector<std::uint32_t> missing_in(const TriangleMesh& mesh, const TriangleHa
     return missing;
 }
 
+// A part that is bounded by it need not be split.
+double enough_for(const Farthest& result, const DistanceOptions& options) {
+    return result.mm + std::max(options.tolerance * result.mm, options.tolerance_mm);
+}
+
 // Updates the largest distance found, and drops the parts that need not be split; at_most then bounds those.
 void settle(Farthest& result, std::vector<TrianglePart>& open, const DistanceOptions& options) {
     for (const TrianglePart& part : open) {
@@ -123,7 +198,7 @@ void settle(Farthest& result, std::vector<TrianglePart>& open, const DistanceOpt
         result.mm = part.found;
         result.at = part.at;
     }
-    const double enough = result.mm + std::max(options.tolerance * result.mm, options.tolerance_mm);
+    const double enough = enough_for(result, options);
     std::erase_if(open, [&](const TrianglePart& part) {
         const bool is_settled = part.at_most <= enough;
         if (is_settled) result.at_most = std::max(result.at_most, part.at_most);
@@ -145,7 +220,8 @@ Farthest farthest(const TriangleMesh& from, std::span<const std::uint32_t> trian
     const TriangleTree tree(to);
     const auto compute_all = [&](std::vector<TrianglePart>& parts) {
         context.check_cancelled();
-        parallel_for(0, parts.size(), [&](std::size_t i) { compute_bounds(parts[i], tree, to); });
+        const double enough = enough_for(result, options);
+        parallel_for(0, parts.size(), [&](std::size_t i) { compute_bounds(parts[i], tree, to, enough); });
         settle(result, parts, options);
     };
     // In chunks: most triangles are settled at once, so that few have to be kept.

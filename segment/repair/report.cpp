@@ -127,6 +127,38 @@ void add_warnings_of_options(const RepairReport& r, Sentences& sentences) {
 
 }  // namespace
 
+std::optional<Refusal> refusal_of(const RepairReport& r) {
+    const std::string repair_first = "repair the scan in the scanning software, then try again";
+    const std::string in_file = ") in the units of the file";
+    const auto place = [](Vec3 p) {
+        return "(" + significant(p.x, 6) + ", " + significant(p.y, 6) + ", " + significant(p.z, 6);
+    };
+    if (r.faces_out == 0) {
+        return Refusal{r.of_doubled_components > 0 ? ": nothing but flat doubled components, which enclose nothing"
+                                                   : ": no face has an area",
+                       repair_first};
+    }
+    if (r.open_components_left > 0) {
+        return Refusal{
+            " is open: " + counted(r.open_components_left, "open component encloses", "open components enclose") +
+                " nothing; the first around " + place(r.first_open_component) + in_file,
+            "scan the other side too, or close the surface in the scanning software"};
+    }
+    if (!r.left_open.empty()) {
+        const OpenHole& hole = r.left_open.front();
+        return Refusal{": " + counted(r.left_open.size(), "hole") + " cannot be closed; the first has " +
+                           std::to_string(hole.edges) + " edges around " + place(hole.centre) + in_file,
+                       repair_first};
+    }
+    if (r.open_edges > 0) {
+        return Refusal{" does not close at " + counted(r.open_edges, "edge") + "; the first near " +
+                           place(r.first_open_edge) + in_file,
+                       repair_first};
+    }
+    if (!(r.volume > 0)) return Refusal{" has no volume", repair_first};
+    return std::nullopt;
+}
+
 std::vector<RepairStep> steps(const RepairReport& r) {
     return {{"weld", r.welded + r.collapsed + r.unreferenced,
              Clauses()

@@ -74,6 +74,14 @@ struct RepairReport {
     std::optional<Deviation> deviation;  // in mm; with measure_deviation
 };
 
+// Why a result is refused, and what to do.
+struct Refusal {
+    std::string why;  // follows the name of the scan: " has no volume", ": no face has an area"
+    std::string to_do;
+};
+// By the first reason why the result is no solid; nothing for a solid.
+std::optional<Refusal> refusal_of(const RepairReport& report);
+
 // One step in the order of docs/repair.md.
 struct RepairStep {
     std::string name;  // as in the options and in the document

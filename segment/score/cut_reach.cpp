@@ -1,6 +1,9 @@
-// Sums over what the sweep gives.
+// Sums over what the sweep gives, or the pieces that a cut makes.
 
 #include "segment/score/cut_reach.h"
+
+#include "segment/cut/cut_piece.h"
+#include "segment/mesh/measure.h"
 
 namespace qchopper {
 
@@ -21,6 +24,18 @@ double unreachable_mm2(const PlaneReach& plane) {
 
 CutReach cut_reach(const Piece& piece, const Plane& plane, double tilt_deg) {
     return cut_reach(piece, plane.normal, {&plane.offset, 1}, tilt_deg).front();
+}
+
+std::optional<double> unreachable_when_cut_mm2(const Piece& piece, const Plane& plane, double fragment_volume_mm3,
+                                               double tilt_deg) {
+    std::optional<CutPieces> made = cut_piece(piece, plane, new_cut);
+    if (!made) return std::nullopt;
+    sample_parts(piece, *made);
+    double unreachable = 0;
+    for (const Piece& part : made->pieces) {
+        if (volume_mm3(*part.mesh) >= fragment_volume_mm3) unreachable += unreachable_mm2(part, tilt_deg);
+    }
+    return unreachable;
 }
 
 std::vector<CutReach> cut_reach(const Piece& piece, Vec3 normal, std::span<const double> offsets, double tilt_deg) {

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,11 @@ double unreachable_mm2(const PlaneReach& plane);
 
 // Of one plane. O(samples x directions).
 CutReach cut_reach(const Piece& piece, const Plane& plane, double tilt_deg);
+// The same of the pieces that the plane really makes, those below fragment_volume_mm3 left out; nothing: it does not
+// part the piece. What a side of several solids leaves out of reach is found no other way. O(triangles + samples x
+// directions).
+std::optional<double> unreachable_when_cut_mm2(const Piece& piece, const Plane& plane, double fragment_volume_mm3,
+                                               double tilt_deg);
 // Of planes with one normal, a unit vector; the offsets ascend.
 std::vector<CutReach> cut_reach(const Piece& piece, Vec3 normal, std::span<const double> offsets, double tilt_deg);
 

@@ -1,6 +1,6 @@
-// The directions are asked with few of the points first, and what remains with more of them. A point is compared with
-// the nearest of the points on the other side of the plane, found in a k-d tree: O(points log points) for the tree,
-// some 600,000 queries of O(log points) in all.
+// The directions are asked with few of the points first, and what remains with more of them; the best planes are
+// brought to the least score by a pattern search. O(points log points) for the tree of mirror_matches.h, some 1,000,000
+// queries of O(log points) in all.
 
 #include "segment/score/symmetry_plane.h"
 
@@ -13,154 +13,21 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "segment/mesh/solids.h"
-#include "segment/score/surface_samples.h"
+#include "segment/mesh/plane_frame.h"
+#include "segment/score/mirror_matches.h"
 #include "segment/score/tool_directions.h"
 
 namespace qchopper {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double scored_share = 0.9;   // of the distances
-constexpr double matched_share = 0.8;  // of the pairs
+constexpr double matched_share = 0.8;  // of the matches
 
-// How well matches are looked for.
-struct Matching {
-    std::size_t every = 1;      // n-th of the points is matched
-    double within = 1;          // a match may be so many times as far as the nearest point
-    double enough_turn = 5e-5;  // of the normal, in radians: a smaller one ends matching and fitting
+// About which planes are turned, and how far from there the points are: root of the mean square.
+struct Lever {
+    Vec3 centre;
+    double arm = 0;
 };
-
-// Points in a k-d tree without pointers: the middle one of a range divides it along the axis in which it is longest.
-class PointTree {
- public:
-    explicit PointTree(std::vector<Vec3> points) : points_(std::move(points)), axis_(points_.size()) {
-        divide(0, points_.size());
-    }
-
-    const std::vector<Vec3>& points() const { return points_; }
-
-    struct Found {
-        double distance2 = infinite;
-        std::size_t point = 0;
-    };
-    // The nearest of the points that lie above the plane, or of those that do not. `near`: one of them, the match of a
-    // point nearby, which limits the search from the start; or none, of infinite distance.
-    Found nearest(Vec3 p, const Plane& plane, bool above, const Found& near, double within) const {
-        Found found = near;
-        if (near.distance2 < infinite) {
-            const Vec3 away = points_[near.point] - p;
-            found.distance2 = dot(away, away);
-        }
-        search({p, plane, above, within * within}, 0, points_.size(), {}, found);
-        return found;
-    }
-
- private:
-    static constexpr std::size_t per_leaf = 8;
-    struct Query {
-        Vec3 point;
-        Plane plane;
-        bool above;
-        double within2;
-    };
-
-    void divide(std::size_t begin, std::size_t end) {
-        if (end - begin <= per_leaf) return;
-        Box box{points_[begin], points_[begin]};
-        for (std::size_t i = begin; i < end; ++i) {
-            for (int a = 0; a < 3; ++a) {
-                box.min[a] = std::min(box.min[a], points_[i][a]);
-                box.max[a] = std::max(box.max[a], points_[i][a]);
-            }
-        }
-        int axis = 0;
-        for (int a = 1; a < 3; ++a) axis = box.size()[a] > box.size()[axis] ? a : axis;
-        const std::size_t middle = begin + (end - begin) / 2;
-        const auto at = [&](std::size_t i) { return points_.begin() + static_cast<std::ptrdiff_t>(i); };
-        std::nth_element(at(begin), at(middle), at(end), [axis](Vec3 a, Vec3 b) { return a[axis] < b[axis]; });
-        axis_[middle] = static_cast<std::uint8_t>(axis);
-        divide(begin, middle);
-        divide(middle + 1, end);
-    }
-
-    void compare(const Query& query, std::size_t i, Found& found) const {
-        const Vec3 away = points_[i] - query.point;
-        const double distance2 = dot(away, away);
-        if (distance2 < found.distance2 && (height(query.plane.normal, points_[i]) > query.plane.offset) == query.above)
-            found = {distance2, i};
-    }
-
-    // `off`: along each axis at least so far the point lies outside the range (S. Arya and D. M. Mount, Algorithms for
-    // fast vector quantization, 1993).
-    void search(const Query& query, std::size_t begin, std::size_t end, Vec3 off, Found& found) const {
-        if (end - begin <= per_leaf) {
-            for (std::size_t i = begin; i < end; ++i) compare(query, i, found);
-            return;
-        }
-        const std::size_t middle = begin + (end - begin) / 2;
-        const int axis = axis_[middle];
-        const double away = query.point[axis] - points_[middle][axis];
-        if (away < 0)
-            search(query, begin, middle, off, found);
-        else
-            search(query, middle + 1, end, off, found);
-        off[axis] = away;
-        if (query.within2 * dot(off, off) >= found.distance2) return;
-        compare(query, middle, found);
-        if (away < 0)
-            search(query, middle + 1, end, off, found);
-        else
-            search(query, begin, middle, off, found);
-    }
-
-    std::vector<Vec3> points_;
-    std::vector<std::uint8_t> axis_;  // of the middle of a range that is divided
-};
-
-// A point, and the nearest one on the other side of the plane to its mirror image.
-struct Pair {
-    Vec3 point;
-    Vec3 match;
-    double distance2 = 0;
-};
-
-// Pairs of every n-th point. None where all points lie on one side.
-std::vector<Pair> matched(const PointTree& tree, const Plane& plane, const Matching& how) {
-    std::vector<Pair> pairs;
-    pairs.reserve(tree.points().size() / how.every + 1);
-    std::array<PointTree::Found, 2> last;  // below, above; points are near to those before them in the tree
-    for (std::size_t i = 0; i < tree.points().size(); i += how.every) {
-        const Vec3 p = tree.points()[i];
-        const bool is_above = height(plane.normal, p) > plane.offset;
-        PointTree::Found& found = last[is_above ? 0 : 1];
-        found = tree.nearest(reflected(p, plane), plane, !is_above, found, how.within);
-        if (found.distance2 == infinite) return {};
-        pairs.push_back({p, tree.points()[found.point], found.distance2});
-    }
-    return pairs;
-}
-
-std::size_t share_of(std::size_t count, double share) {
-    return std::max<std::size_t>(1, static_cast<std::size_t>(share * static_cast<double>(count)));
-}
-
-void keep_closest(std::vector<Pair>& pairs, double share) {
-    if (pairs.empty()) return;
-    const std::size_t kept = share_of(pairs.size(), share);
-    std::nth_element(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(kept) - 1, pairs.end(),
-                     [](const Pair& a, const Pair& b) { return a.distance2 < b.distance2; });
-    pairs.resize(kept);
-}
-
-double score(const PointTree& tree, const Plane& plane, const Matching& how) {
-    std::vector<Pair> pairs = matched(tree, plane, how);
-    if (pairs.empty()) return infinite;
-    keep_closest(pairs, scored_share);
-    double sum = 0;
-    for (const Pair& pair : pairs) sum += std::sqrt(pair.distance2);
-    return sum / static_cast<double>(pairs.size());
-}
 
 using Matrix = std::array<Vec3, 3>;  // symmetric, by rows
 
@@ -195,14 +62,14 @@ Vec3 least_eigenvector(Matrix m) {
 // The plane for which the squared distances of mirror images from their matches add up to least. With heights a and b
 // of point and match over it, the squared distance is that of the points themselves plus 4 a b: so the plane goes
 // through the centroid c of all, and its normal n makes the sum of (n.(p - c)) (n.(q - c)) least, an eigenvector.
-Plane fitted(const std::vector<Pair>& pairs) {
+Plane fitted(const std::vector<MirrorMatch>& matches) {
     Vec3 sum;
-    for (const Pair& pair : pairs) sum = sum + pair.point + pair.match;
-    const Vec3 centre = (0.5 / static_cast<double>(pairs.size())) * sum;
+    for (const MirrorMatch& match : matches) sum = sum + match.point + match.match;
+    const Vec3 centre = (0.5 / static_cast<double>(matches.size())) * sum;
     Matrix products{};
-    for (const Pair& pair : pairs) {
-        const Vec3 p = pair.point - centre;
-        const Vec3 q = pair.match - centre;
+    for (const MirrorMatch& match : matches) {
+        const Vec3 p = match.point - centre;
+        const Vec3 q = match.match - centre;
         for (int i = 0; i < 3; ++i) {
             for (int j = 0; j < 3; ++j) products[i][j] += 0.5 * (p[i] * q[j] + p[j] * q[i]);
         }
@@ -211,51 +78,79 @@ Plane fitted(const std::vector<Pair>& pairs) {
     return canonical({n, dot(n, centre)});
 }
 
-Plane refined(const PointTree& tree, Plane plane, const Matching& how, int turns) {
-    for (int turn = 0; turn < turns; ++turn) {
-        std::vector<Pair> pairs = matched(tree, plane, how);
-        if (pairs.empty()) return plane;
-        keep_closest(pairs, matched_share);
-        const Plane before = plane;
-        plane = fitted(pairs);
-        if (norm(plane.normal - before.normal) < how.enough_turn) return plane;
-    }
-    return plane;
-}
-
 struct Scored {
     Plane plane;
     double score = infinite;
 };
 
+// By turns of matching and fitting; a turn of the normal by less than `enough` (radians) is the last.
+Plane refined(const MirrorMatches& mirror, Plane plane, const Matching& how, double enough, int turns) {
+    for (int turn = 0; turn < turns; ++turn) {
+        std::vector<MirrorMatch> matches = mirror.of(plane, how);
+        if (matches.empty()) return plane;
+        keep_closest(matches, matched_share);
+        const Plane before = plane;
+        plane = fitted(matches);
+        if (norm(plane.normal - before.normal) < enough) return plane;
+    }
+    return plane;
+}
+
+// Turned by an angle about a point in it.
+Plane turned(const Plane& plane, Vec3 centre, Vec3 towards, double angle_rad) {
+    const Vec3 in_plane = centre - (height(plane.normal, centre) - plane.offset) * plane.normal;
+    const Vec3 normal = normalized(std::cos(angle_rad) * plane.normal + std::sin(angle_rad) * towards);
+    return canonical({normal, dot(normal, in_plane)});
+}
+
+// Turned about two axes in it, and shifted, by a step either way.
+std::array<Scored, 6> around(const Plane& plane, Vec3 centre, double step_rad, double shift) {
+    const PlaneFrame frame = frame_across(plane.normal);
+    return {{{turned(plane, centre, frame.u, step_rad)},
+             {turned(plane, centre, frame.u, -step_rad)},
+             {turned(plane, centre, frame.v, step_rad)},
+             {turned(plane, centre, frame.v, -step_rad)},
+             {canonical({plane.normal, plane.offset + shift})},
+             {canonical({plane.normal, plane.offset - shift})}}};
+}
+
+// Goes to the best plane around while one is better, then halves the step: pattern search (Hooke and Jeeves, "Direct
+// search" solution of numerical and statistical problems, 1961). What is found has the least score, which the fit
+// of squares has not where much of one side has no match.
+Scored descended(const MirrorMatches& mirror, const Lever& lever, Scored best, const Matching& how, double step_rad,
+                 double least_rad) {
+    best.score = mirror.score(best.plane, how);
+    while (step_rad >= least_rad) {
+        std::array<Scored, 6> tried = around(best.plane, lever.centre, step_rad, step_rad * lever.arm);
+        parallel_for(0, tried.size(), [&](std::size_t i) { tried[i].score = mirror.score(tried[i].plane, how); });
+        const auto least = std::min_element(tried.begin(), tried.end(),
+                                            [](const Scored& a, const Scored& b) { return a.score < b.score; });
+        if (least->score < best.score)
+            best = *least;
+        else
+            step_rad /= 2;
+    }
+    return best;
+}
+
 // Scores the planes with every n-th point and keeps so many of the best. Of equal scores the earlier plane is better.
-void keep_best(std::vector<Scored>& planes, const PointTree& tree, const Matching& how, std::size_t kept) {
-    parallel_for(0, planes.size(), [&](std::size_t i) { planes[i].score = score(tree, planes[i].plane, how); });
+void keep_best(std::vector<Scored>& planes, const MirrorMatches& mirror, const Matching& how, std::size_t kept) {
+    parallel_for(0, planes.size(), [&](std::size_t i) { planes[i].score = mirror.score(planes[i].plane, how); });
     std::stable_sort(planes.begin(), planes.end(), [](const Scored& a, const Scored& b) { return a.score < b.score; });
     planes.resize(std::min(planes.size(), kept));
 }
 
-void refine(std::vector<Scored>& planes, const PointTree& tree, const Matching& how, int turns) {
+void refine(std::vector<Scored>& planes, const MirrorMatches& mirror, const Matching& how, double enough, int turns) {
     parallel_for(0, planes.size(),
-                 [&](std::size_t i) { planes[i].plane = refined(tree, planes[i].plane, how, turns); });
+                 [&](std::size_t i) { planes[i].plane = refined(mirror, planes[i].plane, how, enough, turns); });
 }
 
-// The triangles of solids whose area is too small. Empty: none.
-std::vector<bool> small_solids(const TriangleMesh& scan, double least_share) {
-    const Shells found = shells(scan);
-    if (found.count() < 2) return {};
-    const std::vector<std::uint32_t> solid = solid_of_triangle(found, solids(scan, found, {0, 0, 1}));
-    std::vector<double> area(*std::max_element(solid.begin(), solid.end()) + 1);
-    for (std::size_t t = 0; t < solid.size(); ++t) area[solid[t]] += norm(area_vector(scan, t));
-    const double least = least_share * *std::max_element(area.begin(), area.end());
-    std::vector<bool> is_small(solid.size());
-    for (std::size_t t = 0; t < solid.size(); ++t) is_small[t] = area[solid[t]] < least;
-    return is_small;
-}
-
-Vec3 centroid(const std::vector<Vec3>& points) {
-    const Vec3 sum = std::accumulate(points.begin(), points.end(), Vec3{});
-    return (1 / static_cast<double>(points.size())) * sum;
+Lever lever_of(const std::vector<Vec3>& points) {
+    const double share = 1 / static_cast<double>(points.size());
+    const Vec3 centre = share * std::accumulate(points.begin(), points.end(), Vec3{});
+    double sum = 0;
+    for (const Vec3& p : points) sum += dot(p - centre, p - centre);
+    return {centre, std::sqrt(share * sum)};
 }
 
 }  // namespace
@@ -288,29 +183,30 @@ double symmetry_score(std::span<const Vec3> points, const Plane& plane) {
 }
 
 std::optional<SymmetryPlane> symmetry_plane(const TriangleMesh& scan, const SymmetryOptions& options) {
-    const SampledSurface surface{&scan, small_solids(scan, options.least_solid_area)};
-    const SurfaceSamples samples = surface_samples({&surface, 1}, options.points);
+    const SurfaceSamples samples = symmetry_samples(scan, options.points, options.least_solid_area);
     std::vector<Vec3> points;
     for (const SurfaceSample& sample : samples.sample) points.push_back(sample.point);
     if (points.size() < 4) return std::nullopt;
-    const Vec3 centre = centroid(points);
-    const PointTree tree(std::move(points));
+    const Lever lever = lever_of(points);
+    const MirrorMatches mirror(std::move(points));
     std::vector<Scored> planes;
     for (const Vec3& d : dense_directions(2 * options.directions)) {
-        if (d.z > 0) planes.push_back({canonical({d, dot(d, centre)})});
+        if (d.z > 0) planes.push_back({canonical({d, dot(d, lever.centre)})});
     }
-    // Points of a k-d tree in its order: every n-th of them are spread over the surface.
-    const auto some = [&](std::size_t of, double within, double enough_turn) {
-        return Matching{std::max<std::size_t>(1, options.points / of), within, enough_turn};
+    const auto some = [&](std::size_t of, double within) {
+        return Matching{std::max<std::size_t>(1, options.points / of), within};
     };
-    keep_best(planes, tree, some(250, 2, 0), planes.size() / 5);
-    keep_best(planes, tree, some(1'000, 2, 0), 6 * options.refined);
-    refine(planes, tree, some(400, 1.5, 2e-3), 10);
-    keep_best(planes, tree, some(1'000, 1.5, 0), options.refined);
-    refine(planes, tree, some(2'000, 1.2, 5e-4), 6);
-    keep_best(planes, tree, some(2'500, 1, 0), 1);
-    refine(planes, tree, {}, 8);
-    keep_best(planes, tree, {}, 1);
+    keep_best(planes, mirror, some(250, 2), planes.size() / 5);
+    keep_best(planes, mirror, some(1'000, 2), 6 * options.refined);
+    refine(planes, mirror, some(400, 1.5), 2e-3, 10);
+    keep_best(planes, mirror, some(1'000, 1.5), options.refined);
+    refine(planes, mirror, some(2'000, 1.2), 5e-4, 6);
+    keep_best(planes, mirror, some(2'500, 1), 3);
+    for (Scored& s : planes) s = descended(mirror, lever, s, some(2'500, 1), 0.03, 0.004);
+    keep_best(planes, mirror, {}, 1);
+    planes.push_back({refined(mirror, planes[0].plane, {}, 5e-5, 4)});  // better where all is symmetric
+    keep_best(planes, mirror, {}, 1);
+    planes[0] = descended(mirror, lever, planes[0], {}, 0.004, 0.001);
     if (planes.front().score == infinite) return std::nullopt;
     return SymmetryPlane{planes.front().plane, planes.front().score, std::sqrt(samples.area_each_mm2)};
 }

@@ -146,8 +146,8 @@ std::vector<Bsp> next_round(std::vector<Bsp> beam, const SearchSettings& setting
             kept.push_back(std::move(parent));
             continue;
         }
-        const Cut cut = cut_by(parent.segmentation, *parent.next.piece, parent.ranked, parent.children[taken.child],
-                               settings.runners_up);
+        const Cut cut =
+            cut_by(parent.segmentation, *parent.next.piece, parent.ranked, parent.children[taken.child], settings);
         std::optional<Segmentation> child =
             parent.next.is_trial
                 ? better_by_trial(parent.segmentation, cut, trials[taken.bsp], settings, judge, cache, context)

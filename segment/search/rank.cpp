@@ -1,4 +1,4 @@
-// O(c log c) for c candidates that have terms; O(c^2) to drop near duplicates.
+// O(c log c) for c candidates that have terms; O(c^2) to drop near duplicates and neighbours.
 
 #include "segment/search/rank.h"
 
@@ -6,6 +6,9 @@
 #include <cassert>
 #include <cstdlib>
 #include <utility>
+
+#include "segment/cut/nudge.h"
+#include "segment/mesh/measure.h"
 
 namespace qchopper {
 namespace {
@@ -104,16 +107,47 @@ std::vector<std::size_t> without_near_duplicates(const std::vector<Ranked>& rank
     return kept;
 }
 
+std::vector<std::size_t> without_neighbours(const std::vector<Ranked>& ranked, const Piece& piece,
+                                            const CandidateOptions& options, std::size_t most) {
+    constexpr double slack = 1.001;  // planes are nudged by less
+    const Box box = bounds(*piece.mesh);
+    const Vec3 centre = box.centre();
+    const double radius = norm(box.size()) / 2;
+    const double longest_step = offset_step({0, 2 * radius}, options);
+    std::vector<std::size_t> kept;
+    std::vector<std::optional<double>> step;  // per plane that is kept, once it is needed
+    const auto is_neighbour = [&](const Plane& plane, std::size_t k) {
+        const Plane& better = ranked[kept[k]].plane;
+        const double sign = dot(plane.normal, better.normal) < 0 ? -1 : 1;
+        const double turned = norm(plane.normal - sign * better.normal) * radius;
+        const double moved = std::abs(plane.offset - height(plane.normal, centre) -
+                                      sign * (better.offset - height(better.normal, centre)));
+        if (moved + turned > slack * longest_step) return false;
+        if (!step[k]) step[k] = offset_step(extent(*piece.mesh, better.normal), options);
+        return moved + turned <= slack * *step[k];
+    };
+    for (std::size_t i = 0; i < ranked.size() && kept.size() < most; ++i) {
+        bool is_near = false;
+        for (std::size_t k = 0; k < kept.size() && !is_near; ++k) is_near = is_neighbour(ranked[i].plane, k);
+        if (is_near) continue;
+        kept.push_back(i);
+        step.emplace_back();
+    }
+    return kept;
+}
+
 Cut cut_by(const Segmentation& segmentation, std::size_t piece, const std::vector<Ranked>& ranked, std::size_t k,
-           std::size_t runners_up) {
+           const SearchSettings& settings) {
     assert(piece < segmentation.pieces.size() && k < ranked.size());
     Cut cut;
     cut.number = static_cast<std::int32_t>(segmentation.cuts.size()) + 1;
     cut.piece = segmentation.pieces[piece].name;
     cut.candidates = ranked.size();
     cut.chosen = ranked[k];
-    for (std::size_t i = 0; i < ranked.size() && cut.runners_up.size() < runners_up; ++i) {
-        if (i != k) cut.runners_up.push_back(ranked[i]);
+    const std::size_t most = settings.runners_up;
+    for (const std::size_t i :
+         without_neighbours(ranked, segmentation.pieces[piece], settings.candidates, most > 0 ? most + 1 : 0)) {
+        if (i != k && cut.runners_up.size() < most) cut.runners_up.push_back(ranked[i]);
     }
     return cut;
 }

@@ -42,9 +42,16 @@ void sort_ranking(std::vector<Ranked>& ranked, const Objectives& objectives);
 std::vector<std::size_t> without_near_duplicates(const std::vector<Ranked>& ranked, int offsets_per_normal,
                                                  double near);
 
-// The cut by the k-th of a ranking (from 0), with up to `runners_up` of the others. Its number follows those of the
-// cuts that are made. Precondition: k < ranked.size().
+// Drops from a ranking every plane that is nowhere in the piece further than one step of the offsets from a better one:
+// what an operator is shown, and what a cut records beside its plane. Returns the indices of the first `most` of the
+// others, best first. A plane along one of the candidates' normals has two neighbours at most. O(planes x planes that
+// are kept + points x planes that are kept).
+std::vector<std::size_t> without_neighbours(const std::vector<Ranked>& ranked, const Piece& piece,
+                                            const CandidateOptions& options, std::size_t most);
+
+// The cut by the k-th of a ranking (from 0), with up to settings.runners_up of the others (without_neighbours). Its
+// number follows those of the cuts that are made. Precondition: k < ranked.size().
 Cut cut_by(const Segmentation& segmentation, std::size_t piece, const std::vector<Ranked>& ranked, std::size_t k,
-           std::size_t runners_up);
+           const SearchSettings& settings);
 
 }  // namespace qchopper

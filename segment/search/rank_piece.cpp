@@ -79,7 +79,14 @@ std::optional<Ranked> rank_plane(const Segmentation& segmentation, std::size_t p
     const Piece& target = segmentation.pieces[piece];
     PieceEvaluations alone{{plane}, {cache.evaluation_of(target, plane, context)}};
     if (alone.evaluations.front() && is_ranked_by_reach(target, settings)) {
-        alone.evaluations.front()->reach = cut_reach(target, plane.plane, settings.objectives.tilt_deg);
+        const Objectives& objectives = settings.objectives;
+        CutEvaluation& evaluation = *alone.evaluations.front();
+        evaluation.reach = cut_reach(target, plane.plane, objectives.tilt_deg);
+        if (evaluation.solids.size() > 2) {
+            evaluation.reach->unreachable_mm2 =
+                unreachable_when_cut_mm2(target, plane.plane, objectives.fragment_volume_mm3, objectives.tilt_deg)
+                    .value_or(evaluation.reach->unreachable_mm2);
+        }
     }
     const std::vector<PieceShare> others = shares_of_others(segmentation, piece, settings.objectives, cache);
     const std::vector<Ranked> ranked =

@@ -12,9 +12,7 @@
 
 #include "base/parallel.h"
 #include "base/timings.h"
-#include "segment/cut/cut_piece.h"
 #include "segment/cut/nudge.h"
-#include "segment/mesh/measure.h"
 #include "segment/score/cut_reach.h"
 #include "segment/score/dense_reach.h"
 #include "segment/score/sweep.h"
@@ -356,8 +354,8 @@ class ReachRanking {
         return *prepared_;
     }
 
-    // Puts the best plane, refined, before all if that leaves less out of reach and costs less. Not where its sides are
-    // several solids, because only cutting judges those, nor where the piece is cut for size.
+    // Adds the best plane, moved and turned a little, where its total puts it. Not where its sides are several solids,
+    // because only cutting judges those, nor where the piece is cut for size.
     std::vector<Ranked> with_refined(std::vector<Ranked> ranked) {
         if (ranked.empty()) return ranked;
         const ReachPlane& best = plane_of(ranked.front());
@@ -370,7 +368,8 @@ class ReachRanking {
         if (!reach_.refined) return ranked;
         const std::vector<Ranked> refined =
             rank({{reach_.refined->candidate}, {reach_.refined->evaluation}}, others_, settings_.objectives, scan_);
-        ranked.insert(ranked.begin(), refined.begin(), refined.end());
+        ranked.insert(ranked.end(), refined.begin(), refined.end());
+        sort_ranking(ranked, settings_.objectives);
         return ranked;
     }
 
@@ -380,32 +379,16 @@ class ReachRanking {
         const StageTimer stage(context_, "planes refined");
         DenseReach reach(piece_, settings_.objectives.tilt_deg);
         const double step = offset_step(extent(*piece_.mesh, best.candidate.plane.normal), settings_.candidates) / 2;
-        const double before = reach.unreachable_mm2(best.candidate.plane);
         const auto is_allowed = [&](const Plane& plane) {
             return !is_forbidden(forbidden_heights(no_cut_, plane.normal), plane.offset);
         };
         const RefinedPlane found = refined_plane(reach, piece_, best.candidate.plane, step, context_, is_allowed);
-        if (found.unreachable_mm2 >= before) return;
-        ReachPlane refined = best;
+        if (found.plane == best.candidate.plane) return;
         const std::optional<Nudged> nudged = nudge(piece_, found.plane.normal, {&found.plane.offset, 1}).front();
         if (!nudged || !is_allowed({found.plane.normal, nudged->offset})) return;
-        refined.candidate.plane = {found.plane.normal, nudged->offset};
-        refined.candidate.wanted_offset = found.plane.offset;
-        refined.candidate.normal_index = refined_index;
-        refined.candidate.offset_index = refined_index;
-        std::vector<std::optional<CutEvaluation>> evaluation =
-            sweep_solids(prepared_piece(), found.plane.normal, {&nudged->offset, 1});
-        if (!evaluation.front() || evaluation.front()->solids.size() != 2) return;
-        add_late_terms(prepared_piece(), found.plane.normal, {&nudged->offset, 1}, settings_.objectives, evaluation);
-        evaluation.front()->reach = CutReach{found.unreachable_mm2, area};
-        const std::optional<Terms> after =
-            terms(*evaluation.front(), counted_others(), settings_.objectives, counted_scan());
-        refined.evaluation->reach->unreachable_mm2 = before;
-        const std::optional<Terms> unrefined =
-            terms(*refined.evaluation, counted_others(), settings_.objectives, counted_scan());
-        if (!after || after->total >= unrefined->total - tie) return;
-        evaluation.front()->reach = cut_reach(piece_, refined.candidate.plane, settings_.objectives.tilt_deg);
-        refined.evaluation = std::move(evaluation.front());
+        ReachPlane refined =
+            evaluated_alone({{found.plane.normal, nudged->offset}, found.plane.offset, refined_index, refined_index});
+        if (!refined.evaluation || refined.evaluation->solids.size() != 2) return;
         reach_.refined = std::move(refined);
     }
 
@@ -425,9 +408,10 @@ class ReachRanking {
         return rank(all, others, settings_.objectives, scan_);
     }
 
-    // Of the planes that are taken as the best, the first whose sides are several solids and that was not cut yet.
+    // Of the planes that are taken, and those that setups may choose before them (app/project/verdict.h), the first
+    // whose sides are several solids and that was not cut yet.
     ReachPlane* first_in_doubt(const std::vector<Ranked>& ranked) {
-        for (std::size_t i = 0; i < std::min(settings_.beam, ranked.size()); ++i) {
+        for (std::size_t i = 0; i < std::min(std::max(settings_.beam, least_best_planes), ranked.size()); ++i) {
             ReachPlane& plane = plane_of(ranked[i]);
             if (!plane.is_really_cut && plane.evaluation->solids.size() > 2) return &plane;
         }
@@ -438,15 +422,10 @@ class ReachRanking {
         const StageTimer stage(context_, "cuts made");
         context_.check_cancelled();
         plane.is_really_cut = true;
-        std::optional<CutPieces> made = cut_piece(piece_, plane.candidate.plane, new_cut);
-        if (!made) return;
-        sample_parts(piece_, *made);
-        double unreachable = 0;
-        for (const Piece& part : made->pieces) {
-            if (volume_mm3(*part.mesh) < settings_.objectives.fragment_volume_mm3) continue;
-            unreachable += unreachable_mm2(part, settings_.objectives.tilt_deg);
-        }
-        plane.evaluation->reach->unreachable_mm2 = unreachable;
+        const Objectives& objectives = settings_.objectives;
+        const std::optional<double> unreachable = unreachable_when_cut_mm2(
+            piece_, plane.candidate.plane, objectives.fragment_volume_mm3, objectives.tilt_deg);
+        if (unreachable) plane.evaluation->reach->unreachable_mm2 = *unreachable;
     }
 
     const Piece& piece_;

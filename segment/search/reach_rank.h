@@ -4,8 +4,10 @@
 // The unreachable area of every plane of 132 normals follows from the piece's samples without cutting
 // (segment/score/reach_sweep.h). All other terms are at least 0, so a plane is not evaluated once its weighted
 // unreachable area alone exceeds the best total: the best plane is the one that evaluating all candidates would find
-// (tests/segment/search/reach_rank_test.cpp). A side of several solids is not judged by the sweep: the best such plane
-// is really cut before it is chosen. On the order and the candidates: docs/decisions/0022;
+// (tests/segment/search/reach_rank_test.cpp). A side of several solids is not judged by the sweep: such planes are
+// really cut if they come to stand among the first four. The best plane is moved and turned a little
+// (refined_plane.h), and the plane found stands where its total puts it, on the same samples as all others. On the
+// order and the candidates: docs/decisions/0022;
 // of pieces that are too large: docs/decisions/0024.
 
 #pragma once

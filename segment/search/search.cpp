@@ -102,17 +102,7 @@ class Search {
         for (Bsp& b : beam_) find_next_piece(b);
     }
 
-    // Passes pieces over whose unreachable area is so small that no cut can gain enough.
-    void find_next_piece(Bsp& b) {
-        for (b.next = judge_.next(b.segmentation, b.passed_over); b.next.is_trial;
-             b.next = judge_.next(b.segmentation, b.passed_over)) {
-            const Piece& piece = b.segmentation.pieces[*b.next.piece];
-            const double unreachable = judge_.unreachable(piece).mm2;
-            if (unreachable >= least_fall_mm2(b.segmentation, unreachable)) return;
-            b.passed_over.push_back(piece.name);
-            b.reverted.push_back({piece.name, 0, unreachable, unreachable, false});
-        }
-    }
+    void find_next_piece(Bsp& b) { b.next = judge_.next(b.segmentation, b.passed_over); }
 
     bool is_any_live() const {
         return std::any_of(beam_.begin(), beam_.end(), [](const Bsp& b) { return b.is_live(); });
@@ -148,6 +138,9 @@ class Search {
         for (std::size_t best = 1;; best *= more) {
             b.ranked =
                 rank(b.segmentation, *b.next.piece, settings_, cache_, context_, best, judge_.too_large_for(piece));
+            if (b.next.is_trial) {
+                b.ranked = judge_.planes_on_trial(b.segmentation, *b.next.piece, std::move(b.ranked));
+            }
             b.children = settings_.candidates.normals == CandidateNormals::sphere
                              ? without_near_planes(b.ranked, piece, cache_.box(piece))
                              : without_near_duplicates(b.ranked, most_offsets(settings_.candidates), settings_.near);
@@ -193,23 +186,30 @@ class Search {
     SearchEnd end(Segmentation& segmentation, std::optional<double> time_limit_s) {
         const auto finished = std::find_if(beam_.begin(), beam_.end(), [](const Bsp& b) { return b.next.is_finished; });
         const Bsp& best = finished != beam_.end() ? *finished : beam_.empty() ? *stuck_ : beam_.front();
-        const std::string time = time_limit_s ? describe(EndReason::time_limit, decimal(*time_limit_s)) : "";
+        SearchEnd result = end_with(best, finished != beam_.end(), time_limit_s);
+        result.cost = best.cost;
+        result.reverted = best.reverted;
         segmentation = best.segmentation;
-        if (finished != beam_.end()) {
+        return result;
+    }
+
+    SearchEnd end_with(const Bsp& best, bool is_finished, std::optional<double> time_limit_s) {
+        const std::string time = time_limit_s ? describe(EndReason::time_limit, decimal(*time_limit_s)) : "";
+        if (is_finished) {
             const EndReason reason = settings_.stop.is_any_set() ? EndReason::rules_hold : EndReason::no_rule;
-            return {reason, describe(reason) + (time_limit_s ? "; " + time : ""), best.cost};
+            return {reason, describe(reason) + (time_limit_s ? "; " + time : "")};
         }
-        if (time_limit_s) return {EndReason::time_limit, time, best.cost};
+        if (time_limit_s) return {EndReason::time_limit, time};
         const std::string pieces = settings_.stop.max_unreachable ? passed_over_pieces(best) : "";
         const int most = settings_.stop.max_cuts;
         const bool is_cut_short = std::any_of(best.reverted.begin(), best.reverted.end(),
                                               [](const RevertedTrial& trial) { return trial.is_cut_short; });
         if (static_cast<int>(best.segmentation.cuts.size()) >= most || is_cut_short) {
             const std::string sentence = describe(EndReason::max_cuts, std::to_string(most));
-            return {EndReason::max_cuts, sentence + (pieces.empty() ? "" : "; " + pieces), best.cost};
+            return {EndReason::max_cuts, sentence + (pieces.empty() ? "" : "; " + pieces)};
         }
-        if (pieces.empty()) return {EndReason::no_plane, describe(EndReason::no_plane), best.cost};
-        return {EndReason::passed_over, describe(EndReason::passed_over, pieces), best.cost};
+        if (pieces.empty()) return {EndReason::no_plane, describe(EndReason::no_plane)};
+        return {EndReason::passed_over, describe(EndReason::passed_over, pieces)};
     }
 
     // "piece B: 7.4 % of its surface is out of reach (2 % may be), three cuts changed that from 812 to 790 cm2", for

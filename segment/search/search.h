@@ -32,6 +32,7 @@ struct SearchEnd {
     EndReason reason = EndReason::rules_hold;
     std::string sentence;  // describe(reason) with its figure
     double cost = 0;
+    std::vector<RevertedTrial> reverted = {};  // of the pieces that are left
     bool is_finished() const { return qchopper::is_finished(reason); }
     bool is_out_of_time() const { return reason == EndReason::time_limit; }
 };

@@ -98,6 +98,11 @@ const UnreachableSurface& StopJudge::unreachable(const Piece& piece) {
     return *surface;
 }
 
+std::vector<Ranked> StopJudge::planes_on_trial(const Segmentation& segmentation, std::size_t piece,
+                                               std::vector<Ranked> ranked) const {
+    return checks_.planes_on_trial ? checks_.planes_on_trial(segmentation, piece, std::move(ranked)) : ranked;
+}
+
 BlocksNeeded StopJudge::too_large_for(const Piece& piece) {
     const std::vector<bool>& holds = verdict(piece).holds;
     BlocksNeeded all;

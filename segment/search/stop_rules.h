@@ -48,6 +48,10 @@ using UnreachableOf = std::function<UnreachableSurface(const Piece&)>;
 // allowed size itself, infinite: no number is enough. Never less for a box that is larger along any axis.
 using BlocksNeeded = std::function<double(Vec3 box_size)>;
 
+// The planes of the piece with this index in the order in which they are tried, from its ranking (rank_piece.h).
+using PlanesOnTrial =
+    std::function<std::vector<Ranked>(const Segmentation&, std::size_t piece, std::vector<Ranked> ranked)>;
+
 // What the rules ask of other modules. The rule of a function that is empty is left out; without blocks_needed a piece
 // that does not fit the cell is cut as any other.
 struct PieceChecks {
@@ -59,6 +63,10 @@ struct PieceChecks {
     // of low_blocks_needed.
     FitsCell is_carvable = {};
     BlocksNeeded low_blocks_needed = {};
+    // Surface (mm2) of which less is no gain of cuts on trial (trial.h): a patch that the finest tool cannot tell from
+    // none.
+    double least_gain_mm2 = 0;
+    PlanesOnTrial planes_on_trial = {};  // of a piece that is cut on trial; empty: the ranking as it is
 };
 
 // Whether the segmentation is finished, and if not, the piece that is cut next: of those that do not satisfy the rules
@@ -93,6 +101,9 @@ class StopJudge {
     BlocksNeeded too_large_for(const Piece& piece);
     // Precondition: max_unreachable is set, and its function is not empty.
     const UnreachableSurface& unreachable(const Piece& piece);
+    double least_gain_mm2() const { return checks_.least_gain_mm2; }
+    std::vector<Ranked> planes_on_trial(const Segmentation& segmentation, std::size_t piece,
+                                        std::vector<Ranked> ranked) const;
 
  private:
     struct Verdict {

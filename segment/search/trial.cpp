@@ -13,8 +13,8 @@
 namespace qchopper {
 namespace {
 
-constexpr double least_share_of_piece = 0.1;   // of its unreachable area
-constexpr double least_share_of_scan = 0.002;  // of the scan's area
+constexpr double least_share_of_unreachable = 0.1;
+constexpr double least_share_of_area = 0.002;
 constexpr double mm2_per_cm2 = 100;
 
 // What objectives of reach count: without caps, and without what is ignored.
@@ -23,14 +23,6 @@ double counted_area(const TriangleMesh& mesh) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         if (cap_of(mesh, t) == no_cap && !is_ignored(mesh, t)) area += norm(area_vector(mesh, t));
     }
-    return area;
-}
-
-double scan_area(const Segmentation& segmentation) {
-    double area = 0;
-    for (const Piece& piece : segmentation.pieces) area += counted_area(*piece.mesh);
-    for (const Fragment& fragment : segmentation.fragments) area += counted_area(*fragment.mesh);
-    for (const Discarded& discarded : segmentation.discarded) area += counted_area(*discarded.piece.mesh);
     return area;
 }
 
@@ -63,9 +55,10 @@ class Attempt {
         return sum;
     }
 
+    bool does_every_piece_hold() const { return failing().empty(); }
+
     bool make_next() {
-        std::vector<std::size_t> members = family();
-        std::erase_if(members, [&](std::size_t p) { return !judge_.breaks_a_rule(segmentation_.pieces[p]); });
+        std::vector<std::size_t> members = failing();
         std::stable_sort(members.begin(), members.end(), [&](std::size_t a, std::size_t b) {
             return judge_.unreachable(segmentation_.pieces[a]).mm2 > judge_.unreachable(segmentation_.pieces[b]).mm2;
         });
@@ -83,11 +76,20 @@ class Attempt {
         return members;
     }
 
+    // Those of the family that break a rule.
+    std::vector<std::size_t> failing() const {
+        std::vector<std::size_t> members = family();
+        std::erase_if(members, [&](std::size_t p) { return !judge_.breaks_a_rule(segmentation_.pieces[p]); });
+        return members;
+    }
+
     bool make_best(std::size_t piece) {
-        const std::vector<Ranked> ranked = rank(segmentation_, piece, settings_, cache_, context_, 1,
-                                                judge_.too_large_for(segmentation_.pieces[piece]));
+        const std::vector<Ranked> ranked =
+            judge_.planes_on_trial(segmentation_, piece,
+                                   rank(segmentation_, piece, settings_, cache_, context_, 1,
+                                        judge_.too_large_for(segmentation_.pieces[piece])));
         for (std::size_t k = 0; k < ranked.size(); ++k) {
-            if (make(cut_by(segmentation_, piece, ranked, k, settings_.runners_up))) return true;
+            if (make(cut_by(segmentation_, piece, ranked, k, settings_))) return true;
         }
         return false;
     }
@@ -103,8 +105,9 @@ class Attempt {
 
 }  // namespace
 
-double least_fall_mm2(const Segmentation& segmentation, double before_mm2) {
-    return std::max(least_share_of_piece * before_mm2, least_share_of_scan * scan_area(segmentation));
+double least_fall_mm2(const Piece& piece, double before_mm2, double least_gain_mm2) {
+    return std::max(
+        {least_share_of_unreachable * before_mm2, least_share_of_area * counted_area(*piece.mesh), least_gain_mm2});
 }
 
 std::optional<Trial> try_cuts(const Segmentation& segmentation, const Cut& first, const SearchSettings& settings,
@@ -114,10 +117,11 @@ std::optional<Trial> try_cuts(const Segmentation& segmentation, const Cut& first
     const auto piece = std::find_if(segmentation.pieces.begin(), segmentation.pieces.end(),
                                     [&](const Piece& p) { return p.name == first.piece; });
     const double before = judge.unreachable(*piece).mm2;
-    const double least = least_fall_mm2(segmentation, before);
+    const double least = least_fall_mm2(*piece, before, judge.least_gain_mm2());
     while (true) {
         const double after = attempt.unreachable_mm2();
-        if (before - after >= least) return Trial{std::move(attempt.segmentation()), {}};
+        if (before - after >= least || attempt.does_every_piece_hold())
+            return Trial{std::move(attempt.segmentation()), {}};
         const bool is_cut_short = attempt.cuts() < trial_cuts &&
                                   static_cast<int>(attempt.segmentation().cuts.size()) >= settings.stop.max_cuts;
         if (attempt.cuts() == trial_cuts || is_cut_short || !attempt.make_next()) {
@@ -128,7 +132,7 @@ std::optional<Trial> try_cuts(const Segmentation& segmentation, const Cut& first
 
 std::string describe(const RevertedTrial& trial) {
     constexpr std::array<const char*, trial_cuts> counts{"one cut", "two cuts", "three cuts"};
-    if (trial.cuts < 1 || trial.cuts > trial_cuts) return "too little of the scan for a cut to count";
+    if (trial.cuts < 1 || trial.cuts > trial_cuts) return "no cut was tried";  // in a file of another version
     const int decimals = trial.before_mm2 >= 10 * mm2_per_cm2 ? 1 : 3;
     return std::string(counts[static_cast<std::size_t>(trial.cuts) - 1]) + " changed that from " +
            fixed(trial.before_mm2 / mm2_per_cm2, decimals) + " to " + fixed(trial.after_mm2 / mm2_per_cm2, decimals) +

@@ -1,8 +1,9 @@
 // Cuts a piece on trial: its cuts are kept if they make enough of its surface reachable.
 //
-// mm2. Cuts make a piece better if, within three cuts of it and its descendants, their unreachable area falls by at
-// least 10 % of the piece's and by 0.2 % of the scan's area; one cut may gain nothing. Every cut made is real: nothing
-// is estimated. On what was chosen: docs/decisions/0020-cuts-on-trial-are-one-decision.md. Tests:
+// mm2. Cuts make a piece better if, within three cuts of it and its descendants, every piece holds the rules, or their
+// unreachable area falls by at least 10 % of the piece's, by 0.2 % of the piece's area, and by what the finest tool can
+// tell from nothing (PieceChecks::least_gain_mm2); one cut may gain nothing. Every cut made is real: nothing is
+// estimated. On what was chosen: docs/decisions/0020-cuts-on-trial-are-one-decision.md. Tests:
 // tests/segment/search/trial_test.cpp.
 
 #pragma once
@@ -21,9 +22,9 @@ namespace qchopper {
 
 constexpr int trial_cuts = 3;
 
-// By how much the unreachable area of a piece of the segmentation must fall at least, if `before_mm2` is out of reach
-// now. O(triangles of all pieces, fragments and discarded pieces).
-double least_fall_mm2(const Segmentation& segmentation, double before_mm2);
+// By how much the unreachable area of a piece must fall at least, if `before_mm2` is out of reach now and not every
+// piece holds the rules then. O(triangles).
+double least_fall_mm2(const Piece& piece, double before_mm2, double least_gain_mm2);
 
 struct Trial {
     std::optional<Segmentation> better;  // with the cuts until the first that was enough
@@ -31,9 +32,9 @@ struct Trial {
 };
 
 // Makes the cut `first`, then up to two more: always of the piece with the largest unreachable area, of those that the
-// trial made and that break a rule, by its best candidate; a piece without candidates is left. Ends before max_cuts is
-// exceeded. Returns nothing if `first` does not apply. Precondition: the judge's rule max_unreachable is in force.
-// Throws Cancelled.
+// trial made and that break a rule, by its best candidate (StopJudge::planes_on_trial); a piece without candidates is
+// left. Ends before max_cuts is exceeded. Returns nothing if `first` does not apply. Precondition: the judge's rule
+// max_unreachable is in force. Throws Cancelled.
 std::optional<Trial> try_cuts(const Segmentation& segmentation, const Cut& first, const SearchSettings& settings,
                               StopJudge& judge, EvaluationCache& cache, const Context& context);
 

@@ -28,11 +28,12 @@ double above_zero(KrlLine& line, double largest) {
 }
 
 // [i] = percent
-void read_axis(KrlLine& line, std::array<double, 6>& shares) {
+void read_axis(KrlLine& line, std::array<double, 6>& shares, std::array<bool, 6>& stated) {
     line.need('[');
     const std::uint32_t axis = line.integer(1, 6);
     line.need(']');
     shares[axis - 1] = above_zero(line, 100) / 100;
+    stated[axis - 1] = true;
 }
 
 // EK(MACHINE_DEF[n].ROOT,MACHINE_DEF[n].MECH_TYPE,{...})
@@ -70,7 +71,9 @@ void read_speed(KrlLine& line, ModalState& state, StatedHere& stated) {
         state.feed = per_metre * above_zero(line, largest_speed);
         stated.feed = true;
     } else if (which == "ori1" || which == "ori2") {
-        state.turn_speed[which == "ori1" ? 0 : 1] = radian * above_zero(line, largest_turn);
+        const std::size_t turn = which == "ori1" ? 0 : 1;
+        state.turn_speed[turn] = radian * above_zero(line, largest_turn);
+        stated.turn_speed[turn] = true;
     } else {
         line.refuse("$VEL." + which + " is not known");
     }
@@ -83,10 +86,11 @@ void read_acceleration(KrlLine& line, ModalState& state, StatedHere& stated) {
     stated.acceleration = true;
 }
 
-void read_rounding(KrlLine& line, ModalState& state) {
+void read_rounding(KrlLine& line, ModalState& state, StatedHere& stated) {
     line.need('.');
     line.need_word("cdis");
     state.rounding = value_of(line, 0, per_metre);
+    stated.rounding = true;
 }
 
 }  // namespace
@@ -95,18 +99,19 @@ bool read_assignment(const std::string& name, KrlLine& line, ModalState& state, 
     if (name == "$advance") {
         state.look_ahead = static_cast<int>((line.need('='), line.integer(0, 5)));
     } else if (name == "$apo") {
-        read_rounding(line, state);
+        read_rounding(line, state, stated);
     } else if (name == "$vel") {
         read_speed(line, state, stated);
     } else if (name == "$acc") {
         read_acceleration(line, state, stated);
     } else if (name == "$vel_axis") {
-        read_axis(line, state.axis_speed);
+        read_axis(line, state.axis_speed, stated.axis_speed);
     } else if (name == "$acc_axis") {
-        read_axis(line, state.axis_acceleration);
+        read_axis(line, state.axis_acceleration, stated.axis_acceleration);
     } else if (name == "$load") {
         line.need('=');
         state.load = read_load(line);
+        stated.load = true;
     } else if (name == "$tool") {
         line.need('=');
         state.tool = read_frame(line);

@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "sim/program/krl_line.h"
@@ -15,8 +16,13 @@ namespace qchopper {
 struct StatedHere {
     bool tool = false;
     bool base = false;
+    bool load = false;
     bool feed = false;
     bool acceleration = false;
+    bool rounding = false;
+    std::array<bool, 2> turn_speed{};
+    std::array<bool, 6> axis_speed{};
+    std::array<bool, 6> axis_acceleration{};
     bool pose = false;  // the LIN may leave out what stays
 };
 

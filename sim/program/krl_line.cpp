@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "base/error.h"
 #include "base/text.h"
 
 namespace qchopper {
@@ -26,9 +25,15 @@ char lower(char c) {
 
 }  // namespace
 
+LineRefused::LineRefused(const std::string& file_name, std::size_t line_number, const std::string& reason)
+    : InputError(InputFault::mesh, "program " + file_name + ", line " + std::to_string(line_number) + ": " + reason,
+                 "Make the job again; the program was not written by this version, or it was changed."),
+      file(file_name),
+      line(line_number),
+      why(reason) {}
+
 void refuse_line(const std::string& file, std::size_t line, const std::string& why) {
-    throw InputError(InputFault::mesh, "program " + file + ", line " + std::to_string(line) + ": " + why,
-                     "Make the job again; the program was not written by this version, or it was changed.");
+    throw LineRefused(file, line, why);
 }
 
 void KrlLine::pass_space() {

@@ -9,9 +9,21 @@
 #include <string>
 #include <string_view>
 
+#include "base/error.h"
+
 namespace qchopper {
 
-// Throws InputError (mesh) with file and line.
+// Of kind mesh; its message names file and line too.
+class LineRefused : public InputError {
+ public:
+    LineRefused(const std::string& file_name, std::size_t line_number, const std::string& reason);
+
+    std::string file;
+    std::size_t line;  // from 1
+    std::string why;
+};
+
+// Throws LineRefused.
 [[noreturn]] void refuse_line(const std::string& file, std::size_t line, const std::string& why);
 
 // Reads a line from left to right. What is asked for and does not stand there is refused by refuse_line().

@@ -45,6 +45,8 @@ class KrlExecution {
     void read_init(KrlLine& line, bool is_main);
     void read_halt(const Source& source, std::size_t at, KrlLine& line);
     void read_call(const std::string& name, KrlLine& line, bool is_main);
+    void check_before_ptp(const KrlLine& line) const;
+    void refuse_rounded() const;
     void check_before_lin(const KrlLine& line, const KrlAggregate& target) const;
     void check_end() const;
     void begin_chunk(bool is_main);
@@ -61,9 +63,12 @@ class KrlExecution {
     SourcePlace place_;
     std::array<double, 6> pose_{};
     std::optional<double> e1_;
-    std::uint32_t hole_ = 0;  // that the lines drill
+    std::uint32_t hole_ = 0;              // that the lines drill
+    std::optional<SourcePlace> rounded_;  // the LIN with C_DIS behind which no move stands yet
     bool is_initialised_ = false;
+    bool is_main_ = false;    // what is executed is the main program
     bool has_moved_ = false;  // in the chunk that is executed
+    std::uint32_t end_line_ = 0;
     std::optional<SourcePlace> chained_, without_e1_, with_e1_;
     std::uint32_t machine_ = 0;        // of MACHINE_DEF to which bases are chained
     std::uint32_t external_axis_ = 0;  // n of En
@@ -114,6 +119,7 @@ ParsedProgram KrlExecution::run() {
 // Other comments say nothing that is needed, and one with another number than 1 to 9999 is another comment.
 void KrlExecution::read_comment(std::string_view line) {
     constexpr std::string_view before = ";hole ";
+    if (lower_case(line) == ";start from home: free") program_.chunks.back().free_from_home = place_.line;
     if (lower_case(line.substr(0, before.size())) != before) return;
     const std::string_view digits = line.substr(before.size());
     std::uint32_t number = 0;
@@ -124,9 +130,10 @@ void KrlExecution::read_comment(std::string_view line) {
 
 void KrlExecution::begin_chunk(bool is_main) {
     stated_ = {};
+    is_main_ = is_main;
     hole_ = 0;
     has_moved_ = false;
-    program_.chunks.push_back({place_.file, program_.steps.size(), program_.steps.size(), is_main});
+    program_.chunks.push_back({place_.file, program_.steps.size(), program_.steps.size(), is_main, end_line_, 0});
 }
 
 void KrlExecution::end_chunk() {
@@ -136,6 +143,7 @@ void KrlExecution::end_chunk() {
 void KrlExecution::execute(Source& source, bool is_main) {
     source.is_executed = true;
     place_ = {source.number, 0};
+    end_line_ = static_cast<std::uint32_t>(source.file.end + 1);
     begin_chunk(is_main);
     for (std::size_t i = source.file.first; i < source.file.end; ++i) {
         place_ = {source.number, static_cast<std::uint32_t>(i + 1)};
@@ -147,6 +155,7 @@ void KrlExecution::execute(Source& source, bool is_main) {
     }
     place_ = {source.number, static_cast<std::uint32_t>(source.file.end + 1)};
     if (!is_main && !has_moved_) refuse_line(*source.file.name, place_.line, "the chunk has no move");
+    refuse_rounded();
     end_chunk();
 }
 
@@ -194,16 +203,29 @@ void KrlExecution::take_external(const KrlLine& line, const KrlAggregate& target
     e1_ = radian * target[KrlComponent::external];
 }
 
+void KrlExecution::check_before_ptp(const KrlLine& line) const {
+    if (!is_initialised_) line.refuse("BAS(#INITMOV,0) must stand before the first move");
+    for (std::size_t axis = 0; axis < 6; ++axis) {
+        const bool is_known = state_.axis_speed[axis] > 0 && state_.axis_acceleration[axis] > 0;
+        const bool is_here = stated_.axis_speed[axis] && stated_.axis_acceleration[axis];
+        if (is_known && (is_here || is_main_)) continue;
+        line.refuse("$VEL_AXIS or $ACC_AXIS of axis " + std::to_string(axis + 1) + " was not stated in this file");
+    }
+    if (!stated_.load && !is_main_) line.refuse("$LOAD was not stated in this file");
+    refuse_rounded();
+}
+
+// The controller cannot round the corner of a LIN to anything but a LIN.
+void KrlExecution::refuse_rounded() const {
+    if (!rounded_) return;
+    refuse_line(program_.files[rounded_->file], rounded_->line, "C_DIS stands where the next move is no LIN");
+}
+
 void KrlExecution::read_ptp(KrlLine& line) {
     const KrlAggregate target = read_aggregate(line);
     line.need_end();
     if ((target.given & ~krl_external) != krl_axes) line.refuse("PTP needs A1 to A6, and E1 on a rotary table");
-    if (!is_initialised_) line.refuse("BAS(#INITMOV,0) must stand before the first move");
-    for (std::size_t axis = 0; axis < 6; ++axis) {
-        if (state_.axis_speed[axis] <= 0 || state_.axis_acceleration[axis] <= 0) {
-            line.refuse("speed or acceleration of axis " + std::to_string(axis + 1) + " was not stated");
-        }
-    }
+    check_before_ptp(line);
     (target.has(KrlComponent::external) ? with_e1_ : without_e1_) = place_;
     ProgramStep& step = add(StepKind::joint_move);
     for (std::size_t axis = 0; axis < 6; ++axis) step.values[axis] = radian * target.value[axis + 6];
@@ -217,6 +239,9 @@ void KrlExecution::check_before_lin(const KrlLine& line, const KrlAggregate& tar
     if (!has_moved_) line.refuse("the first move must be a PTP");
     if (!stated_.tool || !stated_.base) line.refuse("$TOOL or $BASE was not stated in this file");
     if (!stated_.feed || !stated_.acceleration) line.refuse("$VEL.CP or $ACC.CP was not stated in this file");
+    if (!stated_.turn_speed[0] || !stated_.turn_speed[1]) {
+        line.refuse("$VEL.ORI1 or $VEL.ORI2 was not stated in this file");
+    }
     const std::uint32_t given = target.given & ~krl_external;
     if (given != krl_frame && given != krl_position) line.refuse("LIN needs X, Y, Z, or these and A, B, C");
     if (given == krl_position && target.has(KrlComponent::external)) line.refuse("E1 stands with A, B, C only");
@@ -232,6 +257,8 @@ void KrlExecution::read_lin(KrlLine& line) {
     const bool is_rounded = line.takes_word("c_dis");
     line.need_end();
     check_before_lin(line, target);
+    if (is_rounded && !stated_.rounding) line.refuse("$APO.CDIS was not stated in this file");
+    rounded_ = is_rounded ? std::optional(place_) : std::nullopt;
     const bool is_full = (target.given & krl_frame) == krl_frame;
     for (std::size_t i = 0; i < 3; ++i) pose_[i] = target.value[i];
     for (std::size_t i = 3; i < 6 && is_full; ++i) pose_[i] = radian * target.value[i];
@@ -320,9 +347,12 @@ void KrlExecution::read_call(const std::string& name, KrlLine& line, bool is_mai
     if (!is_main || has_argument) line.refuse("only the main program calls chunks, and without arguments");
     if (found->second.is_executed) line.refuse("the program \"" + name + "\" is called twice");
     const SourcePlace back = place_;
+    const std::uint32_t end_line = end_line_;
     end_chunk();
+    refuse_rounded();
     execute(found->second, false);
     place_ = back;
+    end_line_ = end_line;
     begin_chunk(true);
 }
 

@@ -19,11 +19,13 @@ struct KrlOptions {
     std::vector<std::string> calls;  // programs that the cell file names: they may be called, and are not read
 };
 
-// `main` is the name of the main program, without ending. Throws InputError (mesh) with file and line if a line is not
+// `main` is the name of the main program, without ending. Throws LineRefused (krl_line.h) if a line is not
 // one of docs/programs.md, a number is out of its range, a chunk is called not at all or twice or is missing, a file is
-// truncated, or a move lacks what it needs: a chunk begins with a PTP, and before its first LIN states $TOOL, $BASE,
-// $VEL.CP and $ACC.CP itself, so that it can be started again; the first LIN of a file and the first after $BASE, $TOOL
-// or a PTP states X, Y, Z, A, B, C, and E1 on a rotary table.
+// truncated, or a move lacks what it needs: a chunk states $VEL_AXIS, $ACC_AXIS
+// and $LOAD itself before its first move, which is a PTP, $TOOL, $BASE, $VEL.CP, $ACC.CP, $VEL.ORI1 and $VEL.ORI2
+// before its first LIN, and $APO.CDIS before its first C_DIS, so that it can be started alone; the first LIN of a file
+// and the first after $BASE, $TOOL or a PTP states X, Y, Z, A, B, C, and E1 on a rotary table. Behind a LIN with C_DIS
+// the next move of its file is a LIN.
 ParsedProgram read_krl(std::span<const ProgramFile> files, std::string_view main, const KrlOptions& options = {});
 
 }  // namespace qchopper

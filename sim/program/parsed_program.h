@@ -90,6 +90,9 @@ struct ProgramChunk {
     std::size_t first = 0;  // steps first..end-1
     std::size_t end = 0;
     bool is_main = false;
+    std::uint32_t end_line = 0;  // with the END of the file
+    // Of a chunk: the line of the comment ";start from home: free"; 0: there is none.
+    std::uint32_t free_from_home = 0;
 };
 
 // In what a reader returns every index is valid, every number is finite, and every linear_move has a tool, a base and a

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <numbers>
 
 #include "base/text.h"
@@ -19,9 +20,38 @@ constexpr double floor_gap = 2;     // mm of the spoil layer that no tool point 
 constexpr double written = 0.011;   // mm: what rounding of coordinates may do to a bound
 constexpr int chords = 6;           // of a parabola
 constexpr double straight = 0.001;  // mm of deviation that needs no parabola
-// Of the tool's section: what rounding of a corner leaves standing may be higher than the flute is long.
+// Of the tool's section, and of its diameter in mm: so much foam may stand above the flute while the tool goes on by
+// its diameter. It is what rounding of a corner leaves, and skins on walls that are thinner than half a millimetre.
 constexpr double deep_share = 0.1;
+constexpr double deep_width = 0.5;
 constexpr double rim_step = 8;  // mm between points of a body that is sampled
+
+// Foam above the flute on the last lines: lines may be short, so that each alone meets little.
+class DeepWay {
+ public:
+    // Goes on by `mm` and meets `mm2`; the sum of the last `window` mm and the rest of the line where they begin.
+    double add(double mm, double mm2, double window) {
+        parts_.push_back({std::min(mm, window), mm2});
+        mm_ += parts_.back().mm;
+        mm2_ += mm2;
+        while (mm_ - parts_.front().mm >= window) {
+            mm_ -= parts_.front().mm;
+            mm2_ -= parts_.front().mm2;
+            parts_.pop_front();
+        }
+        return mm2_;
+    }
+    void reset() { *this = {}; }
+
+ private:
+    struct Part {
+        double mm = 0;
+        double mm2 = 0;
+    };
+    std::deque<Part> parts_;
+    double mm_ = 0;
+    double mm2_ = 0;
+};
 
 class FoamCarver {
  public:
@@ -50,6 +80,7 @@ class FoamCarver {
     const CellMachine& machine_;
     FindingLog& log_;
     HoleCheck holes_;
+    DeepWay deep_way_;
     std::vector<Cutter> cutters_;
     CarveFigures figures_;
 };
@@ -65,7 +96,8 @@ void FoamCarver::take_line(const TipLine& line, const std::vector<Vec3>& way) {
         all.touches |= cut.touches;
         all.volume += cut.volume;
         all.depth = std::max(all.depth, cut.depth);
-        all.deep_mm2 += cut.deep_mm2;
+        const double deep_mm2 = deep_way_.add(norm(way[i + 1] - way[i]), cut.deep_mm2, tool.diameter);
+        if (cut.deep_mm2 > 0) all.deep_mm2 = std::max(all.deep_mm2, deep_mm2);
     }
     const double length = norm(line.to - line.from);
     const bool is_rapid = line.feed > 1.001 * tool.feed_max_mm_per_s;
@@ -104,10 +136,10 @@ void FoamCarver::check_cut(const TipLine& line, const CarvingTool& tool, const C
     check_spindle(line, tool);
     check_feed(line, tool);
     const double section = 0.25 * std::numbers::pi * tool.diameter * tool.diameter;
-    if (cut.deep_mm2 > deep_share * section) {
+    if (cut.deep_mm2 > std::max(deep_share * section, deep_width * tool.diameter)) {
         log_.add(FindingKind::deep_cut, line.place, cut.depth, cut.depth, [&] {
-            return fixed(cut.depth, 1) + " mm of foam are cut at once, the flute is " + fixed(tool.flute_length, 1) +
-                   " mm";
+            return fixed(cut.depth, 1) + " mm of foam are cut at once, on " + fixed(cut.deep_mm2, 0) +
+                   " mm2 of the way of one diameter, the flute is " + fixed(tool.flute_length, 1) + " mm";
         });
     }
     // The box is for planning with a gantry; a robot's arm is asked for each pose (machine_walk.h).
@@ -125,13 +157,18 @@ void FoamCarver::check_cut(const TipLine& line, const CarvingTool& tool, const C
 
 void FoamCarver::check_spindle(const TipLine& line, const CarvingTool& tool) {
     const Spindle& spindle = machine_.spindle;
-    if (spindle.on && (!line.spindle.is_on || !line.spindle.has_speed)) {
+    const SignalState& signals = line.signals;
+    if (spindle.on && !(signals.spindle_is_on && signals.has_speed)) {
         log_.add(FindingKind::spindle_off, line.place, 0, 0, [&] {
-            return line.spindle.is_on ? "foam is cut before the spindle was waited for"
-                                      : "foam is cut without the spindle";
+            return signals.spindle_is_on ? "foam is cut before the chunk has waited for the speed of the spindle"
+                                         : "foam is cut, and the chunk has not switched the spindle on";
         });
     }
-    const double rpm = line.spindle.rpm;
+    if (machine_.extraction && machine_.extraction->on && !signals.extraction_is_on) {
+        log_.add(FindingKind::extraction_off, line.place, 0, 0,
+                 [] { return "foam is cut, and the chunk has not switched extraction on"; });
+    }
+    const double rpm = signals.rpm;
     if (!spindle.speed || (rpm >= 0.995 * tool.rpm_min && rpm <= 1.005 * tool.rpm_max)) return;
     log_.add(FindingKind::spindle_speed, line.place, rpm, std::abs(rpm - tool.rpm_min), [&] {
         return "foam is cut at " + fixed(rpm, 0) + " revolutions/min, tool " + std::to_string(tool.number) +
@@ -187,7 +224,15 @@ bool FoamCarver::is_body_in_foam(const TipPose& pose, double from, double to, do
 }
 
 void FoamCarver::take_sweep(const JointSweep& sweep) {
-    ++figures_.rapids;
+    if (!sweep.is_checked_only) ++figures_.rapids;
+    if (!sweep.is_checked_only) deep_way_.reset();
+    const auto find = [&](FindingKind kind, const char* what) {
+        log_.add(sweep.is_checked_only ? FindingKind::start_from_home : kind, sweep.place, 0, 0, [&] {
+            return sweep.is_checked_only
+                       ? std::string("the comment says that the start from home is free, and on it ") + what
+                       : std::string("on a joint move ") + what;
+        });
+    };
     const CarvingTool& tool = machine_.tools[sweep.tool];
     const Cutter& cutter = cutters_[sweep.tool];
     const std::vector<AxisBody> bodies = bodies_on_axis(tool, machine_.spindle);
@@ -197,14 +242,13 @@ void FoamCarver::take_sweep(const JointSweep& sweep) {
         const bool is_in = foam_.is_foam(pose.tip + written * pose.out) ||
                            is_body_in_foam(pose, straight_from, tool.stick_out, cutter.radius - written);
         if (is_in) {
-            log_.add(FindingKind::rapid_in_foam, sweep.place, 0, 0, [] { return "a joint move leads through foam"; });
+            find(FindingKind::rapid_in_foam, "the tool goes through foam");
             return;
         }
         for (const AxisBody& body : bodies) {
             if (body.part == BodyPart::tool) continue;
             if (!is_body_in_foam(pose, -body.shape.from.z, -body.shape.to.z, body.shape.radius)) continue;
-            log_.add(FindingKind::holder_contact, sweep.place, 0, 0,
-                     [] { return "holder or spindle comes into the foam on a joint move"; });
+            find(FindingKind::holder_contact, "holder or spindle comes into the foam");
             return;
         }
     }

@@ -121,10 +121,11 @@ SweptCutter::Height SweptCutter::height(double x, double y) const {
     const double from = std::max(0.0, along - half);
     const double to = std::min(length_, along + half);
     if (from > to) return {infinite, 0};
+    const double tip_z = slope_ * (slope_ < 0 ? to : from);
     if (cutter_.shape == ToolShape::ball) {
         const double place = std::clamp(along - ball_share_ * half, from, to);
         const double off = along - place;
-        return {slope_ * place + cutter_.radius - std::sqrt(std::max(0.0, half2 - off * off)), slope_ * place};
+        return {slope_ * place + cutter_.radius - std::sqrt(std::max(0.0, half2 - off * off)), tip_z};
     }
     double place = slope_ < 0 ? to : from;
     const auto height_at = [&](double at) {
@@ -132,7 +133,7 @@ SweptCutter::Height SweptCutter::height(double x, double y) const {
         return slope_ * at + profile_height(cutter_, std::min(cutter_.radius, std::sqrt(off * off + aside * aside)));
     };
     if (cutter_.shape != ToolShape::flat) place = place_of_least(from, to, height_at);
-    return {height_at(place), slope_ * place};
+    return {height_at(place), tip_z};
 }
 
 void SweptCutter::reach_of_row(double y, double& x_min, double& x_max) const {

@@ -39,7 +39,7 @@ class SweptCutter {
     // Where its surface is lowest over a point of the plane.
     struct Height {
         double z = 0;      // of the surface; infinite where the tool does not come
-        double tip_z = 0;  // of the tip at that moment
+        double tip_z = 0;  // of the tip, at its lowest while the tool is over the point
     };
     Height height(double x, double y) const;
     // How far a point is outside: negative inside, where it is the distance from the surface. It changes by no more

@@ -39,8 +39,15 @@ enum class FindingKind : std::uint8_t {
     below_floor,  // a tool point below -spoil + 2 mm
     spindle_off,
     spindle_speed,
+    extraction_off,
+    left_on,          // spindle or extraction at the end of the program
+    unknown_signal,   // an output, an input or a call that the cell file does not name like that
+    motion_limit,     // a speed or an acceleration above that of the cell file
+    not_home,         // the arm is not at home at the beginning, at a stop or at the end
+    start_from_home,  // a comment says that the way is free, and it is not
     gouge,
     gouge_volume,
+    given_up,       // surface that tools of the cell reach and those that the program uses do not
     leftover,       // too small a share of the reachable surface is within tolerance
     standing_foam,  // foam beside the piece that the tools reach
     missing_hole,
@@ -51,7 +58,7 @@ enum class FindingKind : std::uint8_t {
     extra_hole,     // a drill in foam where the program is to drill no hole
     no_cut          // the program removes nothing
 };
-constexpr std::size_t finding_kinds = 34;
+constexpr std::size_t finding_kinds = 41;
 
 // "chunk_order", "rapid_in_foam"
 const char* to_word(FindingKind kind);

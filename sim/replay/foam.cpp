@@ -42,6 +42,18 @@ const Pose& Foam::frame_in_block(std::size_t direction) const {
 
 namespace {
 
+// How many of the numbers lie in an interval of a length at most. O(n log n).
+std::size_t most_within(std::vector<double>& numbers, double length) {
+    std::sort(numbers.begin(), numbers.end());
+    std::size_t most = 0;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        while (numbers[i] - numbers[first] > length) ++first;
+        most = std::max(most, i + 1 - first);
+    }
+    return most;
+}
+
 // Calls work(tile, tx, ty) for the tiles of a range.
 template <class Work>
 void for_tiles(FoamColumns& columns, const CellRange& cells, const Work& work) {
@@ -61,6 +73,7 @@ CutResult Foam::cut(std::size_t direction, const Cutter& cutter, double flute, V
     const SweptCutter swept(cutter, move);
     const SweptCutter inner(inset_cutter(cutter, contact_mm), move);
     CutResult result;
+    std::vector<double> deep;  // where along the move foam stands above the flute, of each cell
     double length = 0;
     const double r = cutter.radius;
     const CellRange cells = map.range(std::min(a.x, a.x + move.x) - r, std::max(a.x, a.x + move.x) + r,
@@ -98,13 +111,15 @@ CutResult Foam::cut(std::size_t direction, const Cutter& cutter, double flute, V
                 result.touches = true;
                 const double depth = removal.top - (a.z + at.tip_z);
                 result.depth = std::max(result.depth, depth);
-                if (depth > flute) result.deep_mm2 += cell_ * cell_;
+                if (depth > flute) deep.push_back(move.x * x + move.y * y);
             }
         }
         tile.measure_most();
     });
     if (length > 0) ++map.version;
     result.volume = length * cell_ * cell_;
+    const double across = std::hypot(move.x, move.y);
+    result.deep_mm2 = static_cast<double>(most_within(deep, 2 * r * across)) * cell_ * cell_;
     return result;
 }
 

@@ -27,8 +27,12 @@ namespace qchopper {
 struct CutResult {
     bool touches = false;  // removed more than 0.01 mm: with a tool whose surface lies 0.01 mm deeper inside
     double volume = 0;     // mm3
-    double depth = 0;      // of the highest foam that was removed above the tip
-    double deep_mm2 = 0;   // of the cells where that is more than `flute`
+    // Largest height of foam that was removed above the tip, at the tip's lowest while the tool is over it: exact at
+    // the middles of cells. No foam meets the tool higher, and on level and rising moves some does there.
+    double depth = 0;
+    // Of the cells where that is more than `flute`, at most within one diameter of the way. A wall is known to half a
+    // cell, so that the width of a strip along the way is wrong by up to one cell.
+    double deep_mm2 = 0;
 };
 
 class FoamColumns;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/parallel.h"
 #include "sim/replay/reachable.h"
@@ -35,7 +36,24 @@ void add_samples(const TriangleMesh& mesh, std::uint32_t t, double spacing, std:
 
 struct Judged {
     float distance = 0;
-    bool is_reachable = false;
+    const Closing* by = nullptr;  // the first one that comes to it; nothing: none does
+};
+
+bool comes_to(const Closing& closing, Vec3 point, double within) {
+    const Vec3 q = apply_inverse(closing.map.frame_in_setup, point);
+    return closing.map.distance_above(q, within + 1) <= within;
+}
+
+const Closing* first_to(const std::vector<const Closing*>& closings, Vec3 point, double within) {
+    const auto found = std::find_if(closings.begin(), closings.end(),
+                                    [&](const Closing* closing) { return comes_to(*closing, point, within); });
+    return found == closings.end() ? nullptr : *found;
+}
+
+struct Within {
+    double tolerance = 0;  // mm of foam
+    double too_deep = 0;   // mm of gouge
+    const std::vector<float>& gouge;
 };
 
 double percentile(std::vector<std::pair<float, float>>& by_distance, double share) {
@@ -50,23 +68,47 @@ double percentile(std::vector<std::pair<float, float>>& by_distance, double shar
     return 0;
 }
 
-}  // namespace
+// Areas and distances. The figures know already what is given up.
+void add_up(LeftoverFigures& figures, const std::vector<Sample>& samples, const std::vector<Judged>& judged,
+            const std::vector<const Closing*>& given_up, const Within& within) {
+    std::vector<std::pair<float, float>> by_distance;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const Sample& s = samples[i];
+        const Judged& j = judged[i];
+        figures.area_mm2 += s.area;
+        figures.distance[s.triangle] = std::max(figures.distance[s.triangle], j.distance);
+        if (j.by == nullptr) {
+            figures.largest_unreachable = std::max<double>(figures.largest_unreachable, j.distance);
+            continue;
+        }
+        figures.is_reachable[s.triangle] = true;
+        figures.reachable_mm2 += s.area;
+        if (given_up[i] != nullptr) continue;
+        by_distance.emplace_back(j.distance, s.area);
+        if (j.distance <= within.tolerance && within.gouge[s.triangle] <= within.too_deep) {
+            figures.within_mm2 += s.area;
+        }
+        if (j.distance > figures.largest) figures.largest = j.distance, figures.at = s.point;
+    }
+    figures.percentile_99 = percentile(by_distance, 0.99);
+}
 
-LeftoverFigures measure_leftover(const Foam& foam, const ReplayScene& scene, const std::vector<float>& gouge,
-                                 const LeftoverOptions& options, const Context& context) {
-    const TriangleMesh& mesh = *scene.target;
-    std::vector<SurfaceMap> closings;
-    const auto finest = finest_tools(scene);
-    for (std::size_t d = 0; d < finest.size(); ++d) {
-        context.progress("directions closed", d, finest.size());
-        if (!finest[d]) continue;
-        closings.push_back(closing_of(scene, d, scene.cell->machine->tools[*finest[d]], options.reach_cell, context));
+// The closings along all directions of the setup by the tools that `tools_of` gives for each.
+template <class ToolsOf>
+std::vector<const Closing*> closings_by(Closings& known, const ReplayScene& scene, const ToolsOf& tools_of,
+                                        const Context& context) {
+    std::vector<const Closing*> closings;
+    const std::size_t directions = carving_directions(scene);
+    for (std::size_t d = 0; d < directions; ++d) {
+        context.progress("directions closed", d, directions);
+        for (const Closing* closing : known.along(d, tools_of(d), context)) closings.push_back(closing);
     }
-    std::vector<Sample> samples;
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (scene.is_base.empty() || !scene.is_base[t]) add_samples(mesh, t, options.sample_mm, samples);
-    }
-    const double within_reach = scene.scallop + 0.75 * options.reach_cell;
+    return closings;
+}
+
+std::vector<Judged> judge(const std::vector<Sample>& samples, const Foam& foam,
+                          const std::vector<const Closing*>& closings, double within_reach, double most,
+                          const Context& context) {
     std::vector<Judged> judged(samples.size());
     constexpr std::size_t lot = 4096;
     for (std::size_t first = 0; first < samples.size(); first += 64 * lot) {
@@ -76,35 +118,86 @@ LeftoverFigures measure_leftover(const Foam& foam, const ReplayScene& scene, con
                         [&](std::size_t begin, std::size_t end) {
                             for (std::size_t i = begin; i < end; ++i) {
                                 const Vec3 p = samples[i].point;
-                                for (const SurfaceMap& map : closings) {
-                                    const Vec3 q = apply_inverse(map.frame_in_setup, p);
-                                    judged[i].is_reachable |= map.distance_above(q, within_reach + 1) <= within_reach;
-                                }
-                                judged[i].distance = static_cast<float>(foam.distance_to_removed(p, options.most));
+                                judged[i] = {static_cast<float>(foam.distance_to_removed(p, most)),
+                                             first_to(closings, p, within_reach)};
                             }
                         });
     }
+    return judged;
+}
+
+// Areas of the points that are given up, by what would come to them.
+std::vector<GivenUp> areas_of(const std::vector<const Closing*>& given_up, const std::vector<Sample>& samples,
+                              const std::vector<CarvingTool>& tools) {
+    std::vector<GivenUp> all;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (given_up[i] == nullptr) continue;
+        const GivenUp own{tools[given_up[i]->tool].number, given_up[i]->direction, samples[i].area};
+        const auto same = std::find_if(all.begin(), all.end(), [&](const GivenUp& other) {
+            return other.tool == own.tool && other.direction == own.direction;
+        });
+        if (same == all.end()) {
+            all.push_back(own);
+        } else {
+            same->area_mm2 += own.area_mm2;
+        }
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const GivenUp& a, const GivenUp& b) { return a.area_mm2 > b.area_mm2; });
+    return all;
+}
+
+std::vector<std::size_t> all_tools(const ReplayScene& scene) {
+    std::vector<std::size_t> tools(scene.cell->machine->tools.size());
+    std::iota(tools.begin(), tools.end(), std::size_t{0});
+    return tools;
+}
+
+}  // namespace
+
+double LeftoverFigures::sum_of(const std::vector<GivenUp>& surface) {
+    double sum = 0;
+    for (const GivenUp& given_up : surface) sum += given_up.area_mm2;
+    return sum;
+}
+
+LeftoverFigures measure_leftover(const Foam& foam, const ReplayScene& scene, const std::vector<float>& gouge,
+                                 const LeftoverOptions& options, const Context& context) {
+    const TriangleMesh& mesh = *scene.target;
+    std::vector<Sample> samples;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (scene.is_base.empty() || !scene.is_base[t]) add_samples(mesh, t, options.sample_mm, samples);
+    }
+    const double within_reach = scene.scallop + 0.75 * options.reach_cell;
+    const double tolerance = scene.scallop + options.too_much;
+    Closings known(scene, options.reach_cell);
+    const auto closings_with = [&](const auto& tools_of) { return closings_by(known, scene, tools_of, context); };
+    const auto allowed = closings_with([&](std::size_t) { return allowed_tools(scene); });
+    const std::vector<Judged> judged = judge(samples, foam, allowed, within_reach, options.most, context);
+
+    // Of a point that keeps too much foam: what would come to it, where nothing that is used does.
+    std::vector<const Closing*> given_up(samples.size(), nullptr);
+    std::vector<const Closing*> not_allowed(samples.size(), nullptr);
+    if (std::any_of(judged.begin(), judged.end(), [&](const Judged& j) { return j.by && j.distance > tolerance; })) {
+        const auto used = closings_with([&](std::size_t d) { return tools_along(scene, d); });
+        parallel_for(0, samples.size(), [&](std::size_t i) {
+            if (judged[i].by == nullptr || judged[i].distance <= tolerance) return;
+            if (first_to(used, samples[i].point, within_reach) == nullptr) given_up[i] = judged[i].by;
+        });
+    }
+    if (!scene.tools.empty()) {
+        const auto all = closings_with([&](std::size_t) { return all_tools(scene); });
+        parallel_for(0, samples.size(), [&](std::size_t i) {
+            if (judged[i].by != nullptr || judged[i].distance <= tolerance) return;
+            not_allowed[i] = first_to(all, samples[i].point, within_reach);
+        });
+    }
     LeftoverFigures figures;
+    figures.given_up = areas_of(given_up, samples, scene.cell->machine->tools);
+    figures.not_allowed = areas_of(not_allowed, samples, scene.cell->machine->tools);
     figures.distance.assign(mesh.triangles.size(), 0);
     figures.is_reachable.assign(mesh.triangles.size(), false);
-    std::vector<std::pair<float, float>> by_distance;
-    const double tolerance = scene.scallop + options.too_much;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        const Sample& s = samples[i];
-        const Judged& j = judged[i];
-        figures.area_mm2 += s.area;
-        figures.distance[s.triangle] = std::max(figures.distance[s.triangle], j.distance);
-        if (!j.is_reachable) {
-            figures.largest_unreachable = std::max<double>(figures.largest_unreachable, j.distance);
-            continue;
-        }
-        figures.is_reachable[s.triangle] = true;
-        figures.reachable_mm2 += s.area;
-        by_distance.emplace_back(j.distance, s.area);
-        if (j.distance <= tolerance && gouge[s.triangle] <= options.too_deep) figures.within_mm2 += s.area;
-        if (j.distance > figures.largest) figures.largest = j.distance, figures.at = s.point;
-    }
-    figures.percentile_99 = percentile(by_distance, 0.99);
+    add_up(figures, samples, judged, given_up, {tolerance, options.too_deep, gouge});
     return figures;
 }
 

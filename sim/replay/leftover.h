@@ -1,9 +1,11 @@
 // What stays on the target, and beside it.
 //
 // mm. Distances from points of the target, weighted by triangle area, to the nearest removed point: cells count at
-// their middles, so that a distance is too large by at most 0.71 cells and never too small. A point is reachable if the
-// closing of the target by the finest tool of some direction comes within the scallop height + 0.75 cells of it. The
-// base is left out, other caps are in (tests/sim/replay/ball_test.cpp).
+// their middles, so that a distance is too large by at most 0.71 cells and never too small. A point is reachable if a
+// closing of the target by tools of the cell along some direction of the setup comes within the scallop height + 0.75
+// cells of it, whatever the program does: it asks only for what the operator allows (ReplayScene::tools). What keeps
+// more foam than the tolerance, and no tool that the program uses along a direction reaches, is given up. The base is
+// left out, other caps are in (tests/sim/replay/ball_test.cpp, tests/sim/replay/given_up_test.cpp).
 
 #pragma once
 
@@ -26,12 +28,24 @@ struct LeftoverOptions {
     double most = 30;        // farthest distance that is told from others
 };
 
+// Surface that a tool reaches along a direction, though the program does not use it there.
+struct GivenUp {
+    std::uint16_t tool = 0;     // CarvingTool::number
+    std::size_t direction = 0;  // index in ReplayScene::directions
+    double area_mm2 = 0;        // that keeps more foam than the tolerance, and counts for no other tool
+};
+
 struct LeftoverFigures {
-    double area_mm2 = 0;  // of the target without its base
-    double reachable_mm2 = 0;
-    double within_mm2 = 0;     // of the reachable surface, within tolerance
-    double largest = 0;        // on the reachable surface
-    double percentile_99 = 0;  // of it, by area
+    double area_mm2 = 0;               // of the target without its base
+    double reachable_mm2 = 0;          // by tools that are allowed, what is given up included
+    double within_mm2 = 0;             // of the reachable surface, within tolerance
+    double largest = 0;                // on the reachable surface that is not given up
+    double percentile_99 = 0;          // of it, by area
+    std::vector<GivenUp> given_up;     // by the program: the largest first
+    std::vector<GivenUp> not_allowed;  // with tools that the operator left out: beside the reachable surface
+    double given_up_mm2() const { return sum_of(given_up); }
+    double not_allowed_mm2() const { return sum_of(not_allowed); }
+    static double sum_of(const std::vector<GivenUp>& surface);
     double largest_unreachable = 0;
     Vec3 at;                         // where the largest is
     std::vector<float> distance;     // per triangle, the largest of its points; 0 of the base

@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "base/text.h"
-#include "cam/cell/kuka_angles.h"
 #include "cam/cell/reach_map.h"
 #include "sim/program/krl_file.h"
 #include "sim/replay/arm_pose.h"
+#include "sim/replay/signal_walk.h"
+#include "sim/replay/state_check.h"
+#include "sim/replay/turn.h"
 
 namespace qchopper {
 namespace {
@@ -19,53 +22,9 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 constexpr double pose_step = 5;  // mm
 constexpr double turn_step = 2 * degree;
-constexpr double frame_mm = 0.01;  // of $TOOL and $BASE
-constexpr double frame_turn = 0.01 * degree;
 constexpr double aligned_turn = 0.02 * degree;
 constexpr double lever = 3500;  // mm: of the arm, so that poses of a PTP are at most pose_step apart
-constexpr double load_kg = 0.5;
-
-Pose pose_of(const ProgramFrame& frame) {
-    return pose_of(KukaAngles{frame.abc.x, frame.abc.y, frame.abc.z}, frame.shift);
-}
-
-Pose about_z(double angle) {
-    const double c = std::cos(angle);
-    const double s = std::sin(angle);
-    return {{Vec3{c, -s, 0}, Vec3{s, c, 0}, Vec3{0, 0, 1}}, {}};
-}
-
-Vec3 column(const Pose& pose, int j) {
-    return {pose.row[0][j], pose.row[1][j], pose.row[2][j]};
-}
-
-// How far two poses turn from each other, and about which axis of the first.
-struct Turn {
-    double angle = 0;
-    Vec3 axis{0, 0, 1};
-};
-
-Turn turn_between(const Pose& a, const Pose& b) {
-    const Pose r = inverse(Pose{a.row, {}}) * Pose{b.row, {}};
-    const Vec3 twice_sine{r.row[2].y - r.row[1].z, r.row[0].z - r.row[2].x, r.row[1].x - r.row[0].y};
-    const double trace = r.row[0].x + r.row[1].y + r.row[2].z;
-    const double angle = std::atan2(norm(twice_sine), trace - 1);
-    if (norm(twice_sine) > 1e-12) return {angle, normalized(twice_sine)};
-    return {angle < 1 ? 0.0 : angle, {0, 0, 1}};
-}
-
-Pose turned(const Pose& pose, const Turn& turn, double share) {
-    const double c = std::cos(share * turn.angle);
-    const double s = std::sin(share * turn.angle);
-    const Vec3 k = turn.axis;
-    const auto row = [&](Vec3 unit) {
-        // Rodrigues: the rows of the rotation matrix.
-        const Vec3 across = cross(unit, k);
-        return c * unit + s * across + ((1 - c) * dot(k, unit)) * k;
-    };
-    const Pose rotation{{row({1, 0, 0}), row({0, 1, 0}), row({0, 0, 1})}, {}};
-    return pose * rotation;
-}
+constexpr double home_turn = 0.01 * degree;
 
 // Seconds of a joint move by the slowest axis, from rest to rest.
 double seconds_of(const JointRanges& ranges, const ModalState& state, const Joints& from, const Joints& to) {
@@ -80,6 +39,13 @@ double seconds_of(const JointRanges& ranges, const ModalState& state, const Join
     return longest;
 }
 
+// What a comment of a program can hold of a text.
+std::string as_comment(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '_');
+    return text;
+}
+
 class Walk {
  public:
     Walk(const ParsedProgram& program, const ReplayScene& scene, FindingLog& log)
@@ -89,6 +55,8 @@ class Walk {
           robot_(*machine_.robot),
           log_(log),
           arm_(*scene.cell, log),
+          states_(scene, setup_in_table_, log),
+          signals_(machine_, log),
           joints_(machine_.start.joints),
           table_angle_(scene.start_table_angle) {
         if (machine_.rotary_table) {
@@ -106,26 +74,26 @@ class Walk {
     }
     void enter(const ProgramChunk& chunk);
     void take_tool(std::uint16_t number, SourcePlace place);
+    void check_asked(const CarvingTool& tool, SourcePlace place);
     void take(const ProgramStep& step);
-    void take_signal(const ProgramStep& step);
+    void take_halt(const ProgramStep& step);
     void take_call(const ProgramStep& step);
-    void switch_spindle(bool on);
     void take_joint_move(const ProgramStep& step);
+    JointSweep sweep_to(const ProgramStep& step, SourcePlace place);
+    void check_start_from_home(const ProgramStep& step);
+    MoveContext context_of(const ProgramStep& step) const;
+    bool is_home(bool with_table) const;
+    void check_stop(SourcePlace place);
+    void check_end(SourcePlace place);
     void take_line(const ProgramStep& step);
     void follow_line(const Pose& from, const Pose& to, const Pose& tool, const ProgramStep& step, double feed);
     void check_speed(const Joints& before, double way, double feed, SourcePlace place);
-    void check_frames(const ProgramStep& step, const ModalState& state);
-    void check_tool_frame(const ModalState& state, SourcePlace place);
-    void check_base_frame(const ModalState& state, SourcePlace place);
-    void check_load(const ModalState& state, SourcePlace place);
     void check_table(const ProgramStep& step);
+    bool is_aligned(Vec3 out, SourcePlace place);
     void add_line(Vec3 from, Vec3 to, Vec3 out, const ProgramStep& step, const ModalState& state);
     Pose base_in_robot(const ModalState& state) const;
     TipPose tip_pose() const;
     const CarvingTool& tool() const { return machine_.tools[tool_]; }
-    bool is_signal(const std::optional<Signal>& signal, SignalKind kind, const std::string& target) const {
-        return signal && signal->kind == kind && lower_case(signal->target) == target;
-    }
 
     const ParsedProgram& program_;
     const ReplayScene& scene_;
@@ -133,6 +101,8 @@ class Walk {
     const Robot& robot_;
     FindingLog& log_;
     ArmPoses arm_;
+    StateCheck states_;
+    SignalWalk signals_;
     Joints joints_;
     double table_angle_;
     Pose setup_in_table_;
@@ -141,14 +111,14 @@ class Walk {
     std::uint32_t tool_ = 0;
     std::optional<std::uint16_t> asked_tool_;  // by a call with its number
     std::string asked_;                        // by the last HALT, in lower case
+    SourcePlace asked_place_;                  // of that HALT
     bool has_tool_ = false;
     bool is_in_chunk_ = false;
+    bool has_moved_ = false;
+    SourcePlace free_from_home_;  // of the comment, until the first move of its chunk; line 0: there is none
     bool follows_line_ = false;
-    bool is_lost_ = false;  // no joints held the pose: lines are not followed until the next PTP
-    std::uint32_t checked_state_ = ~0U;
-    std::uint32_t checked_chunk_ = ~0U;
+    bool is_lost_ = false;       // no joints held the pose: lines are not followed until the next PTP
     double since_bodies_ = 1e9;  // mm of way
-    SpindleState spindle_;
     ToolPath path_;
 };
 
@@ -167,6 +137,7 @@ ToolPath Walk::run(const Context& context) {
             take(program_.steps[i]);
         }
     }
+    check_end({program_.chunks.back().file, program_.chunks.back().end_line});
     if (next != scene_.chunks.size()) {
         log_.add(FindingKind::chunk_order, {}, 0, 0, [&] {
             return "the program calls " + counted(next, "chunk") + ", the job has " +
@@ -177,6 +148,8 @@ ToolPath Walk::run(const Context& context) {
 }
 
 void Walk::enter(const ProgramChunk& chunk) {
+    signals_.enter_chunk();
+    free_from_home_ = {chunk.file, chunk.free_from_home};
     const SourcePlace place{chunk.file, 1};
     const std::string stem = lower_case(program_.files[chunk.file].substr(0, program_.files[chunk.file].find('.')));
     const bool is_known = chunk_ < scene_.chunks.size() && lower_case(scene_.chunks[chunk_].name) == stem;
@@ -192,19 +165,30 @@ void Walk::enter(const ProgramChunk& chunk) {
     take_tool(scene_.chunks[chunk_].tool, place);
 }
 
+// A person is told which tool it is, and how long it must be.
+void Walk::check_asked(const CarvingTool& tool, SourcePlace place) {
+    const std::string name = "tool " + std::to_string(tool.number);
+    const bool was_called = asked_tool_ && *asked_tool_ == tool.number;
+    const bool was_asked = !machine_.program.tool_change_call && asked_.find(name + " ") != std::string::npos;
+    if (!was_called && !was_asked) {
+        log_.add(FindingKind::tool_change, place, tool.number, 0,
+                 [&] { return name + " is needed, and nobody was asked for it"; });
+    }
+    if (!was_asked) return;
+    for (const std::string& words : {"(" + as_comment(tool.name) + ")", fixed(gauge_length(tool), 2) + " mm"}) {
+        if (asked_.find(" " + lower_case(words)) != std::string::npos) continue;
+        log_.add(FindingKind::tool_change, asked_place_, tool.number, 0, [&] {
+            std::string text = "who is asked for ";
+            return text.append(name).append(" is not told what it is, expected: ").append(words);
+        });
+    }
+}
+
 // The person or the program that was asked has changed the tool to that of the chunk.
 void Walk::take_tool(std::uint16_t number, SourcePlace place) {
     std::uint32_t index = 0;
     while (index + 1 < machine_.tools.size() && machine_.tools[index].number != number) ++index;
-    if (!has_tool_ || index != tool_) {
-        const bool was_called = asked_tool_ && *asked_tool_ == number;
-        const bool was_asked = !machine_.program.tool_change_call &&
-                               asked_.find("tool " + std::to_string(number) + " ") != std::string::npos;
-        if (!was_called && !was_asked) {
-            log_.add(FindingKind::tool_change, place, number, 0,
-                     [&] { return "tool " + std::to_string(number) + " is needed, and nobody was asked for it"; });
-        }
-    }
+    if (!has_tool_ || index != tool_) check_asked(machine_.tools[index], place);
     has_tool_ = true;
     tool_ = index;
     asked_.clear();
@@ -219,52 +203,50 @@ void Walk::take(const ProgramStep& step) {
         case StepKind::output:
         case StepKind::analog_output:
         case StepKind::wait_input:
-            return take_signal(step);
+            return signals_.take(step, {});
         case StepKind::halt:
-            asked_ = lower_case(program_.texts[step.text]) + " ";
-            if (spindle_.is_on) {
-                log_.add(FindingKind::tool_change, step.place, 0, 0, [] { return "the spindle runs at a HALT"; });
-            }
-            return;
+            return take_halt(step);
         case StepKind::call:
             return take_call(step);
     }
 }
 
-void Walk::switch_spindle(bool on) {
-    if (on && !spindle_.is_on) spindle_.has_speed = !machine_.spindle.at_speed;
-    spindle_.is_on = on;
-    if (!on) spindle_.has_speed = false;
-}
-
-void Walk::take_signal(const ProgramStep& step) {
-    const Spindle& spindle = machine_.spindle;
-    const std::string number = std::to_string(step.number);
-    if (step.kind == StepKind::output) {
-        if (step.value > 0 && is_signal(spindle.on, SignalKind::output, number)) switch_spindle(true);
-        if (step.value == 0 && is_signal(spindle.off, SignalKind::output, number)) switch_spindle(false);
-        if (step.value == 0 && is_signal(spindle.on, SignalKind::output, number)) switch_spindle(false);
-    } else if (step.kind == StepKind::analog_output) {
-        if (!is_signal(spindle.speed, SignalKind::output, number)) return;
-        const double rpm = step.value / spindle.speed->scale;
-        if (rpm != spindle_.rpm) spindle_.has_speed = !spindle.at_speed;
-        spindle_.rpm = rpm;
-    } else if (is_signal(spindle.at_speed, SignalKind::input, number) && spindle_.is_on) {
-        spindle_.has_speed = true;
-    }
+void Walk::take_halt(const ProgramStep& step) {
+    asked_ = lower_case(program_.texts[step.text]) + " ";
+    asked_place_ = step.place;
+    check_stop(step.place);
 }
 
 void Walk::take_call(const ProgramStep& step) {
-    const Spindle& spindle = machine_.spindle;
     const std::string& name = program_.texts[step.text];
-    const auto calls = [&](const std::optional<Signal>& signal) { return is_signal(signal, SignalKind::call, name); };
-    if (calls(spindle.speed)) spindle_.rpm = step.value / spindle.speed->scale;
-    if (calls(spindle.on)) switch_spindle(true);
-    if (calls(spindle.off)) switch_spindle(false);
-    if (calls(spindle.at_speed) && spindle_.is_on) spindle_.has_speed = true;
     const std::optional<std::string>& change = machine_.program.tool_change_call;
-    if (change && lower_case(*change) == name)
+    if (change && lower_case(*change) == name) {
         asked_tool_ = static_cast<std::uint16_t>(std::clamp(step.value, 0.0, 65535.0));
+        check_stop(step.place);
+    }
+    signals_.take(step, name);
+}
+
+bool Walk::is_home(bool with_table) const {
+    double off = with_table ? std::abs(table_angle_ - scene_.start_table_angle) : 0;
+    for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
+        off = std::max(off, std::abs(joints_[axis] - machine_.start.joints[axis]));
+    }
+    return off <= home_turn;
+}
+
+// Where somebody comes to the spindle, or a program changes the tool.
+void Walk::check_stop(SourcePlace place) {
+    signals_.check_off(FindingKind::tool_change, place, "at this stop");
+    if (is_home(false)) return;
+    log_.add(FindingKind::not_home, place, 0, 0, [] { return "the arm is not at home at this stop"; });
+}
+
+void Walk::check_end(SourcePlace place) {
+    signals_.check_off(FindingKind::left_on, place, "at the end");
+    if (is_home(true)) return;
+    log_.add(FindingKind::not_home, place, 0, 0,
+             [] { return "the program does not end at home, expected before: a PTP to the start of the cell file"; });
 }
 
 TipPose Walk::tip_pose() const {
@@ -274,8 +256,12 @@ TipPose Walk::tip_pose() const {
     return {apply_inverse(setup, tip.shift), rotate_inverse(setup, -column(tip, 2))};
 }
 
-void Walk::take_joint_move(const ProgramStep& step) {
-    const ModalState& state = program_.states[step.state];
+MoveContext Walk::context_of(const ProgramStep& step) const {
+    return {chunk_, direction_, is_in_chunk_ ? &tool() : nullptr, step.state, step.place};
+}
+
+// Moves the joints and the table to the end of a joint move.
+JointSweep Walk::sweep_to(const ProgramStep& step, SourcePlace place) {
     const Joints from = joints_;
     const double table_from = table_angle_;
     const Joints to{step.values};
@@ -283,18 +269,48 @@ void Walk::take_joint_move(const ProgramStep& step) {
     for (std::size_t axis = 0; axis < axes_of_arm; ++axis) largest = std::max(largest, std::abs(to[axis] - from[axis]));
     const double step_angle = std::min(turn_step, pose_step / lever);
     const auto count = static_cast<std::size_t>(std::ceil(std::min(largest, 100.0) / step_angle)) + 1;
-    JointSweep sweep{{}, step.place, tool_, seconds_of(robot_.ranges, state, from, to)};
+    JointSweep sweep{{}, place, tool_, seconds_of(robot_.ranges, program_.states[step.state], from, to), false};
     sweep.poses.reserve(count);
     for (std::size_t k = 1; k <= count; ++k) {
         const double share = static_cast<double>(k) / static_cast<double>(count);
         for (std::size_t axis = 0; axis < axes_of_arm; ++axis)
             joints_[axis] = from[axis] + share * (to[axis] - from[axis]);
         if (step.e1) table_angle_ = table_from + share * (*step.e1 - table_from);
-        if (k % 4 == 0 || k == count) arm_.check_bodies(joints_, tool(), step.place);
+        if (k % 4 == 0 || k == count) arm_.check_bodies(joints_, tool(), place);
         sweep.poses.push_back(tip_pose());
     }
     joints_ = to;
+    return sweep;
+}
+
+// A comment of the chunk says that it may be started from home: that way is looked at, and not gone. The table stands
+// as it does for the chunk.
+void Walk::check_start_from_home(const ProgramStep& step) {
+    const SourcePlace comment = std::exchange(free_from_home_, {});
+    const Joints joints = joints_;
+    const double table_angle = table_angle_;
+    if (is_home(false) && step.e1.value_or(table_angle) == table_angle) return;  // the program goes that way
+    joints_ = machine_.start.joints;
+    if (step.e1) table_angle_ = *step.e1;
+    JointSweep sweep = sweep_to(step, comment);
+    sweep.seconds = 0;
+    sweep.is_checked_only = true;
+    path_.order.push_back({false, path_.sweeps.size()});
+    path_.sweeps.push_back(std::move(sweep));
+    joints_ = joints;
+    table_angle_ = table_angle;
+}
+
+void Walk::take_joint_move(const ProgramStep& step) {
+    states_.take_joint_move(program_.states[step.state], context_of(step));
+    if (is_in_chunk_ && free_from_home_.line > 0) check_start_from_home(step);
+    JointSweep sweep = sweep_to(step, step.place);
     arm_.check_joints(joints_, step.place);
+    if (!has_moved_ && !is_home(true)) {
+        log_.add(FindingKind::not_home, step.place, 0, 0,
+                 [] { return "the first move does not lead home, expected: a PTP to the start of the cell file"; });
+    }
+    has_moved_ = true;
     if (is_in_chunk_ && machine_.rotary_table) check_table(step);
     follows_line_ = is_lost_ = false;
     path_.order.push_back({false, path_.sweeps.size()});
@@ -315,55 +331,9 @@ Pose Walk::base_in_robot(const ModalState& state) const {
     return inverse(robot_.base_in_cell) * (table_at(table_angle_) * base);
 }
 
-void Walk::check_tool_frame(const ModalState& state, SourcePlace place) {
-    const Pose said = pose_of(*state.tool);
-    const Pose& nose = machine_.spindle.spindle_in_flange;
-    const int along = machine_.spindle.tool_axis == ToolAxis::z ? 2 : 0;
-    const Vec3 axis = column(nose, along);
-    const double off = norm(said.shift - (nose.shift + gauge_length(tool()) * axis));
-    const double turn = std::atan2(norm(cross(column(said, along), axis)), dot(column(said, along), axis));
-    if (off <= frame_mm && turn <= frame_turn) return;
-    log_.add(FindingKind::tool_frame, place, off, std::max(off, turn * 1000), [&] {
-        return "$TOOL is " + fixed(off, 3) + " mm and " + fixed(turn / degree, 3) + " degrees from tool " +
-               std::to_string(tool().number) + " of the cell file";
-    });
-}
-
-void Walk::check_base_frame(const ModalState& state, SourcePlace place) {
-    const Pose said = pose_of(*state.base);
-    const bool turns = machine_.rotary_table.has_value();
-    const Pose wanted =
-        turns ? setup_in_table_ : inverse(robot_.base_in_cell) * scene_.directions[direction_].setup_in_cell;
-    const double off = norm(said.shift - wanted.shift);
-    const double turn = turn_between(said, wanted).angle;
-    const std::uint32_t machine = turns ? static_cast<std::uint32_t>(machine_.rotary_table->external_axis) + 1 : 0;
-    if (off <= frame_mm && turn <= frame_turn && state.base_machine == machine) return;
-    log_.add(FindingKind::base_frame, place, off, std::max(off, turn * 1000), [&] {
-        if (state.base_machine != machine) return std::string("$BASE is not chained to the table as the cell is built");
-        return "$BASE is " + fixed(off, 3) + " mm and " + fixed(turn / degree, 3) + " degrees from where the job says";
-    });
-}
-
-void Walk::check_load(const ModalState& state, SourcePlace place) {
-    const double mass = machine_.spindle.mass_kg + tool().mass_kg;
-    const double off = state.load ? std::abs(state.load->mass_kg - mass) : mass;
-    if (off <= load_kg) return;
-    log_.add(FindingKind::load, place, off, off,
-             [&] { return "the load data are " + fixed(off, 2) + " kg from the mass of spindle and tool"; });
-}
-
-void Walk::check_frames(const ProgramStep& step, const ModalState& state) {
-    if (checked_state_ == step.state && checked_chunk_ == chunk_) return;
-    checked_state_ = step.state;
-    checked_chunk_ = chunk_;
-    check_tool_frame(state, step.place);
-    check_base_frame(state, step.place);
-    check_load(state, step.place);
-}
-
 void Walk::take_line(const ProgramStep& step) {
     const ModalState& state = program_.states[step.state];
-    check_frames(step, state);
+    states_.take_line(state, context_of(step));
     if (step.e1 && std::abs(*step.e1 - table_angle_) > 1e-9) {
         const double off = std::abs(*step.e1 - table_angle_) / degree;
         log_.add(FindingKind::table_angle, step.place, off, off, [] { return "the table turns on a line"; });
@@ -378,19 +348,24 @@ void Walk::take_line(const ProgramStep& step) {
     const Pose flange = to * inverse(tool_said);
     const Pose tip = robot_.base_in_cell * (flange * tool_arm(robot_, machine_.spindle, tool()).tip_in_flange);
     const Pose setup = setup_in_cell();
+    if (!follows_line_) is_aligned(before.out, step.place);
     const Vec3 start = follows_line_ && !path_.lines.empty() ? path_.lines.back().to : before.tip;
     add_line(start, apply_inverse(setup, tip.shift), rotate_inverse(setup, -column(tip, 2)), step, state);
     follows_line_ = true;
 }
 
-void Walk::add_line(Vec3 from, Vec3 to, Vec3 out, const ProgramStep& step, const ModalState& state) {
+// Where a line begins and ends: one along which the tool turns removes other foam than a tool that stands.
+bool Walk::is_aligned(Vec3 out, SourcePlace place) {
     const Vec3 wanted = scene_.directions[direction_].out;
     const double turn = std::atan2(norm(cross(out, wanted)), dot(out, wanted));
-    if (turn > aligned_turn) {
-        log_.add(FindingKind::tool_axis, step.place, turn / degree, turn, [&] {
-            return "the tool axis is " + fixed(turn / degree, 3) + " degrees from the direction of the chunk";
-        });
-    }
+    if (turn <= aligned_turn) return true;
+    log_.add(FindingKind::tool_axis, place, turn / degree, turn, [&] {
+        return "the tool axis is " + fixed(turn / degree, 3) + " degrees from the direction of the chunk";
+    });
+    return false;
+}
+
+void Walk::add_line(Vec3 from, Vec3 to, Vec3 out, const ProgramStep& step, const ModalState& state) {
     TipLine line{from,
                  to,
                  step.place,
@@ -400,9 +375,9 @@ void Walk::add_line(Vec3 from, Vec3 to, Vec3 out, const ProgramStep& step, const
                  state.feed,
                  state.acceleration,
                  step.is_rounded ? state.rounding : 0,
-                 turn <= aligned_turn,
+                 is_aligned(out, step.place),
                  follows_line_,
-                 spindle_,
+                 signals_.in_chunk(),
                  step.hole};
     path_.order.push_back({true, path_.lines.size()});
     path_.lines.push_back(line);
@@ -457,22 +432,6 @@ void Walk::check_speed(const Joints& before, double way, double feed, SourcePlac
 }
 
 }  // namespace
-
-std::vector<std::string> called_programs(const Cell& cell) {
-    std::vector<std::string> names;
-    if (!cell.machine) return names;
-    const CellMachine& machine = *cell.machine;
-    const auto add = [&](const std::optional<Signal>& signal) {
-        if (signal && signal->kind == SignalKind::call) names.push_back(signal->target);
-    };
-    for (const auto& signal :
-         {machine.spindle.on, machine.spindle.speed, machine.spindle.at_speed, machine.spindle.off}) {
-        add(signal);
-    }
-    if (machine.extraction) add(machine.extraction->on), add(machine.extraction->off);
-    if (machine.program.tool_change_call) names.push_back(*machine.program.tool_change_call);
-    return names;
-}
 
 ToolPath walk_machine(const ParsedProgram& program, const ReplayScene& scene, FindingLog& log, const Context& context) {
     return Walk(program, scene, log).run(context);

@@ -15,9 +15,6 @@
 
 namespace qchopper {
 
-// Programs of the cell file that a program may call (KrlOptions::calls).
-std::vector<std::string> called_programs(const Cell& cell);
-
 // Preconditions: the cell has a machine with a robot, every tool that a chunk names is one of it, every direction is an
 // index. Throws Cancelled.
 ToolPath walk_machine(const ParsedProgram& program, const ReplayScene& scene, FindingLog& log, const Context& context);

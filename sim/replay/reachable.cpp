@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "base/parallel.h"
@@ -52,7 +53,7 @@ void rasterise(SurfaceMap& map, const std::array<Vec3, 3>& t) {
 
 // The map of the target and of the floor below it, `around` wider than the target.
 SurfaceMap target_surface(const ReplayScene& scene, std::size_t direction, double cell, double around) {
-    SurfaceMap map{direction_frame(scene.directions[direction].out), 0, 0, cell, 0, 0, {}};
+    SurfaceMap map{direction_frame(scene.directions[direction].out), 0, 0, cell, 0, 0, {}, false};
     std::vector<Vec3> points = scene.target->points;
     for (Vec3& p : points) p = apply_inverse(map.frame_in_setup, p);
     Box box{points.front(), points.front()};
@@ -113,13 +114,45 @@ std::vector<float> morph(const SurfaceMap& map, const std::vector<Tap>& taps, fl
     return result;
 }
 
-// Raises tips to where flat discs above them, holder and spindle, are clear of the surface.
-void clear_holder(const ReplayScene& scene, std::size_t direction, const CarvingTool& tool, SurfaceMap& tips) {
-    const Spindle& spindle = scene.cell->machine->spindle;
-    std::vector<std::array<double, 2>> discs;  // radius, height above the tip
+// A flat disc above the tip, where holder or spindle begin.
+struct BodyDisc {
+    double radius = 0;
+    double above = 0;
+};
+
+std::vector<BodyDisc> discs_of(const CarvingTool& tool, const Spindle& spindle) {
+    std::vector<BodyDisc> discs;
     double above = tool.stick_out;
     for (const HolderStep& step : tool.holder) discs.push_back({0.5 * step.diameter, above}), above += step.length;
     if (spindle.body_radius > 0) discs.push_back({spindle.body_radius, above + spindle.body_offset});
+    return discs;
+}
+
+// Whether the body of a tool holds that of a finer one wherever the finer one touches what the tool touches: its ball
+// in the tool's ball, so that it stands up to the difference of their radii beside the tool, and no lower.
+bool holds_all_of(const CarvingTool& tool, const CarvingTool& finer, const Spindle& spindle) {
+    const double beside = 0.5 * (tool.diameter - finer.diameter);
+    const std::vector<BodyDisc> own = discs_of(tool, spindle);
+    const std::vector<BodyDisc> discs = discs_of(finer, spindle);
+    return std::all_of(discs.begin(), discs.end(), [&](const BodyDisc& disc) {
+        return std::any_of(own.begin(), own.end(), [&](const BodyDisc& wide) {
+            return wide.radius >= disc.radius + beside && wide.above <= disc.above;
+        });
+    });
+}
+
+// The ball-ended ones, the finest first; where there are none, all but drills.
+void keep_finishing(std::vector<std::size_t>& tools, const std::vector<CarvingTool>& of_cell) {
+    std::erase_if(tools, [&](std::size_t i) { return is_drill(of_cell[i]); });
+    const auto is_ball = [&](std::size_t i) { return of_cell[i].shape == ToolShape::ball; };
+    if (std::any_of(tools.begin(), tools.end(), is_ball)) std::erase_if(tools, std::not_fn(is_ball));
+    std::stable_sort(tools.begin(), tools.end(),
+                     [&](std::size_t a, std::size_t b) { return of_cell[a].diameter < of_cell[b].diameter; });
+}
+
+// Raises tips to where flat discs above them, holder and spindle, are clear of the surface.
+void clear_holder(const ReplayScene& scene, std::size_t direction, const CarvingTool& tool, SurfaceMap& tips) {
+    const std::vector<BodyDisc> discs = discs_of(tool, scene.cell->machine->spindle);
     const auto [lowest, highest] = std::minmax_element(tips.height.begin(), tips.height.end());
     const double depth = *highest - *lowest;  // before tips are raised
     for (const auto& [radius, height] : discs) {
@@ -131,7 +164,8 @@ void clear_holder(const ReplayScene& scene, std::size_t direction, const Carving
                 float& tip = tips.height[static_cast<std::size_t>(j) * tips.columns + i];
                 const double x = tips.x_min + (i + 0.5) * tips.cell;
                 const double y = tips.y_min + (j + 0.5) * tips.cell;
-                tip = std::max(tip, static_cast<float>(coarse.at(x, y) - height));
+                const auto least = static_cast<float>(coarse.at(x, y) - height);
+                if (least > tip) tip = least, tips.is_limited = true;
             }
         }
     }
@@ -191,18 +225,54 @@ std::vector<StockTool> used_tools(const ReplayScene& scene) {
     return used;
 }
 
-std::vector<std::optional<std::size_t>> finest_tools(const ReplayScene& scene) {
+std::size_t carving_directions(const ReplayScene& scene) {
+    return std::min(scene.drilling, scene.directions.size());
+}
+
+std::vector<std::size_t> allowed_tools(const ReplayScene& scene) {
     const std::vector<CarvingTool>& tools = scene.cell->machine->tools;
-    std::vector<std::optional<std::size_t>> finest(scene.directions.size());
+    std::vector<std::size_t> allowed;
+    for (std::size_t i = 0; i < tools.size(); ++i) {
+        const bool is_named = std::find(scene.tools.begin(), scene.tools.end(), tools[i].number) != scene.tools.end();
+        if (scene.tools.empty() || is_named) allowed.push_back(i);
+    }
+    return allowed;
+}
+
+std::vector<std::size_t> tools_along(const ReplayScene& scene, std::size_t direction) {
+    const std::vector<CarvingTool>& tools = scene.cell->machine->tools;
+    std::vector<std::size_t> along;
     for (const StockTool& used : used_tools(scene)) {
+        if (used.direction != direction) continue;
         for (std::size_t i = 0; i < tools.size(); ++i) {
-            if (tools[i].number != used.tool || used.direction >= finest.size()) continue;
-            if (is_drill(tools[i])) continue;  // it leaves the surface as it is
-            std::optional<std::size_t>& best = finest[used.direction];
-            if (!best || tools[i].diameter < tools[*best].diameter) best = i;
+            if (tools[i].number == used.tool) along.push_back(i);
         }
     }
-    return finest;
+    return along;
+}
+
+std::vector<const Closing*> Closings::along(std::size_t direction, std::vector<std::size_t> tools,
+                                            const Context& context) {
+    const CellMachine& machine = *scene_.cell->machine;
+    keep_finishing(tools, machine.tools);
+    std::vector<const Closing*> closings;
+    for (const std::size_t tool : tools) {
+        if (!closings.empty() && !closings.back()->map.is_limited) break;
+        const bool adds_nothing = std::any_of(closings.begin(), closings.end(), [&](const Closing* finer) {
+            return holds_all_of(machine.tools[tool], machine.tools[finer->tool], machine.spindle);
+        });
+        if (!adds_nothing) closings.push_back(&of(direction, tool, context));
+    }
+    return closings;
+}
+
+const Closing& Closings::of(std::size_t direction, std::size_t tool, const Context& context) {
+    const auto [found, is_new] = known_.try_emplace({direction, tool});
+    if (is_new) {
+        const CarvingTool& own = scene_.cell->machine->tools[tool];
+        found->second = {tool, direction, closing_of(scene_, direction, own, cell_, context)};
+    }
+    return found->second;
 }
 
 }  // namespace qchopper

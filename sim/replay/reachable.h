@@ -1,12 +1,15 @@
-// Where the tools of a program can come to on the target: the closing of the target by tool and holder, computed here.
+// Where tools can come to on the target: its closing by tool and holder along a direction, computed here.
 //
 // mm. Per direction the highest points of the target and of the floor of the spoil layer on square cells; the least
-// heights at which the finest tool of that direction may stand, its holder and the spindle clear; and the lowest
-// surface that it then leaves. O(cells * (radius / cell)^2) (tests/sim/replay/ball_test.cpp).
+// heights at which a tool may stand, its holder and the spindle clear; and the lowest surface that it then leaves. The
+// flute asks for nothing of its own: above it a tool is as thick as below, and foam that is higher is removed in
+// levels. O(cells * (radius / cell)^2) (tests/sim/replay/reachable_test.cpp).
 
 #pragma once
 
 #include <cstddef>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "base/context.h"
@@ -23,6 +26,7 @@ struct SurfaceMap {
     std::int32_t columns = 0;
     std::int32_t rows = 0;
     std::vector<float> height;  // at the middles of cells, row by row; -1e30: nothing
+    bool is_limited = false;    // holder or spindle keep the tool higher somewhere
     double at(double x, double y) const;
     // Distance from a point of the frame to the nearest point above the surface, at most `most`; cells count at their
     // middles.
@@ -36,8 +40,37 @@ SurfaceMap closing_of(const ReplayScene& scene, std::size_t direction, const Car
 // The tools that the program uses along each direction, and those that parts before it used: ascending, each once.
 std::vector<StockTool> used_tools(const ReplayScene& scene);
 
-// The finest tool that each direction of the program has a chunk for, parts before included: index in
-// CellMachine::tools, of equal ones the first; nothing for a direction without a chunk. Drills do not count.
-std::vector<std::optional<std::size_t>> finest_tools(const ReplayScene& scene);
+// The closing by one tool along one direction.
+struct Closing {
+    std::size_t tool = 0;       // index in CellMachine::tools
+    std::size_t direction = 0;  // index in ReplayScene::directions
+    SurfaceMap map;
+};
+
+// Closings in cells of a size, each computed once. Not for several threads at once.
+class Closings {
+ public:
+    // The scene must outlive it.
+    Closings(const ReplayScene& scene, double cell) : scene_(scene), cell_(cell) {}
+    // What the tools of these indices reach together along a direction: the closing by the finest of them, and, where
+    // its holder keeps it away, those by coarser ones whose holder does not. Others add nothing: a larger ball fits in
+    // only where a smaller one does. Of tools of several shapes only the ball-ended ones count, which finish; where
+    // none is, all but drills. Valid while this object lives. Throws Cancelled.
+    std::vector<const Closing*> along(std::size_t direction, std::vector<std::size_t> tools, const Context& context);
+
+ private:
+    const Closing& of(std::size_t direction, std::size_t tool, const Context& context);
+
+    const ReplayScene& scene_;
+    double cell_;
+    std::map<std::pair<std::size_t, std::size_t>, Closing> known_;  // by direction and tool
+};
+
+// How many of ReplayScene::directions, the first ones, are those of the setup, from which the target is to be carved.
+std::size_t carving_directions(const ReplayScene& scene);
+// What may be used: indices of the tools of the cell, but for those that the operator left out (ReplayScene::tools).
+std::vector<std::size_t> allowed_tools(const ReplayScene& scene);
+// Indices of those that the program uses along a direction, parts before included.
+std::vector<std::size_t> tools_along(const ReplayScene& scene, std::size_t direction);
 
 }  // namespace qchopper

@@ -23,8 +23,12 @@ void check_scene(const ReplayScene& scene) {
            "the cell file describes no robot");
     demand(!scene.directions.empty(), "the job has no direction");
     demand(!scene.chunks.empty(), "the job names no program");
+    const auto& tools = scene.cell->machine->tools;
+    for (const std::uint16_t number : scene.tools) {
+        demand(std::any_of(tools.begin(), tools.end(), [&](const CarvingTool& t) { return t.number == number; }),
+               "a tool that the operator allows is not in the cell file");
+    }
     for (const SceneChunk& chunk : scene.chunks) {
-        const auto& tools = scene.cell->machine->tools;
         demand(std::any_of(tools.begin(), tools.end(), [&](const CarvingTool& t) { return t.number == chunk.tool; }),
                "a tool of the job is not in the cell file");
         demand(chunk.direction < scene.directions.size(), "a direction of the job is not there");
@@ -57,6 +61,19 @@ void judge_gouge(const ReplayReport& report, const ReplayOptions& options, Findi
     if (beyond <= options.most_beyond_mm3) return;
     log.add(FindingKind::gouge_volume, {}, beyond, beyond,
             [&] { return fixed(beyond, 1) + " mm3 of the piece are cut away beyond tolerance"; });
+}
+
+void judge_given_up(const ReplayReport& report, const ReplayOptions& options, FindingLog& log) {
+    const double share = report.share_given_up();
+    if (share <= options.most_given_up) return;
+    const GivenUp& most = report.leftover.given_up.front();
+    log.add(FindingKind::given_up, {}, share, share, [&] {
+        return fixed(report.leftover.given_up_mm2() / 100, 1) + " cm2, " + fixed(100 * share, 2) +
+               " % of the surface, keep foam that tools of the cell reach and the program gives up, most of it tool " +
+               std::to_string(most.tool) + " along direction " + std::to_string(most.direction + 1) + "; at most " +
+               fixed(100 * options.most_given_up, 2) +
+               " % may be given up, unless the operator names by --tools the tools that may be used";
+    });
 }
 
 void judge_leftover(const ReplayReport& report, const ReplayOptions& options, FindingLog& log) {
@@ -127,6 +144,7 @@ ReplayReport replay(const ParsedProgram& program, const ReplayScene& scene, cons
     report.volumes = measure_volumes(foam, scene, volumes, context);
     report.deviation = deviations(gouges, report.leftover);
     judge_gouge(report, options, log);
+    if (scene.is_last) judge_given_up(report, options, log);
     if (scene.is_last) judge_leftover(report, options, log);
     judge_cuts(report, log);
     if (!scene.is_last) {

@@ -23,12 +23,13 @@
 namespace qchopper {
 
 struct ReplayOptions {
-    double cell = 0.25;          // of the foam; figures are claimed up to 0.25
-    bool is_worst = true;        // corners that may be rounded are
-    double gouge_floor = 0.01;   // gouges up to this are not told from none
-    double most_gouge = 0.25;    // a deeper one is a finding
-    double most_beyond_mm3 = 1;  // more volume gouged deeper than that is a finding
-    double least_share = 0.995;  // of the reachable surface within tolerance
+    double cell = 0.25;            // of the foam; figures are claimed up to 0.25
+    bool is_worst = true;          // corners that may be rounded are
+    double gouge_floor = 0.01;     // gouges up to this are not told from none
+    double most_gouge = 0.25;      // a deeper one is a finding
+    double most_beyond_mm3 = 1;    // more volume gouged deeper than that is a finding
+    double least_share = 0.995;    // of the reachable surface within tolerance
+    double most_given_up = 0.005;  // of the surface, where nobody ordered it
     double most_standing_mm3 = 100;
     LeftoverOptions leftover;
     double volume_cell = 0.5;
@@ -49,7 +50,9 @@ struct ReplayReport {
     // Per triangle of the target: leftover above 0, gouge below; of the base 0. Leftover only after the last part.
     std::vector<float> deviation;
     CarvedStock left;  // after every part but the last
-    double share_within() const { return ratio(leftover.within_mm2, leftover.reachable_mm2); }
+    // Of what is not given up.
+    double share_within() const { return ratio(leftover.within_mm2, leftover.reachable_mm2 - leftover.given_up_mm2()); }
+    double share_given_up() const { return ratio(leftover.given_up_mm2(), leftover.area_mm2); }
     double share_reachable() const { return ratio(leftover.reachable_mm2, leftover.area_mm2); }
     double share_air() const { return ratio(carving.air_mm, carving.feed_mm); }
     static double ratio(double part, double whole) { return whole > 0 ? part / whole : 0; }

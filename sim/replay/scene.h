@@ -1,4 +1,5 @@
-// What a replay is told beside the program: the cell, the block, the piece, and what the job says of each chunk.
+// What a replay is told beside the program: the cell, the block, the piece, what the job says of each chunk, and which
+// tools the operator allows.
 //
 // mm, radians, setup coordinates unless stated (z up, the piece's base plane at z = 0, the underside of the block at
 // z = -spoil). Everything else comes from the program's text.
@@ -7,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -44,8 +46,9 @@ struct SceneHole {
 struct ReplayScene {
     const Cell* cell = nullptr;  // with a machine and a robot
     std::vector<SceneDirection> directions;
-    std::vector<SceneChunk> chunks;  // in the order in which they are called
-    Box block;                       // as it stands before the program
+    std::size_t drilling = std::numeric_limits<std::size_t>::max();  // directions from this index on are only drilled
+    std::vector<SceneChunk> chunks;                                  // in the order in which they are called
+    Box block;                                                       // as it stands before the program
     double spoil = 10;
     const TriangleMesh* target = nullptr;  // closed
     std::vector<bool> is_base;             // per triangle of the target; empty: none
@@ -56,6 +59,8 @@ struct ReplayScene {
     const CarvedStock* before = nullptr;
     bool is_last = true;
     std::vector<SceneHole> holes = {};  // all of the piece
+    // Numbers of the tools that may be used, by order of the operator; empty: all of the cell.
+    std::vector<std::uint16_t> tools = {};
 };
 
 }  // namespace qchopper

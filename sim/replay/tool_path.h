@@ -13,10 +13,12 @@
 
 namespace qchopper {
 
-struct SpindleState {
-    bool is_on = false;
+// Of spindle and extraction.
+struct SignalState {
+    bool spindle_is_on = false;
     bool has_speed = false;  // waited for since it was switched on, or the cell has no signal for it
     double rpm = 0;
+    bool extraction_is_on = false;
 };
 
 // A straight line of the tip.
@@ -32,8 +34,8 @@ struct TipLine {
     double rounding = 0;        // of the corner at its end; 0: it is exact
     bool is_aligned = true;     // the tool axis is along the direction
     bool follows_line = false;  // it begins where the line before it ends
-    SpindleState spindle;
-    std::uint32_t hole = 0;  // that a comment of the program names for it; 0: none
+    SignalState signals;        // as the chunk itself has switched them
+    std::uint32_t hole = 0;     // that a comment of the program names for it; 0: none
 };
 
 // The tool on the way of a joint move.
@@ -47,6 +49,8 @@ struct JointSweep {
     SourcePlace place;
     std::uint32_t tool = 0;
     double seconds = 0;
+    bool is_checked_only =
+        false;  // not gone: a comment says that the joint move from home to the chunk's start is free
 };
 
 // One or the other, in the order of execution.

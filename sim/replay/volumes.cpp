@@ -157,12 +157,10 @@ class Measuring {
           grid_(grid_over(scene, options)),
           zone_(*scene.target, grid_, options.around),
           tree_(*scene.target),
-          holes_(scene) {
-        const auto finest = finest_tools(scene);
-        for (std::size_t d = 0; d < finest.size(); ++d) {
-            if (!finest[d]) continue;
-            const CarvingTool& tool = scene.cell->machine->tools[*finest[d]];
-            closings_.push_back(closing_of(scene, d, tool, closing_cell, context));
+          holes_(scene),
+          known_(scene, closing_cell) {
+        for (std::size_t d = 0; d < carving_directions(scene); ++d) {
+            for (const Closing* closing : known_.along(d, allowed_tools(scene), context)) closings_.push_back(closing);
         }
         by_row_.resize(static_cast<std::size_t>(grid_.rows));
         for (std::uint32_t t = 0; t < scene.target->triangles.size(); ++t) {
@@ -188,7 +186,8 @@ class Measuring {
     Zone zone_;
     TriangleTree tree_;
     HoleSpace holes_;
-    std::vector<SurfaceMap> closings_;
+    Closings known_;
+    std::vector<const Closing*> closings_;  // of all that tools of the cell reach
     std::vector<std::vector<std::uint32_t>> by_row_;
 };
 
@@ -214,7 +213,8 @@ VolumeFigures Measuring::of_row(std::int32_t row) const {
 }
 
 bool Measuring::stands(Vec3 p) const {
-    const bool is_reached = std::any_of(closings_.begin(), closings_.end(), [&](const SurfaceMap& map) {
+    const bool is_reached = std::any_of(closings_.begin(), closings_.end(), [&](const Closing* closing) {
+        const SurfaceMap& map = closing->map;
         const Vec3 q = apply_inverse(map.frame_in_setup, p);
         // Above the closing by more than what its cells do not know.
         return q.z > map.at(q.x, q.y) + closing_cell && map.distance_above(q, 10) == 0;

@@ -1,4 +1,5 @@
 #include "base/text.h"
+#include "base/base64.h"
 
 #include <gtest/gtest.h>
 
@@ -57,6 +58,21 @@ TEST(Uuid, IsWrittenInFiveGroups) {
     Uuid id{};
     for (std::size_t i = 0; i < id.size(); ++i) id[i] = static_cast<std::uint8_t>(i);
     EXPECT_EQ(to_text(id), "00010203-0405-0607-0809-0a0b0c0d0e0f");
+}
+
+// The vectors of RFC 4648, section 10.
+TEST(Base64, IsThatOfTheRfc) {
+    const std::pair<std::string, const char*> vectors[] = {{"", ""},
+                                                           {"f", "Zg=="},
+                                                           {"fo", "Zm8="},
+                                                           {"foo", "Zm9v"},
+                                                           {"foob", "Zm9vYg=="},
+                                                           {"fooba", "Zm9vYmE="},
+                                                           {"foobar", "Zm9vYmFy"}};
+    for (const auto& [bytes, text] : vectors) {
+        EXPECT_EQ(to_base64({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}), text);
+    }
+    EXPECT_EQ(to_base64(std::array<std::uint8_t, 3>{0xFB, 0xFF, 0xFE}), "+//+");
 }
 
 TEST(PortableName, IsShortAndPlain) {

@@ -54,6 +54,38 @@ TEST(Timings, AnInnerStageDoesNotCountInTheOuterOne) {
     EXPECT_LE(sum, times.whole.wall_s - 0.009) << "what is in no stage counts in the whole only";
 }
 
+// Two threads were busy for 3 s and 1 s together, whatever the clocks say here.
+TEST(Timings, WorkOfSeveralThreadsDividesTheStageByTheTimeThatTheyWereBusy) {
+    Timings timings;
+    const Context context = timed_by(timings);
+    {
+        StageTimer outer(context, "jobs written");
+        sleep_ms(80);
+        RunTimes one;
+        one.stages = {{"toolpaths made", {1, 0}}, {"programs replayed", {1, 0}}};
+        one.whole = {3, 0};
+        RunTimes two;
+        two.stages = {{"toolpaths made", {1, 0}}};
+        two.whole = {1, 0};
+        outer.divide({one, two});
+        outer.next("pictures drawn");
+    }
+    const RunTimes times = timings.so_far();
+    ASSERT_EQ(times.stages.size(), 4U);
+    const auto wall = [&](const std::string& name) {
+        for (const StageTime& stage : times.stages) {
+            if (stage.name == name) return stage.spent.wall_s;
+        }
+        return -1.0;
+    };
+    EXPECT_GE(wall("toolpaths made"), 0.039);
+    EXPECT_NEAR(wall("toolpaths made"), 2 * wall("programs replayed"), 1e-9);
+    EXPECT_NEAR(wall("jobs written"), wall("programs replayed"), 0.02) << "what was in no stage of theirs";
+    double sum = 0;
+    for (const StageTime& stage : times.stages) sum += stage.spent.wall_s;
+    EXPECT_LE(sum, times.whole.wall_s + 1e-9);
+}
+
 TEST(Timings, AStageThatComesAgainGoesOn) {
     Timings timings;
     const Context context = timed_by(timings);

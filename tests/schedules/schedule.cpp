@@ -328,7 +328,7 @@ void plan_power(World& world, const Plan& plan, ScheduleEnd& end) {
 }
 
 // The whole of it, once no dispatcher runs any more.
-void judge_end(const World& world, const Plan& plan, const std::vector<std::unique_ptr<Pc>>& pcs, ScheduleEnd& end) {
+void judge_end(const World& world, const std::vector<std::unique_ptr<Pc>>& pcs, ScheduleEnd& end) {
     for (const auto& pc : pcs) {
         for (const PieceJob& job : pc->jobs()) {
             ++end.jobs;
@@ -342,7 +342,6 @@ void judge_end(const World& world, const Plan& plan, const std::vector<std::uniq
             }
         }
     }
-    static_cast<void>(plan);
     if (world.most_starts_of_a_job() > 1 || !world.count_is_right()) ++end.double_starts;
 }
 
@@ -380,7 +379,7 @@ ScheduleEnd run_schedule(std::uint64_t seed, const std::function<void(const std:
         bodies.emplace_back([pc = pcs.back().get()] { pc->run(); });
     }
     world.run(bodies);
-    judge_end(world, plan, pcs, end);
+    judge_end(world, pcs, end);
     end.link_faults = static_cast<int>(world.proxy.log().size());
     end.log = world.log;
     return end;

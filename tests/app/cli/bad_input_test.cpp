@@ -331,8 +331,19 @@ std::vector<Case> projects() {
          exit_use,
          {"dry-run", "p.qch"},
          {"not finished", "qchopper prepare p.qch"},
-         project_text([](const std::string& text) { return replaced(text, "\"done\"", "\"cutting\""); }),
+         project_text([](const std::string& text) {
+             nlohmann::ordered_json project = nlohmann::ordered_json::parse(text);
+             project["stage"] = "cutting";
+             project["jobs"] = nlohmann::ordered_json::array();
+             return project.dump(1) + "\n";
+         }),
          same_project},
+        {"UnfinishedProjectInADispatch",
+         exit_use,
+         {"dispatch", "p.qch"},
+         {"not finished", "qchopper prepare p.qch"},
+         project_text([](const std::string& text) { return replaced(text, "\"done\"", "\"cut\""); }),
+         no_start},
         {"UnknownPiece", exit_use, {"dry-run", "p.qch", "--piece", "ZZ"}, {"no piece ZZ"}, project(), same_project},
         {"BrokenJob",
          exit_mesh,

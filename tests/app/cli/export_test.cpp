@@ -4,7 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "segment/io/write_ply.h"
 #include "tests/app/cli/program.h"
+#include "tests/shapes.h"
 
 namespace qchopper {
 namespace {
@@ -163,6 +165,24 @@ TEST_F(Export, WrongUseIsToldAndWritesNothing) {
     EXPECT_EQ(ended.code, 64);
     EXPECT_NE(ended.err.find("has no cell"), std::string::npos) << ended.err;
     EXPECT_EQ(program::run({"export", "nowhere.qch", "--format", "3mf"}, {folder.path}).code, 66);
+}
+
+TEST_F(Export, FragmentsThatAreNotExportedAreNamed) {
+    const TriangleMesh bar = shapes::box({0, 0, 0}, {150, 60, 50}, 3);
+    write_file(folder.path / "bar.ply", to_ply(shapes::joined({bar, shapes::box({160, 0, 0}, {161, 1, 1})})));
+    for (const std::string choice : {"keep", "drop"}) {
+        const std::string project = choice + ".qch";
+        const program::Ended made = program::run(
+            {"segment", "bar.ply", "--units", "mm", "--fragments", choice, "--plane", "1,0,0,0", "-o", project},
+            {folder.path});
+        ASSERT_EQ(made.code, 0) << made.err;
+        const program::Ended ended = program::run({"export", project, "--format", "3mf", "--json"}, {folder.path});
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        EXPECT_NE(ended.err.find("1 fragment (0.00100 ml in all)"), std::string::npos) << ended.err;
+        EXPECT_EQ(ended.err.find("dropped") != std::string::npos, choice == "drop") << ended.err;
+        EXPECT_EQ(json::parse(ended.out)["fragments"], 1);
+    }
+    EXPECT_EQ(document({"3mf", "-o", "none.3mf"})["fragments"], 0);
 }
 
 TEST_F(Export, APieceThatSomebodyChangedIsRefused) {

@@ -80,8 +80,11 @@ struct NextStep : ::testing::Test {
         }
         return words;
     }
-    // Runs each step that `ended` prints, and those that these print. Returns all commands in their order.
+    // Runs each step that `ended` prints, and those that these print, at a terminal where a person says yes: the cap
+    // stands on its rim, and dispatch asks. Returns all commands in their order.
     std::vector<std::string> follow(const Ended& ended) const {
+        program::RunOptions terminal{folder.path, "y\n"};
+        terminal.has_terminal = true;
         std::vector<std::string> done;
         std::vector<std::string> left = next_steps(ended);
         while (!left.empty() && done.size() < 10) {
@@ -89,7 +92,7 @@ struct NextStep : ::testing::Test {
             left.erase(left.begin());
             if (std::find(done.begin(), done.end(), step) != done.end()) continue;
             done.push_back(step);
-            const Ended next = run(completed(words_of(step)));
+            const Ended next = program::run(completed(words_of(step)), terminal);
             EXPECT_EQ(next.code, exit_done) << step << "\n" << next.err << next.out;
             for (const std::string& more : next_steps(next)) left.push_back(more);
         }

@@ -183,6 +183,47 @@ TEST_F(OrderedJob, AnUnreachableJobIsSentOnlyWhenThatIsAccepted) {
     EXPECT_NE(accepted.out.find("all 3 jobs ended complete"), std::string::npos) << accepted.out;
 }
 
+// On a terminal it asks, elsewhere it refuses without the option.
+TEST_F(OrderedJob, AJobWhosePieceIsNotHeldIsSentOnlyWhenThatIsAccepted) {
+    const auto unheld = [](std::map<std::string, Bytes>&, Json& manifest) {
+        manifest["setup"]["workholding"] = {
+            {"cutting_force_n", 20.0}, {"joint_strength", 0.1}, {"max_slenderness", 4.0}, {"foam_strength", 0.6},
+            {"height", 214.0},         {"base_mm2", 460.0},     {"base_width", 24.2},     {"joint_force_n", 3.8},
+            {"foam_force_n", 3.9},     {"narrowest_z", 0.0},    {"narrowest_mm2", 460.0}, {"passes", false},
+            {"stand", nullptr}};
+    };
+    forge(unheld, true);
+    const std::string words =
+        "piece C is not held safely: tape or glue of 0.1 N/mm2 parts at 3.8 N, less than the cutting force of 20 N";
+    program::Arguments dispatch{"dispatch", "p.qch", "--to", to, "--drop", "drop"};
+    const Ended refused = program::run(dispatch, {folder.path});
+    EXPECT_EQ(refused.code, exit_demand_broken) << refused.err;
+    EXPECT_NE(refused.err.find(words), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("pass --accept-workholding"), std::string::npos) << refused.err;
+    EXPECT_EQ(refused.out, "no job was sent\n");
+    EXPECT_EQ(cell->err().find("CLAIM"), std::string::npos) << cell->err();
+
+    const Ended dry = program::run({"dry-run", "p.qch", "--piece", "C"}, {folder.path});
+    EXPECT_EQ(dry.code, 0) << dry.err;
+    EXPECT_NE(dry.err.find("warning: " + words), std::string::npos) << dry.err;
+
+    program::RunOptions terminal{folder.path, "n\n"};
+    terminal.has_terminal = true;
+    const Ended declined = program::run(dispatch, terminal);
+    EXPECT_EQ(declined.code, exit_demand_broken) << declined.err;
+    EXPECT_NE(declined.err.find("[y/N]"), std::string::npos) << declined.err;
+    EXPECT_EQ(cell->err().find("CLAIM"), std::string::npos) << cell->err();
+    terminal.input = "y\n";
+    const Ended agreed = program::run(dispatch, terminal);
+    EXPECT_EQ(agreed.code, 0) << agreed.err;
+    EXPECT_NE(agreed.err.find(words), std::string::npos) << agreed.err;
+
+    dispatch.insert(dispatch.end(), {"--again", "--accept-workholding"});
+    const Ended accepted = program::run(dispatch, {folder.path});
+    EXPECT_EQ(accepted.code, 0) << accepted.err;
+    EXPECT_NE(accepted.out.find("all 3 jobs ended complete"), std::string::npos) << accepted.out;
+}
+
 // A pipe without a writer never gives a byte, a device has no end.
 TEST_F(OrderedJob, OnlyRegularFilesAreRead) {
     for (const fs::path& file : {job, project / "project.json", project / "cell.toml"}) {
@@ -204,7 +245,7 @@ TEST_F(OrderedJob, AFolderThatAKilledDryRunLeftIsRemovedByTheNext) {
     program::RunOptions around{folder.path};
     around.temporary_folder = temporary;
     Process slow({"dry-run", "p.qch", "--speed", "1"}, around);
-    ASSERT_TRUE(slow.waits_until_err("piece ")) << slow.err();
+    ASSERT_TRUE(slow.waits_until_err("dry run: a simulated cell")) << slow.err();
     slow.signal(SIGKILL);
     EXPECT_EQ(slow.wait().killed_by, SIGKILL);
     EXPECT_FALSE(fs::is_empty(temporary));

@@ -53,8 +53,9 @@ TEST_F(PlaneOptions, OfTheSphereAreTriedAtEveryStep) {
 TEST_F(PlaneOptions, OffsetsAreSoMany) {
     ASSERT_EQ(segment({"--offsets", "7", "--step"}).code, 0);
     const json proposal = document({"segment", "p.qch", "--step", "--top", "1000"})["proposal"];
-    EXPECT_LE(proposal["planes"].size(), 21U);
-    EXPECT_GT(proposal["planes"].size(), 15U);
+    EXPECT_LE(proposal["candidates"], 21);
+    EXPECT_GT(proposal["candidates"], 15);
+    EXPECT_LE(proposal["planes"].size(), proposal["candidates"]);
     const json cut = document({"segment", "p.qch", "--accept", "1"});
     EXPECT_EQ(cut["cuts"].size(), 1U);
     EXPECT_EQ(run({"explain", "p.qch"}).code, 0);
@@ -142,8 +143,8 @@ TEST_F(PlaneOptions, NoPlaneGoesThroughSurfaceThatMustNotBeCut) {
         ++level;
         EXPECT_LT(plane["offset_mm"].get<double>(), 0.02 * box.size().z);
     }
-    EXPECT_GT(level, 15);
-    EXPECT_LT(level, 21);
+    EXPECT_GT(level, 6) << "every second one: the list leaves neighbours out";
+    EXPECT_LT(level, 12);
 }
 
 TEST_F(PlaneOptions, ThatAreWrongAreRefused) {

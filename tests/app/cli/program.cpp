@@ -52,6 +52,14 @@ fs::path state_of(const fs::path& folder) {
     return states.path / std::to_string(std::hash<std::string>()(folder.string()));
 }
 
+// A terminal on which a text is typed: the file that stands for it.
+std::string open_keyboard(int& keyboard, const std::string& text) {
+    keyboard = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+    if (keyboard < 0 || ::grantpt(keyboard) != 0 || ::unlockpt(keyboard) != 0) return {};
+    EXPECT_EQ(::write(keyboard, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+    return ::ptsname(keyboard);
+}
+
 }  // namespace
 
 Process::Process(const Arguments& arguments, const RunOptions& options) {
@@ -62,10 +70,11 @@ Process::Process(const Arguments& arguments, const RunOptions& options) {
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
     const fs::path state = state_of(options.folder);
+    const std::string terminal = options.has_terminal ? open_keyboard(keyboard_, options.input) : "";
     pid_ = ::fork();
     if (pid_ != 0) return;
     if (::chdir(options.folder.c_str()) != 0) ::_exit(127);
-    redirect(streams_.path / "in", O_RDONLY, STDIN_FILENO);
+    redirect(terminal.empty() ? streams_.path / "in" : fs::path(terminal), O_RDONLY | O_NOCTTY, STDIN_FILENO);
     redirect(streams_.path / "out", O_WRONLY | O_CREAT, STDOUT_FILENO);
     redirect(streams_.path / "err", O_WRONLY | O_CREAT, STDERR_FILENO);
     ::setenv("XDG_STATE_HOME", state.c_str(), 1);
@@ -78,6 +87,7 @@ Process::Process(const Arguments& arguments, const RunOptions& options) {
 }
 
 Process::~Process() {
+    if (keyboard_ >= 0) ::close(keyboard_);
     if (pid_ <= 0 || has_ended()) return;
     ::kill(pid_, SIGKILL);
     ::waitpid(pid_, &status_, 0);

@@ -24,6 +24,7 @@ struct RunOptions {
     bool one_core = false;                        // may use one core only
     std::filesystem::path temporary_folder = {};  // TMPDIR; empty: as here
     std::uint64_t largest_file = 0;               // bytes of a file that it may write; 0: no limit
+    bool has_terminal = false;                    // stdin is a terminal on which the input is typed
 };
 
 struct Ended {
@@ -56,6 +57,7 @@ class Process {
     bool has_ended();
 
     Folder streams_;
+    int keyboard_ = -1;  // the other end of the terminal on stdin
     pid_t pid_ = -1;
     int status_ = 0;
     bool ended_ = false;

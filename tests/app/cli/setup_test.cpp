@@ -58,6 +58,7 @@ TEST_F(SetupCommand, KeepsTheOperatorsChoiceAndWritesTheJobAgain) {
     const json changed =
         document_of({"setup", "p.qch", "--piece", name, "--base", std::to_string(other), "--directions", "1"});
     EXPECT_EQ(changed["job_written"], true);
+    EXPECT_EQ(changed["program"]["parts"], 0) << "the cell takes no programs";
     const json chosen = changed["pieces"][0]["setups"][0];
     EXPECT_EQ(chosen["base_number"], other);
     EXPECT_EQ(chosen["reach"]["directions"].size(), 1U);
@@ -71,6 +72,7 @@ TEST_F(SetupCommand, KeepsTheOperatorsChoiceAndWritesTheJobAgain) {
         json same = changed;
         same["done"] = "";
         same["job_written"] = false;
+        same.erase("program");
         return same;
     }());
 
@@ -123,6 +125,25 @@ TEST_F(SetupCommand, APieceThatNoBlockHoldsIsNamedAndTheOthersGoOn) {
     const program::Ended table = run({"setup", "balls.qch", "--piece", "A"});
     EXPECT_NE(table.out.find("  no\n"), std::string::npos) << table.out;
     EXPECT_NE(table.out.find("piece A does not fit: "), std::string::npos) << table.out;
+}
+
+// The lower half of a ball is out of reach however it is carved, and more of it with fewer directions.
+TEST_F(SetupCommand, ASetupThatLeavesMoreOutOfReachThanMayBeIsWarnedOf) {
+    const Bytes ply = to_ply(shapes::ball({0, 0, 0}, 40, 12));
+    program::put(folder.path / "ball.ply", {ply.begin(), ply.end()});
+    const std::string cell = (fs::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml").string();
+    const program::Ended made = run(
+        {"prepare", "ball.ply", "--units", "mm", "--cell", cell, "--min-cuts", "0", "--no-programs", "-o", "ball.qch"});
+    ASSERT_LE(made.code, 1) << made.err;
+    const std::string words = "of its surface is out of reach, more than ";
+    const program::Ended decided = run({"setup", "ball.qch", "--piece", "A", "--directions", "1"});
+    EXPECT_EQ(decided.code, 0) << decided.err;
+    EXPECT_NE(decided.err.find("warning: piece A: "), std::string::npos) << decided.err;
+    EXPECT_NE(decided.err.find(words), std::string::npos) << decided.err;
+    EXPECT_NE(decided.err.find("--piece A --auto"), std::string::npos) << decided.err;
+    const program::Ended shown = run({"setup", "ball.qch"});
+    EXPECT_NE(shown.err.find(words), std::string::npos) << shown.err;
+    EXPECT_EQ(run({"setup", "p.qch"}).err.find(words), std::string::npos) << "a cell without a limit";
 }
 
 }  // namespace

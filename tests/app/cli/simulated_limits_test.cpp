@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "cam/cell/job_tools.h"
 #include "cam/job/ticket.h"
 #include "cam/job/write_job.h"
 #include "devices/codec.h"

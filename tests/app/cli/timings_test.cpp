@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/terminal.h"
+#include "segment/io/write_ply.h"
+#include "tests/app/ball_cap.h"
 #include "tests/app/cli/program.h"
 
 namespace qchopper {
@@ -99,7 +101,7 @@ TEST_F(TimingsOption, OfEveryCommandOnScansAndProjects) {
         {{"repair", "scan.ply", "--units", "mm", "-o", "solid.ply"}, {"scan read", "scan repaired", "mesh written"}},
         {prepare,
          {"scan read", "scan repaired", "project saved", "search", "planes evaluated", "cuts made", "pieces written",
-          "setups chosen", "jobs written", "pictures drawn"}},
+          "setups chosen", "jobs written", "sheets written", "pictures drawn"}},
         {{"segment", "scan.ply", "--units", "mm", "--preset", "thesis", "-o", "hand.qch"},
          {"scan read", "solids found", "project saved"}},
         {{"segment", "hand.qch", "--step"}, {"scan read", "planes ranked", "planes evaluated"}},
@@ -111,6 +113,24 @@ TEST_F(TimingsOption, OfEveryCommandOnScansAndProjects) {
         {{"dry-run", "p.qch"}, {"jobs read", "jobs handed over"}},
     };
     for (const Case& c : cases) expect_timings(timed(c.arguments), c.stages, c.arguments[0] + " " + c.arguments[1]);
+}
+
+TEST_F(TimingsOption, OfPrepareTellsToolpathProgramAndReplayApart) {
+    const Bytes ply = to_ply(ball_cap());
+    program::put(folder.path / "cap.ply", {ply.begin(), ply.end()});
+    const std::string cell = (fs::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml").string();
+    const program::Ended made = run({"prepare", "cap.ply", "--units", "mm", "--cell", cell, "--min-cuts", "0", "-o",
+                                     "cap.qch", "--json", "--timings"});
+    ASSERT_LE(made.code, 1) << made.err;
+    expect_timings(json::parse(made.out, nullptr, false),
+                   {"jobs written", "toolpaths made", "programs made", "programs replayed"}, "prepare");
+}
+
+TEST(ProgressText, IsACountOrPerCent) {
+    EXPECT_EQ(progress_text({"planes evaluated", 2351, 10560}), "2,351 of 10,560 planes evaluated");
+    EXPECT_EQ(progress_text({"planes evaluated", 2351, 0}), "2,351 planes evaluated");
+    EXPECT_EQ(progress_text({"% of the job", 23, 100}), "23 % of the job");
+    EXPECT_EQ(progress_text({"% of the job", 0, 100}), "0 % of the job");
 }
 
 TEST_F(TimingsOption, OfCellSimAndDispatch) {

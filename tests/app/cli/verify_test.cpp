@@ -73,8 +73,10 @@ struct VerifyCommand : ::testing::Test {
         fs::copy(proven(cell) / "cap.ply", folder.path / "cap.ply");
     }
     Ended run(const Arguments& arguments) const { return program::run(arguments, {folder.path}); }
-    // Nothing listens there: a job that is refused is refused before.
-    Ended dispatch() const { return run({"dispatch", "p.qch", "--to", "127.0.0.1:1", "--drop", "."}); }
+    // Nothing listens there: a job that is refused is refused before. The piece stands on its rim.
+    Ended dispatch() const {
+        return run({"dispatch", "p.qch", "--to", "127.0.0.1:1", "--drop", ".", "--accept-workholding"});
+    }
     // Changes a file of the job with the hashes of it in the manifest and of the job in the project.
     void change_entry(const std::string& name, const std::function<void(Bytes&)>& change) const {
         const Bytes before = read_file(job);
@@ -119,7 +121,10 @@ struct VerifyCommand : ::testing::Test {
         const Ended alone =
             program::run({"verify", "A.qjob", "--cell", cell_file(cell).string()}, {elsewhere.path, {}, true});
         EXPECT_EQ(alone.code, 0) << alone.err;
-        EXPECT_EQ(program::bytes_in(elsewhere.path / "A.verdict.json"), made) << "on one core, without the project";
+        json of_file = json::parse(program::bytes_in(elsewhere.path / "A.verdict.json"));
+        EXPECT_TRUE(has(of_file["notes"].dump(), "its setup was not compared with that of its project"));
+        of_file["notes"] = json::array();
+        EXPECT_EQ(of_file, json::parse(made)) << "on one core, without the project";
     }
 };
 
@@ -194,6 +199,39 @@ TEST_F(VerifyCommand, AJobWithAnotherPieceThanTheProjectIsNamed) {
     EXPECT_TRUE(has(ended.out, "the mesh of the job is not that of piece A")) << ended.out;
 }
 
+// As if the operator had ordered it, which only the project knows.
+TEST_F(VerifyCommand, ASetupOtherThanThatOfTheProjectIsNamed) {
+    copy_project();
+    const std::string order = "\"tools\": [\n      1,\n      2,\n      3,\n      4\n    ]";
+    change_manifest(job, "\"setup\": {", "\"tools\": null", order);
+    const Ended alone = run({"verify", job.string()});
+    EXPECT_EQ(alone.code, 0) << alone.err << alone.out;
+    EXPECT_TRUE(has(alone.out, "Note: by order of the operator it is carved with tools 1, 2, 3 and 4 alone."))
+        << alone.out;
+    EXPECT_TRUE(has(alone.out, "Note: its setup was not compared")) << alone.out;
+    const Ended ended = run({"verify", "p.qch"});
+    EXPECT_EQ(ended.code, exit_demand_broken) << ended.err;
+    EXPECT_TRUE(has(ended.out, "the setup of the job is not that of the project for piece A: other tools"))
+        << ended.out;
+}
+
+TEST_F(VerifyCommand, ToolsThatAreOrderedStandInProjectAndJob) {
+    copy_project();
+    const Ended made = run({"setup", "p.qch", "--piece", "A", "--tools", "4,2,4", "--json"});
+    ASSERT_EQ(made.code, 0) << made.err;
+    const json document = json::parse(made.out, nullptr, false);
+    EXPECT_EQ(document["pieces"][0]["ordered"]["tools"], json({2, 4}));
+    EXPECT_EQ(document["pieces"][0]["setups"][0]["tools"], json({2, 4}));
+    EXPECT_EQ(document["program"]["proven"], true) << made.err;
+    EXPECT_TRUE(has(document["program"]["verdicts"][0]["notes"].dump(), "with tools 2 and 4 alone")) << made.out;
+    EXPECT_TRUE(document["program"]["verdicts"][0]["figures"].contains("not_allowed_percent"));
+    EXPECT_TRUE(has(made.err, "with tools 2 and 4 alone")) << made.err;
+    EXPECT_EQ(run({"verify", "p.qch"}).code, 0) << "the project knows the order";
+    EXPECT_EQ(run({"setup", "p.qch", "--piece", "A", "--tools", "4,9"}).code, exit_use);
+    EXPECT_EQ(run({"setup", "p.qch", "--tools", "4"}).code, exit_use) << "of which piece?";
+    EXPECT_EQ(run({"prepare", "p.qch", "--tools", "4"}).code, exit_use) << "belongs to a new project";
+}
+
 TEST_F(VerifyCommand, HolesOtherThanThoseOfTheProjectAreNamed) {
     write_file(folder.path / "bar.ply", to_ply(shapes::box({0, 0, 0}, {150, 60, 50}, 3)));
     const Ended made = run({"prepare", "bar.ply", "--units", "mm", "--cell", cell_file(arm_alone).string(), "--preset",
@@ -234,6 +272,19 @@ TEST_F(VerifyCommand, AJobWithoutAProgramGoesToASimulatedCellOnly) {
     EXPECT_TRUE(has(ended.out, "the job holds no robot program: prepare was asked for none")) << ended.out;
 }
 
+TEST_F(VerifyCommand, AProjectMadeWithoutProgramsGoesOnWithoutThemUntilItIsToldTo) {
+    const Ended made = prepare(folder.path, arm_alone, {"--no-programs"});
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_EQ(run({"prepare", "p.qch"}).code, 0);
+    EXPECT_FALSE(fs::exists(verdict));
+    EXPECT_EQ(run({"prepare", "p.qch", "--programs", "--no-programs"}).code, exit_use);
+    const Ended with = run({"prepare", "p.qch", "--programs"});
+    EXPECT_EQ(with.code, 0) << with.err;
+    EXPECT_TRUE(fs::exists(verdict));
+    EXPECT_EQ(run({"prepare", "p.qch"}).code, 0);
+    EXPECT_TRUE(fs::exists(verdict)) << "that is kept too";
+}
+
 TEST_F(VerifyCommand, AVerifiedJobGoesToTheCell) {
     copy_project();
     fs::create_directory(folder.path / "drop");
@@ -242,7 +293,7 @@ TEST_F(VerifyCommand, AVerifiedJobGoesToTheCell) {
         {folder.path});
     ASSERT_TRUE(cell.waits_until_out("\n")) << cell.err();
     const std::string to = json::parse(cell.out())["listening"];
-    const Ended ended = run({"dispatch", "p.qch", "--to", to, "--drop", "drop"});
+    const Ended ended = run({"dispatch", "p.qch", "--to", to, "--drop", "drop", "--accept-workholding"});
     EXPECT_EQ(ended.code, 0) << ended.err << ended.out;
     EXPECT_FALSE(has(ended.err, "warning")) << ended.err;
     cell.signal(SIGTERM);

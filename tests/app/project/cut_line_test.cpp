@@ -24,6 +24,20 @@ TEST(CutLine, CallsThePlaneTheBestUnlessAnotherIsBetterByMoreThanATie) {
     EXPECT_NE(line_with(3.0, 3.0 - 1e-6).find("one of 120 planes"), std::string::npos);
 }
 
+TEST(CutLine, CallsARefinedPlaneTheBestOnlyIfItsTotalIs) {
+    Cut cut;
+    cut.number = 1;
+    cut.piece = "A";
+    cut.chosen.normal_index = refined_index;
+    cut.chosen.terms.total = 3;
+    cut.candidates = 120;
+    cut.runners_up.resize(1);
+    cut.runners_up[0].terms.total = 2.9;
+    EXPECT_NE(cut_line(cut, {}).find("one of 120 planes, refined"), std::string::npos) << cut_line(cut, {});
+    cut.runners_up[0].terms.total = 3.1;
+    EXPECT_NE(cut_line(cut, {}).find("best of 120 planes, refined"), std::string::npos) << cut_line(cut, {});
+}
+
 TEST(CutLine, TellsJudgedPlanesFromThoseEvaluatedWhole) {
     SearchSettings settings;
     settings.objectives.weights.unreachable = 100;

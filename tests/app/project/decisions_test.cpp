@@ -31,6 +31,9 @@ TEST(Decisions, TheLastSetupOfAPieceIsInForceUntilThePieceIsGone) {
     h.committed = 3;
     decide(h, SetupOrder{"A", {}, {}});
     EXPECT_EQ(committed_setup_orders(h), (Orders{{"B", 1, 4}})) << "the program chooses again";
+    decide(h, SetupOrder{"A", {}, {}, {3, 4}});
+    EXPECT_EQ(committed_setup_orders(h), (Orders{{"A", {}, {}, {3, 4}}, {"B", 1, 4}})) << "tools alone are an order";
+    decide(h, SetupOrder{"A", {}, {}});
     decide(h, cut(1, "B"));
     EXPECT_EQ(committed_setup_orders(h), Orders{});
     EXPECT_EQ(committed_cuts(h).size(), 1U);

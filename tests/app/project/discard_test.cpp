@@ -46,7 +46,7 @@ struct Discarding : ::testing::Test {
     static void accept(OpenProject& project, std::size_t k) {
         const std::size_t piece = *project.next({}).piece;
         const std::vector<Ranked> ranked = project.ranking(piece, 1, {});
-        ASSERT_TRUE(project.decide_cut(cut_by(project.segmentation(), piece, ranked, k, 2)));
+        ASSERT_TRUE(project.decide_cut(cut_by(project.segmentation(), piece, ranked, k, project.project().settings)));
     }
     static double volume_of(const Segmentation& s) {
         double volume = 0;

@@ -19,7 +19,7 @@
 #include "segment/search/segmentation.h"
 #include "sim/program/chunk_summary.h"
 #include "sim/program/krl_reader.h"
-#include "sim/replay/machine_walk.h"
+#include "sim/replay/signal_walk.h"
 #include "tests/app/project/proven_job.h"
 #include "tests/shapes.h"
 

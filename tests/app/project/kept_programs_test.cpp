@@ -9,7 +9,9 @@
 #include "app/project/job_verdict.h"
 #include "base/file.h"
 #include "base/temporary_folder.h"
+#include "cam/job/envelope_document.h"
 #include "cam/job/job_caps.h"
+#include "cam/job/left_out.h"
 #include "cam/job/read_job.h"
 #include "cam/job/write_job.h"
 #include "tests/cam/job/some_job.h"
@@ -26,6 +28,7 @@ class KeptPrograms : public testing::Test {
         input_ = tilting_job(3);
         caps_ = {capped(input_, 2)};
         input_.caps = caps_;
+        envelope_ = envelope_document(input_);
         decide_holes(input_.caps, {1}, {}, "the arm does not hold it");
         Sha256 before;
         for (std::uint16_t part = 1; part <= 2; ++part) before = write(part, before);
@@ -36,6 +39,7 @@ class KeptPrograms : public testing::Test {
         program.program.entry = "qc_2_p" + std::to_string(part) + ".src";
         program.program.files = {program.program.entry};
         if (part == 2) program.program.holes = {1};
+        program.program.moves_left_out = {6, "operation 2: link 5"};
         program.program.chunks = {{program.program.entry, 7, 0, 12, 345, {{-1, -2, 0}, {3, 4, 60}}, {}, {1, 1, 60}}};
         program.program.part = {part, 2, part > 1 ? std::optional(before) : std::nullopt};
         program.texts[program.program.entry] = "DEF part " + std::to_string(part);
@@ -51,17 +55,21 @@ class KeptPrograms : public testing::Test {
         verdict.cell_sha256 = cell_;
         verdict.program_version = version_;
         verdict.figures = program.figures;
+        verdict.notes = {describe(program.program.moves_left_out)};
         verdict.is_positive = true;
         write_verdict(file(part), verdict);
         return verdict.job_sha256;
     }
 
     std::filesystem::path file(std::uint16_t part) const { return folder_.path() / job_file_name("AB", part); }
-    ProgramSource source() const { return {input_.piece, input_.setup, input_.piece_no, caps_, cell_, version_}; }
+    ProgramSource source() const {
+        return {input_.piece, input_.setup, envelope_, input_.piece_no, caps_, cell_, version_};
+    }
     bool is_kept(const ProgramSource& source) const { return kept_programs(folder_.path(), source).has_value(); }
 
     TemporaryFolder folder_{"qchopper-kept-"};
     JobInput input_;
+    std::string envelope_;
     Sha256 cell_ = sha256({});
     std::string version_ = "0.1.0";
     std::vector<DrawnCap> caps_;  // of two holes, as before the program
@@ -81,6 +89,9 @@ TEST_F(KeptPrograms, AreThoseThatWereWritten) {
     EXPECT_EQ(last.input.program.holes, std::vector<std::size_t>{1});
     ASSERT_EQ(kept->caps.size(), 1U);
     EXPECT_EQ(kept->caps[0].cap, input_.caps[0].cap) << "who drills each hole is known again";
+    EXPECT_EQ(last.input.program.moves_left_out, (MovesLeftOut{6, "operation 2: link 5"}));
+    ASSERT_EQ(last.proof.notes.size(), 1U) << "what is left out is said again";
+    EXPECT_NE(last.proof.notes.front().find("6 mm of its cuts: operation 2: link 5"), std::string::npos);
     EXPECT_EQ(last.proof.time_s, 77);
     EXPECT_EQ(last.proof.length_mm, 1500);
     ProgramInput again = last.input;
@@ -94,21 +105,27 @@ TEST_F(KeptPrograms, AreMadeAgainWhereTheirSourceChanged) {
     EXPECT_TRUE(is_kept(source()));
     qchopper::Setup setup = input_.setup;
     setup.placement.x += 1;
-    EXPECT_FALSE(is_kept({input_.piece, setup, input_.piece_no, caps_, cell_, version_}));
-    EXPECT_FALSE(is_kept({input_.piece, input_.setup, 3, caps_, cell_, version_}));
+    EXPECT_FALSE(is_kept({input_.piece, setup, envelope_, input_.piece_no, caps_, cell_, version_}));
+    EXPECT_FALSE(is_kept({input_.piece, input_.setup, envelope_, 3, caps_, cell_, version_}));
     Sha256 other_cell = cell_;
     other_cell.bytes[0] ^= 1U;
-    EXPECT_FALSE(is_kept({input_.piece, input_.setup, input_.piece_no, caps_, other_cell, version_}));
+    EXPECT_FALSE(is_kept({input_.piece, input_.setup, envelope_, input_.piece_no, caps_, other_cell, version_}));
     const std::string newer = "0.2.0";
-    EXPECT_FALSE(is_kept({input_.piece, input_.setup, input_.piece_no, caps_, cell_, newer}));
+    EXPECT_FALSE(is_kept({input_.piece, input_.setup, envelope_, input_.piece_no, caps_, cell_, newer}));
+    // The same setup, held by another branch of the arm: its program is another one.
+    JobInput held = placed_job();
+    const std::string other_envelope = envelope_document(held);
+    held.work_envelope.regions.front().branch.is_back = !held.work_envelope.regions.front().branch.is_back;
+    EXPECT_NE(envelope_document(held), other_envelope);
+    EXPECT_FALSE(is_kept({input_.piece, input_.setup, other_envelope, input_.piece_no, caps_, cell_, version_}));
     Piece piece = input_.piece;
     TriangleMesh mesh = *piece.mesh;
     mesh.points.front().x += 0.01;
     piece.mesh = std::make_shared<const TriangleMesh>(mesh);
-    EXPECT_FALSE(is_kept({piece, input_.setup, input_.piece_no, caps_, cell_, version_}));
+    EXPECT_FALSE(is_kept({piece, input_.setup, envelope_, input_.piece_no, caps_, cell_, version_}));
     std::vector<DrawnCap> other_hole = caps_;
     other_hole[0].cap.joints[0].holes[0].depth += 1;
-    EXPECT_FALSE(is_kept({input_.piece, input_.setup, input_.piece_no, other_hole, cell_, version_}));
+    EXPECT_FALSE(is_kept({input_.piece, input_.setup, envelope_, input_.piece_no, other_hole, cell_, version_}));
 }
 
 TEST_F(KeptPrograms, AreMadeAgainWhereAFileIsMissingOrDamaged) {

@@ -71,7 +71,8 @@ void decide_something(OpenProject& project, std::mt19937& random) {
             const std::size_t piece = *project.next({}).piece;
             const std::vector<Ranked> ranked = project.ranking(piece, 1, {});
             if (!ranked.empty() && cuts < 6) {
-                project.decide_cut(cut_by(project.segmentation(), piece, ranked, random() % ranked.size(), 2));
+                project.decide_cut(cut_by(project.segmentation(), piece, ranked, random() % ranked.size(),
+                                          project.project().settings));
             }
         }
     }

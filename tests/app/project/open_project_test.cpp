@@ -66,7 +66,7 @@ struct OpenedProject : ::testing::Test {
     void accept(OpenProject& project, std::size_t k) const {
         const std::size_t piece = *project.next({}).piece;
         const std::vector<Ranked> ranked = project.ranking(piece, 1, {});
-        EXPECT_TRUE(project.decide_cut(cut_by(project.segmentation(), piece, ranked, k, 3)));
+        EXPECT_TRUE(project.decide_cut(cut_by(project.segmentation(), piece, ranked, k, project.project().settings)));
     }
     // Cuts, a change of weights and a reset, and what stood before each.
     std::vector<std::string> decide_much(OpenProject& project) const {
@@ -83,7 +83,8 @@ struct OpenedProject : ::testing::Test {
             const Vec3 c = bounds(*project.segmentation().pieces[piece].mesh).centre();
             const auto own = project.own_plane(piece, {{1, 0, 0}, c.x + 1}, {});
             ASSERT_TRUE(own);
-            EXPECT_TRUE(project.decide_cut(cut_by(project.segmentation(), piece, {*own}, 0, 0)));
+            EXPECT_TRUE(
+                project.decide_cut(cut_by(project.segmentation(), piece, {*own}, 0, project.project().settings)));
         });
         step([&] { EXPECT_TRUE(project.decide_reset()); });
         step([&] { accept(project, 2); });
@@ -210,7 +211,7 @@ TEST_F(OpenedProject, AnOwnPlaneIsNudgedOnceAndStoredExactly) {
     ASSERT_TRUE(own);
     EXPECT_NE(own->plane.offset, through_a_vertex);
     EXPECT_NEAR(own->plane.offset, through_a_vertex, 1e-4);
-    ASSERT_TRUE(project.decide_cut(cut_by(project.segmentation(), 0, {*own}, 0, 0)));
+    ASSERT_TRUE(project.decide_cut(cut_by(project.segmentation(), 0, {*own}, 0, project.project().settings)));
     EXPECT_EQ(load_project(folder).cuts.back().chosen.plane, own->plane);
 }
 

@@ -55,9 +55,11 @@ TEST_F(ProjectFolder, WhatIsSavedIsLoadedToTheLastBit) {
     Project decided = project;
     decide(decided.history, Reset{});
     decide(decided.history, WeightsChange{{1, 2, 3, 0.1}});
+    decide(decided.history, SetupOrder{"B", {}, 3, {1, 4}});
     decided.history.committed = 1;
     decided.cuts = committed_cuts(decided.history);
     decided.settings.beam = 7;
+    decided.tools = {2, 3, 4};
     decided.settings.near = 1.0 / 3;
     save_project(folder, decided);
     EXPECT_EQ(load_project(folder), decided);

@@ -2,18 +2,51 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 
 #include "app/project/piece_program.h"
+#include "base/error.h"
 #include "cam/job/read_job.h"
 #include "cam/job/write_job.h"
+#include "sim/program/chunk_summary.h"
+#include "sim/program/krl_reader.h"
+#include "sim/replay/signal_walk.h"
 #include "tests/app/ball_cap.h"
 
 namespace qchopper {
 namespace {
 
 constexpr const char* version = "0.1.0";
+
+std::string stem_of(const std::string& file) {
+    return file.substr(0, file.find('.'));
+}
+
+// The chunks that are called, with tool and direction of the chunk of this name.
+std::vector<JobChunk> called(const JobProgram& program, const ProgramFiles& files) {
+    std::vector<JobChunk> chunks;
+    for (const std::string& name : called_chunks(files, stem_of(program.entry))) {
+        for (const JobChunk& chunk : program.chunks) {
+            if (stem_of(chunk.file) == name)
+                chunks.push_back({chunk.file, chunk.tool, chunk.direction, 0, 0, {}, {}, {}});
+        }
+    }
+    return chunks;
+}
+
+void fill_in(JobProgram& program, const ProgramFiles& files, const Cell& cell) {
+    try {
+        const auto read = summarise_chunks(read_krl(files, stem_of(program.entry), {called_programs(cell)}));
+        for (std::size_t i = 0; i < std::min(read.size(), program.chunks.size()); ++i) {
+            JobChunk& chunk = program.chunks[i];
+            chunk = {chunk.file,     chunk.tool,  chunk.direction, read[i].moves,
+                     read[i].length, read[i].box, read[i].first,   read[i].last};
+        }
+    } catch (const InputError&) {  // nothing to state of a text that cannot be read
+    }
+}
 
 }  // namespace
 
@@ -53,6 +86,29 @@ const ProvenJob& proven_job(const std::string& cell_name) {
 
 JobVerdict judged(const ReadJob& job, const CellFile& cell) {
     return judge_job(job, "A.qjob", cell, version, {});
+}
+
+ProgramFiles texts_of(const ReadJob& job) {
+    ProgramFiles files;
+    for (const std::string& name : job.program->files) {
+        const Bytes& bytes = job.files.at(name);
+        files.push_back({name, {bytes.begin(), bytes.end()}});
+    }
+    return files;
+}
+
+ReadJob remade(const ProvenJob& proven, const ProgramFiles& files) {
+    ReadJob job = proven.job;
+    JobProgram& program = *job.program;
+    for (const std::string& name : program.files) job.files.erase(name);
+    program.files.clear();
+    for (const ProgramFile& file : files) {
+        program.files.push_back(file.name);
+        job.files[file.name] = {file.text.begin(), file.text.end()};
+    }
+    program.chunks = called(program, files);
+    fill_in(program, files, proven.cell.cell);
+    return job;
 }
 
 }  // namespace qchopper

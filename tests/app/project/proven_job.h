@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/project/verify_jobs.h"
+#include "tests/sim/replay/mutations.h"
 
 namespace qchopper {
 
@@ -24,6 +25,13 @@ ProvenJob made_and_proven(const std::string& cell_name, const Piece& piece, cons
 
 // Of the piece of tests/app/ball_cap.h. `cell_name` as in cells/NAME.toml.
 const ProvenJob& proven_job(const std::string& cell_name);
+
+// The texts of its program.
+ProgramFiles texts_of(const ReadJob& job);
+
+// The job with these texts in place of its program's: names, sizes and hashes are made again, and what the manifest
+// says of each chunk is taken from the texts.
+ReadJob remade(const ProvenJob& proven, const ProgramFiles& files);
 
 // What verify says of a job in that cell, which has passed parse_job.
 JobVerdict judged(const ReadJob& job, const CellFile& cell);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "base/error.h"
 #include "cam/setup/blocks_needed.h"
 #include "segment/mesh/measure.h"
 #include "tests/cam/setup/pieces.h"
@@ -61,6 +62,21 @@ TEST(Setups, AHighPieceThatTheToolReachesFromItsSidesCanBeCarved) {
     const Piece pillar = test_pieces::standing_box({-60, -60, 0}, {60, 60, 220}, 1);
     EXPECT_GT(220, low_piece_height(setups.cell()));
     EXPECT_TRUE(setups.is_carvable(pillar));
+}
+
+TEST(Setups, ToolsThatTheOperatorDoesNotAllowAreNotPlannedWith) {
+    Setups setups(cell_named("kr60-ha"));
+    const Piece high = frame(120);
+    const auto with_all = setups.of(high).setup();
+    EXPECT_TRUE(with_all.tools.empty());
+    setups.set_tools({4});  // 100 mm long, the others 150
+    EXPECT_LT(low_piece_height(setups.planned()), low_piece_height(setups.cell()) - 40);
+    const auto with_finest = setups.of(high).setup();
+    EXPECT_EQ(with_finest.tools, std::vector<std::uint16_t>{4});
+    EXPECT_GT(with_finest.reach.holder_mm2, with_all.reach.holder_mm2 + 1000) << "its holder meets the walls";
+    setups.set_orders({{"A", {}, {}, {3, 4}}});
+    EXPECT_EQ(setups.held(high).setup().tools, (std::vector<std::uint16_t>{3, 4})) << "of one piece";
+    EXPECT_THROW(setups.set_tools({9}), InputError);
 }
 
 TEST(Setups, ACellWithoutAMachineKnowsNoToolAndCarvesWhatFits) {

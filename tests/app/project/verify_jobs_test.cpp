@@ -71,6 +71,39 @@ TEST(VerifyJobs, AChunkOtherThanTheManifestSaysIsNamed) {
     EXPECT_EQ(judged(job, proven_job(kuka).cell).findings.front().kind, "other_chunks");
 }
 
+TEST(VerifyJobs, AChunkThatTheManifestDoesNotDescribeIsNamed) {
+    ReadJob job = proven_job(kuka).job;
+    JobChunk& chunk = job.program->chunks[1];
+    chunk = {chunk.file, chunk.tool, chunk.direction, 0, 0, {}, {}, {}};
+    EXPECT_EQ(judged(job, proven_job(kuka).cell).findings.front().kind, "other_chunks");
+}
+
+TEST(VerifyJobs, TheScallopHeightIsThatOfTheCellFile) {
+    const CellFile& cell = proven_job(kuka).cell;
+    ReadJob job = proven_job(kuka).job;
+    EXPECT_EQ(job.program->scallop_mm, 0.25);
+    job.program->scallop_mm = 2;
+    const JobVerdict claimed = judged(job, cell);
+    EXPECT_EQ(kinds_of(claimed), "other_scallop");
+    EXPECT_EQ(describe(claimed.findings.front()), "manifest.json: scallop_mm is 2, expected: 0.25 of the cell file");
+    CellFile coarse = cell;
+    coarse.cell.machine->program.scallop = 2;
+    EXPECT_EQ(kinds_of(judged(job, coarse)), "");
+}
+
+TEST(VerifyJobs, MovesThatTheProgramLeavesOutStandInTheVerdict) {
+    ReadJob job = proven_job(kuka).job;
+    EXPECT_TRUE(proven_job(kuka).verdict.notes.empty());
+    job.program->moves_left_out = {6, "operation 2 of the toolpath: link 5"};
+    const JobVerdict verdict = judged(job, proven_job(kuka).cell);
+    EXPECT_TRUE(verdict.is_positive) << "what it means for the piece is found by the replay";
+    ASSERT_EQ(verdict.notes.size(), 1U);
+    EXPECT_NE(verdict.notes[0].find("6 mm of its cuts: operation 2 of the toolpath: link 5"), std::string::npos);
+    EXPECT_TRUE(std::any_of(verdict.figures.begin(), verdict.figures.end(), [](const ProofFigure& figure) {
+        return figure.key == "moves_left_out_mm" && figure.value == 6;
+    }));
+}
+
 TEST(VerifyJobs, TheProgramOfAnotherPieceIsRefused) {
     ReadJob job = proven_job(kuka).job;
     TriangleMesh taller = job_mesh(job.files.at("piece.stl"), "piece.stl");
@@ -95,7 +128,7 @@ TEST(VerifyJobs, WhatCannotBeReadIsNamedWithFileAndLine) {
 
     const JobVerdict foreign = after(file, "G21\r\nG0 X0 Y0 Z0\r\nM30\r\n");
     EXPECT_EQ(kinds_of(foreign), "not_readable");
-    EXPECT_NE(describe(foreign.findings.front()).find(file + ", line 1:"), std::string::npos)
+    EXPECT_NE(describe(foreign.findings.front()).find(file + " line 1:"), std::string::npos)
         << describe(foreign.findings.front());
     EXPECT_EQ(kinds_of(after(file, "")), "not_readable");
 }

@@ -100,10 +100,13 @@ TEST(CellVersion2, ARobotIsReadAsItIsWritten) {
     EXPECT_EQ(machine.max_tilt, 60 * degree);
     EXPECT_EQ(machine.max_unreachable, 0.02);
     EXPECT_EQ(machine.margins, (Margins{5, 3, 10}));
+    EXPECT_EQ(machine.holding, (Holding{20, 0.1, 4}));
     ASSERT_EQ(machine.obstacles.size(), 1U);
     EXPECT_EQ(machine.obstacles[0].box, (Box{{-600, 1800, 0}, {600, 2600, 1400}}));
     EXPECT_EQ(machine.start.joints[1], -90 * degree);
-    EXPECT_EQ(machine.program, (ProgramSettings{Dialect::krl, 3'000'000, 1'400, 300, std::nullopt}));
+    ProgramSettings program;
+    program.link_feed_mm_per_s = 300;
+    EXPECT_EQ(machine.program, program);
     ASSERT_EQ(machine.tools.size(), 7U);
     CarvingTool tool;
     tool.number = 4;
@@ -124,7 +127,7 @@ TEST(CellVersion2, ARobotIsReadAsItIsWritten) {
     EXPECT_TRUE(is_drill(machine.tools[4]));
     EXPECT_EQ(machine.tools[4].diameter, 8);
     EXPECT_NEAR(point_height(machine.tools[4]), 2.4034, 1e-4);  // 4 mm / tan 59 degrees
-    EXPECT_EQ(cell.stock[2], (Stock{"large", {1000, 600, 500}, Material::pu_foam, true, 3}));
+    EXPECT_EQ(cell.stock[2], (Stock{"large", {1000, 600, 500}, Material::pu_foam, true, 3, 0.6}));
 }
 
 // What setup, jobs and simulation read of every cell.
@@ -163,8 +166,8 @@ TEST(CellVersion2, AFrameIsReadInTheOrderOfKuka) {
 
 TEST(CellVersion2, DefaultsAreKnownAsSuch) {
     std::string text = robot_cell();
-    for (const char* line :
-         {"max_tilt_deg = 60.0", "max_unreachable = 0.02", "lines_per_chunk = 1400", "spoil = 10.0"}) {
+    for (const char* line : {"max_tilt_deg = 60.0", "max_unreachable = 0.02", "lines_per_chunk = 1400", "spoil = 10.0",
+                             "cutting_force = 20.0", "bending_strength = 0.6"}) {
         text = replaced(text, line, "");
     }
     const Cell cell = parse_cell(text, "cell.toml");
@@ -172,10 +175,14 @@ TEST(CellVersion2, DefaultsAreKnownAsSuch) {
     EXPECT_EQ(cell.machine->max_tilt, whole.machine->max_tilt);
     EXPECT_EQ(cell.machine->program, whole.machine->program);
     EXPECT_EQ(cell.machine->margins, whole.machine->margins);
+    EXPECT_EQ(cell.machine->holding, whole.machine->holding);
+    EXPECT_EQ(bending_strength(cell.stock[0]), 0.6);
     const std::vector<ValueOrigin>& origins = cell.machine->origins;
     for (const ValueOrigin& value :
          {ValueOrigin{"", "max_tilt_deg", Origin::by_default}, ValueOrigin{"", "max_unreachable", Origin::by_default},
           ValueOrigin{"program", "lines_per_chunk", Origin::by_default},
+          ValueOrigin{"holding", "cutting_force", Origin::by_default},
+          ValueOrigin{"stock small", "bending_strength", Origin::by_default},
           ValueOrigin{"margin", "spoil", Origin::by_default}}) {
         EXPECT_NE(std::find(origins.begin(), origins.end(), value), origins.end()) << value.key;
     }
@@ -195,6 +202,25 @@ TEST(CellVersion2, OriginsAreThoseOfTheTableUnlessAKeyHasItsOwn) {
     EXPECT_EQ(origin("tool 4", "holder"), "assumed");
     EXPECT_EQ(origin("robot", "name"), "none");
     EXPECT_EQ(origin("stock small", "kerf"), "none");
+}
+
+TEST(CellVersion2, ReadsTheLimitsOfPrograms) {
+    const Cell by_default = parse_cell(robot_cell(), "cell.toml");
+    EXPECT_EQ(by_default.machine->program.acceleration, 2000);
+    EXPECT_NEAR(by_default.machine->program.turn_speed, 100 * degree, 1e-12);
+    EXPECT_EQ(by_default.machine->program.joint_share, 0.5);
+    EXPECT_EQ(by_default.machine->program.scallop, 0.25);
+    EXPECT_EQ(by_default.machine->load_tolerance, LoadTolerance{});
+    std::string text = replaced(robot_cell(), "link_feed = 300.0",
+                                "link_feed = 300.0\nacceleration = 1500\nturn_speed_deg_per_s = 45\n"
+                                "joint_move_percent = 20\nscallop = 0.4");
+    text = replaced(text, "[margin]", "[load_tolerance]\nmass_kg = 1\ncentre_mm = 5\ninertia_kg_m2 = 0.2\n[margin]");
+    const CellMachine machine = *parse_cell(text, "cell.toml").machine;
+    EXPECT_EQ(machine.program.acceleration, 1500);
+    EXPECT_NEAR(machine.program.turn_speed, 45 * degree, 1e-12);
+    EXPECT_NEAR(machine.program.joint_share, 0.2, 1e-12);
+    EXPECT_EQ(machine.program.scallop, 0.4);
+    EXPECT_EQ(machine.load_tolerance, (LoadTolerance{1, 5, 0.2}));
 }
 
 // One wrong text per row; `place` is a text of the changed file in the line that the message names.
@@ -249,6 +275,18 @@ TEST(CellVersion2, NamesLineAndKeyOfEveryFault) {
         {"memory_bytes = 3000000", "memory_bytes = 3", "memory_bytes", "program.memory_bytes", "out of bounds"},
         {"link_feed = 300.0", "link_feed = -1.0", "link_feed", "program.link_feed", "out of bounds"},
         {"tool_change = \"stop\"", "tool_change = \"call 7\"", "tool_change", "program.tool_change", "call NAME"},
+        {"link_feed = 300.0", "acceleration = 5.0\nlink_feed = 300.0", "acceleration = 5", "program.acceleration",
+         "out of bounds"},
+        {"link_feed = 300.0", "turn_speed_deg_per_s = 0.5\nlink_feed = 300.0", "turn_speed_deg",
+         "program.turn_speed_deg_per_s", "out of bounds"},
+        {"link_feed = 300.0", "joint_move_percent = 50.5\nlink_feed = 300.0", "joint_move",
+         "program.joint_move_percent", "whole"},
+        {"link_feed = 300.0", "scallop = 2.5\nlink_feed = 300.0", "scallop", "program.scallop", "out of bounds"},
+        {"[margin]", "[load_tolerance]\ncentre_mm = -1.0\n[margin]", "centre_mm", "load_tolerance.centre_mm",
+         "out of bounds"},
+        {"[margin]", "[load_tolerance]\nmass_kg = inf\n[margin]", "mass_kg = inf", "load_tolerance.mass_kg", "finite"},
+        {"[margin]", "[load_tolerance]\ncenter_mm = 1.0\n[margin]", "center_mm", "unknown key load_tolerance.center_mm",
+         ""},
         {"number = 2", "number = 1", "name = \"flat", "tool.number", "second tool"},
         {"shape = \"flat\"", "shape = \"square\"", "shape = \"square", "tool.shape", "unknown shape"},
         {"shape = \"flat\"", "shape = \"flat\"\ncorner_radius = 1.0", "corner_radius", "tool.corner_radius",
@@ -284,6 +322,10 @@ TEST(CellVersion2, NamesLineAndKeyOfEveryFault) {
         {"max_unreachable = 0.02", "max_unreachable = nan", "max_unreachable", "max_unreachable", "finite"},
         {"max_deg = [185.0", "max_deg = [inf", "max_deg = [inf", "robot.max_deg", "finite"},
         {"axis_4_deg = [-180.0", "axis_4_deg = [-inf", "axis_4_deg", "robot.cable.axis_4_deg", "finite"},
+        {"cutting_force = 20.0", "cutting_force = 0", "cutting_force", "holding.cutting_force", "out of bounds"},
+        {"strength = 0.1 ", "strength = nan ", "strength = nan", "holding.strength", "finite"},
+        {"max_slenderness = 4.0", "max_slendernes = 4.0", "max_slendernes", "unknown key holding.max_slendernes", ""},
+        {"bending_strength = 0.6", "bending_strength = -1", "bending_strength", "stock.bending_strength", "out of"},
         {"spoil = 10.0", "spoil = -1.0", "spoil", "margin.spoil", "out of bounds"},
         {"spoil = 10.0", "spoil = inf", "spoil", "margin.spoil", "finite"},
         {"sides = 5.0", "sides = nan", "sides", "margin.sides", "finite"},

@@ -13,6 +13,7 @@
 #include "base/parallel.h"
 #include "cam/job/read_job.h"
 #include "cam/job/setup_sheet.h"
+#include "cam/job/sheet_details.h"
 #include "cam/job/write_job.h"
 #include "segment/score/tool_directions.h"
 #include "tests/cam/job/some_job.h"
@@ -258,7 +259,7 @@ TEST(ShortTool, DoesNotReachIntoACavityAndTheSheetSaysSo) {
     input.max_unreachable = 0.02;
     EXPECT_TRUE(is_unreachable(input.setup, input.max_unreachable));
     const std::string sheet = setup_sheet(input, 60);
-    EXPECT_NE(sheet.find("the tool is too short: its holder would touch"), std::string::npos);
+    EXPECT_NE(sheet_details(input).find("the tool is too short: its holder would touch"), std::string::npos);
     EXPECT_NE(sheet.find("The state of this job is &quot;unreachable&quot;"), std::string::npos);
 }
 

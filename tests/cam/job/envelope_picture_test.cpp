@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "cam/job/envelope_section.h"
 #include "cam/job/setup_sheet.h"
+#include "cam/job/sheet_details.h"
 #include "cam/job/solid_shapes.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/transform.h"
@@ -70,7 +71,7 @@ TEST(EnvelopeSection, HasARowForEveryCheckAndThePicture) {
     EXPECT_NE(html.find("<img src=\"envelope.png\""), std::string::npos);
     EXPECT_NE(html.find("Joints of the arm there"), std::string::npos);
     EXPECT_EQ(envelope_section(some_job(3)).find("envelope.png"), std::string::npos);
-    EXPECT_NE(setup_sheet(input, 60).find(html), std::string::npos);
+    EXPECT_NE(sheet_details(input).find(html), std::string::npos);
 }
 
 TEST(EnvelopeSection, AJobThatIsNotHeldMustNotStart) {

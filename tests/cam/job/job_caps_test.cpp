@@ -13,6 +13,7 @@
 #include "cam/job/cap_document.h"
 #include "cam/job/cap_template.h"
 #include "cam/job/read_job.h"
+#include "cam/job/template_pdf.h"
 #include "cam/job/write_job.h"
 #include "segment/io/read_mesh.h"
 #include "segment/mesh/measure.h"
@@ -131,8 +132,8 @@ TEST(JobCaps, ABaseIsNeverDrilledByTheRobotAndEveryCapHasItsTemplates) {
                 for (const JobHole& hole : joint.holes) EXPECT_FALSE(hole.by_robot);
             }
         }
-        const Bytes& sheet = job.files.at("setup.html");
-        EXPECT_NE(std::string(sheet.begin(), sheet.end()).find("14. Joints"), std::string::npos);
+        const Bytes& sheet = job.files.at("details.html");
+        EXPECT_NE(std::string(sheet.begin(), sheet.end()).find("<h2>Joints</h2>"), std::string::npos);
     }
 }
 
@@ -218,27 +219,103 @@ TEST(JobCaps, AForgedHoleIsRefused) {
     EXPECT_NE(fault_of_templates({}, {{"template-9.svg", {}}}).find("no cap"), std::string::npos);
 }
 
-TEST(CapTemplate, IsInTrueSizeAndTheSameBytesEachTime) {
-    Segmentation s = uncut(shapes::box({0, 0, 0}, {220, 100, 100}, 2), 0);
-    ASSERT_TRUE(cut_at(s, "A", {{0, 0, 1}, 50}));
+// A piece of a box of that size, and the template of its only cap.
+DrawnCap cap_of_box(Vec3 size) {
+    Segmentation s = uncut(shapes::box({0, 0, 0}, size, 2), 0);
+    EXPECT_TRUE(cut_at(s, "A", {{0, 0, 1}, size.z / 2}));
     const std::vector<PieceJoint> joints = piece_joints(s.pieces, {});
-    const DrawnCap cap = caps_of(s.pieces, 0, joints, qchopper::Setup{}, cell()).at(0);
+    return caps_of(s.pieces, 0, joints, qchopper::Setup{}, cell()).at(0);
+}
+
+TEST(CapTemplate, IsInTrueSizeAndTheSameBytesEachTime) {
+    const DrawnCap cap = cap_of_box({220, 100, 100});
     EXPECT_NEAR(std::max(cap.size.x, cap.size.y), 220, 1e-9);
     EXPECT_NEAR(std::min(cap.size.x, cap.size.y), 100, 1e-9);
     const CapTemplate drawing = cap_template(cap, "B");
     const std::string svg = template_svg(drawing);
-    EXPECT_NE(svg.find("width=\"" + std::to_string(static_cast<int>(std::round(drawing.sheet.x)))), std::string::npos);
+    EXPECT_NE(svg.find("width=\"" + std::to_string(static_cast<int>(std::round(std::max(150.0, drawing.sheet.x))))),
+              std::string::npos);
     EXPECT_NE(svg.find("100 mm"), std::string::npos);
     EXPECT_NE(svg.find("Piece B, cut 1"), std::string::npos);
-    // the bar is 100 mm long, and the outline as long as the cap
-    EXPECT_NEAR(drawing.lines.at(drawing.lines.size() - 12)[1].x - drawing.lines.at(drawing.lines.size() - 12)[0].x,
-                100, 1e-9);
+    EXPECT_EQ(svg, template_svg(cap_template(cap, "B")));
+    CapTemplate bar;
+    add_scale_bar(bar, {3, 4});
+    EXPECT_NEAR(bar.lines.at(0).at(1).x - bar.lines.at(0).at(0).x, 100, 1e-9);
+}
+
+// The numbers are those of the list of joints: without them nobody knows which hole is which.
+TEST(CapTemplate, EveryHoleHasItsNumber) {
+    JobInput input = some_job();
+    const CapTemplate drawing = cap_template(capped(input, 4), "AB");
+    const std::string svg = template_svg(drawing);
     const Bytes pdf = template_pdf(drawing);
-    EXPECT_EQ(std::string(pdf.begin(), pdf.begin() + 5), "%PDF-");
-    EXPECT_EQ(pdf, template_pdf(drawing));
     const std::string text(pdf.begin(), pdf.end());
-    const std::string width = std::to_string(drawing.sheet.x * 72 / 25.4).substr(0, 5);
-    EXPECT_NE(text.find("/MediaBox [ 0 0 " + width), std::string::npos) << width;
+    for (std::size_t number = 1; number <= 4; ++number) {
+        EXPECT_NE(svg.find(">" + std::to_string(number) + "</text>"), std::string::npos) << number;
+        EXPECT_NE(text.find("(" + std::to_string(number) + ") Tj"), std::string::npos) << number;
+    }
+}
+
+std::size_t count_of(const std::string& text, const std::string& word) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
+    return count;
+}
+
+TEST(TemplateTiles, AreA4AndTogetherCoverTheDrawing) {
+    EXPECT_EQ(tiles_of({190, 200}).corners.size(), 1U);
+    EXPECT_EQ(tiles_of({270, 160}).corners.size(), 1U) << "lying";
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> length(1, 1500);
+    for (int i = 0; i < 200; ++i) {
+        const Point2 sheet{length(random), length(random)};
+        const TemplateTiles tiles = tiles_of(sheet);
+        EXPECT_EQ(tiles.corners.size(), tiles.columns * tiles.rows);
+        EXPECT_NEAR(tiles.paper.x * tiles.paper.y, 210 * 297, 1e-9);
+        EXPECT_TRUE(tiles.window.x < tiles.paper.x && tiles.window.y < tiles.paper.y);
+        // A hole with its cross, anywhere in the drawing, lies whole on one tile.
+        std::uniform_real_distribution<double> share(0, 1);
+        for (int k = 0; k < 20; ++k) {
+            const double reach = tile_overlap / 2;
+            const Point2 at{share(random) * sheet.x, share(random) * sheet.y};
+            const bool is_whole = std::any_of(tiles.corners.begin(), tiles.corners.end(), [&](Point2 corner) {
+                const auto holds = [&](double x, double from, double size, double most) {
+                    return std::max(0.0, x - reach) >= from - 1e-9 && std::min(most, x + reach) <= from + size + 1e-9;
+                };
+                return holds(at.x, corner.x, tiles.window.x, sheet.x) && holds(at.y, corner.y, tiles.window.y, sheet.y);
+            });
+            EXPECT_TRUE(is_whole) << sheet.x << " x " << sheet.y << " at " << at.x << ", " << at.y;
+        }
+    }
+}
+
+TEST(TemplatePdf, HasAPageOfA4ForEachTileThatSaysWhichItIs) {
+    for (const Vec3 size : {Vec3{120, 100, 100}, Vec3{520, 400, 100}}) {
+        const CapTemplate drawing = cap_template(cap_of_box(size), "B");
+        const Bytes bytes = template_pdf(drawing);
+        EXPECT_EQ(bytes, template_pdf(drawing));
+        const std::string pdf(bytes.begin(), bytes.end());
+        EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
+        const TemplateTiles tiles = tiles_of(drawing.sheet);
+        const std::size_t pages = tiles.corners.size();
+        EXPECT_EQ(pages > 1, size.x > 500);
+        EXPECT_EQ(count_of(pdf, "/MediaBox [ 0 0 595.2") + count_of(pdf, "/MediaBox [ 0 0 841.8"), pages);
+        EXPECT_EQ(count_of(pdf, "Piece B, cut 1"), pages);
+        EXPECT_EQ(count_of(pdf, "100 mm: measure this bar"), pages);
+        for (std::size_t tile = 1; pages > 1 && tile <= pages; ++tile) {
+            EXPECT_EQ(count_of(pdf, "Tile " + std::to_string(tile) + " of " + std::to_string(pages) + ": row"), 1U)
+                << tile;
+        }
+        // Nothing but a shift stands between the drawing and the paper: it is in true size.
+        EXPECT_EQ(count_of(pdf, "\n1 0 0 1 "), pages);
+        EXPECT_EQ(count_of(pdf, " cm\n"), pages);
+    }
+}
+
+TEST(TemplatePdf, OfMoreThanFiveMetresIsRefused) {
+    CapTemplate drawing;
+    drawing.sheet = {100, 5001};
+    EXPECT_THROW(template_pdf(drawing), InputError);
 }
 
 }  // namespace

@@ -99,8 +99,8 @@ TEST(Job, WhatIsReadIsWhatWasWritten) {
         names.push_back(entry.name);
         EXPECT_EQ(entry.sha256, sha256(job.files.at(entry.name)));
     }
-    const std::vector<std::string> listed{"envelope.json", "piece.stl",  "preview.glb", "setup-1.png",
-                                          "setup-2.png",   "setup.html", "ticket.json"};
+    const std::vector<std::string> listed{"details.html", "envelope.json", "piece.stl",  "preview.glb",
+                                          "setup-1.png",  "setup-2.png",   "setup.html", "ticket.json"};
     EXPECT_EQ(names, listed);
 }
 
@@ -116,7 +116,7 @@ TEST(Job, WhatTheToolReachesIsReadBack) {
         {3, "without a cap, lying on its side", ReachMethod::sampled, 0.225, 12345, 890, {58, 56, 44}, 2}};
     EXPECT_EQ(job.alternatives, others);
     const auto manifest = nlohmann::json::parse(text_of(job.files.at("manifest.json")));
-    EXPECT_EQ(manifest["schema"], 6);
+    EXPECT_EQ(manifest["schema"], 7);
     EXPECT_EQ(manifest["state"], "unreachable");
     EXPECT_EQ(manifest["setup"]["reach"]["method"], "mapped");
     EXPECT_EQ(manifest["setup"]["reach"]["unreachable_share"], 0.05);
@@ -208,10 +208,10 @@ TEST(Job, TheTextsInsideHaveOneForm) {
     const auto compact = [](const std::string& text) { return nlohmann::ordered_json::parse(text).dump(); };
     EXPECT_NE(with(compact).find("the one form"), std::string::npos) << with(compact);
     EXPECT_NE(with([](const std::string& text) { return text + " "; }).find("the one form"), std::string::npos);
-    const auto twice = [](const std::string& text) { return "{\n  \"schema\": 6," + text.substr(1); };
+    const auto twice = [](const std::string& text) { return "{\n  \"schema\": 7," + text.substr(1); };
     EXPECT_NE(with(twice).find("the one form"), std::string::npos) << with(twice);
     const auto huge = [](std::string text) {
-        return text.replace(text.find("\"schema\": 6"), 11, "\"schema\": 1e999");
+        return text.replace(text.find("\"schema\": 7"), 11, "\"schema\": 1e999");
     };
     EXPECT_NE(with(huge).find("out of range"), std::string::npos) << with(huge);
     const auto deep = [](const std::string&) { return std::string(5'000'000, '['); };
@@ -242,7 +242,7 @@ TEST(Job, AnyValueOfAnotherKindEndsInOneWay) {
 TEST(Job, ForgedManifestsAreRefusedAndSayWhere) {
     using Json = nlohmann::ordered_json;
     const std::vector<std::pair<std::function<void(Json&)>, std::string>> cases{
-        {[](Json& j) { j["schema"] = 2; }, "schema 2 is not one of those that this program reads, 5 to 6"},
+        {[](Json& j) { j["schema"] = 2; }, "schema 2 is not one of those that this program reads, 5 to 7"},
         {[](Json& j) { j["format"] = "other"; }, "format"},
         {[](Json& j) { j.erase("piece"); }, "piece is missing"},
         {[](Json& j) { j["piece"]["number"] = 70000; }, "number is not a whole number"},
@@ -269,6 +269,9 @@ TEST(Job, ForgedManifestsAreRefusedAndSayWhere) {
         {[](Json& j) { j["max_unreachable"] = 1.5; }, "max_unreachable"},
         {[](Json& j) { j["setup"]["reach"]["hidden_mm2"] = 1; }, "unreachable_share is not that of the areas"},
         {[](Json& j) { j["setup"]["reach"]["hidden_mm2"] = -1; }, "hidden_mm2"},
+        {[](Json& j) { j["setup"]["workholding"]["passes"] = false; }, "passes contradicts the forces"},
+        {[](Json& j) { j["setup"]["workholding"]["joint_force_n"] = 3; }, "passes contradicts the forces"},
+        {[](Json& j) { j["setup"]["workholding"]["base_width"] = -1; }, "base_width"},
         {[](Json& j) { j["setup"]["reach"]["method"] = "guessed"; }, "method is neither sampled nor mapped"},
         {[](Json& j) {
              j["setup"]["reach"]["directions"][1]["out"] = {1, 2, 3};
@@ -290,8 +293,8 @@ TEST(Job, ForgedManifestsAreRefusedAndSayWhere) {
         {[](Json& j) { j["stock"]["offcuts"][0] = 3; }, "offcuts is not three numbers"},
         {[](Json& j) { j["alternatives"][0]["base_number"] = -1; }, "base_number is not a whole number"},
         {[](Json& j) { j["envelope"]["margins"] = Json::array(); }, "margins is empty"},
-        {[](Json& j) { j["files"][0]["sha256"] = std::string(64, '0'); }, "envelope.json does not match its SHA-256"},
-        {[](Json& j) { j["files"][0]["size"] = 1; }, "envelope.json has another size"},
+        {[](Json& j) { j["files"][0]["sha256"] = std::string(64, '0'); }, "details.html does not match its SHA-256"},
+        {[](Json& j) { j["files"][0]["size"] = 1; }, "details.html has another size"},
         {[](Json& j) { j["files"][0]["name"] = "../piece.stl"; }, "../piece.stl is missing"},
         {[](Json& j) { j["files"].erase(0); }, "lists other files"},
         {[](Json& j) { j = Json::array(); }, "manifest.json"},

@@ -27,6 +27,8 @@ ProgramInput some_program() {
                       {"qc_2_002.src", 7, 1, 30, 89, {{-1, -2, -3}, {3, 4, 60}}, {0, 0, 60}, {2, 1, 60}}};
     program.scallop_mm = 0.25;
     program.time_s = 3599.2;
+    program.left_out = {{1, std::nullopt, "tool 2 roughs"}, {std::nullopt, 2, "nothing is left"}, {7, 0, "its holder"}};
+    program.moves_left_out = {6.75, "operation 2 of the toolpath: link 5 comes too near to the block"};
     for (const std::string& name : program.files) input.texts[name] = "DEF " + name + "\r\nEND\r\n";
     input.tools = {1, 7};
     input.is_proven = true;
@@ -68,6 +70,40 @@ TEST(JobProgram, IsReadAsItWasWritten) {
     EXPECT_EQ(job.ticket.parts, 0);
 }
 
+TEST(JobProgram, MovesThatAreLeftOutStandInManifestAndSheet) {
+    const ReadJob job = parse_job(job_file(job_with_program()), "AB.qjob");
+    for (const char* sheet : {"setup.html", "details.html"}) {
+        EXPECT_NE(text_of(job.files.at(sheet))
+                      .find("no hold of the arm carries 7 mm of its cuts: operation 2 of the toolpath: link 5"),
+                  std::string::npos);
+    }
+    JobInput without = job_with_program();
+    without.program->program.moves_left_out = {};
+    const std::string whole = text_of(parse_job(job_file(without), "AB.qjob").files.at("setup.html"));
+    EXPECT_EQ(whole.find("no hold of the arm"), std::string::npos);
+    without.program->program.moves_left_out.length_mm = 1;
+    EXPECT_NE(refusal(job_file(without)).find("because contradicts the length"), std::string::npos);
+}
+
+TEST(JobProgram, ToolsThatAreLeftOutStandInTheSheetAndNoOthersThanAllowedOnesAreUsed) {
+    JobInput input = job_with_program();
+    input.setup.tools = {1, 7};
+    const ReadJob job = parse_job(job_file(input), "AB.qjob");
+    EXPECT_EQ(job.setup.tools, input.setup.tools);
+    const std::string details = text_of(job.files.at("details.html"));
+    EXPECT_NE(details.find("carved with tools 1 and 7 alone"), std::string::npos);
+    EXPECT_NE(details.find("tool 2 roughs"), std::string::npos);
+    EXPECT_NE(text_of(job.files.at("setup.html")).find("Tools or directions left out: "), std::string::npos);
+    input.setup.tools = {7};
+    EXPECT_NE(refusal(job_file(input)).find("tool 1 of qc_2_001.src is none of those that are allowed"),
+              std::string::npos);
+    input.setup.tools = {7, 1};
+    EXPECT_NE(refusal(job_file(input)).find("tools are not in order"), std::string::npos);
+    input.setup.tools.clear();
+    input.program->program.left_out[0].because.clear();
+    EXPECT_NE(refusal(job_file(input)).find("because is empty"), std::string::npos);
+}
+
 JobInput job_that_drills() {
     JobInput input = job_with_program();
     input.caps = {capped(input, 3)};
@@ -83,7 +119,7 @@ TEST(JobProgram, WhatItDrillsIsReadAsItWasWritten) {
     EXPECT_EQ(*job.program, input.program->program);
     ASSERT_EQ(job.caps.size(), 1U);
     EXPECT_EQ(job.caps[0], input.caps[0].cap);
-    const Bytes& sheet = job.files.at("setup.html");
+    const Bytes& sheet = job.files.at("details.html");
     const std::string text(sheet.begin(), sheet.end());
     EXPECT_NE(text.find("by the robot"), std::string::npos);
     EXPECT_NE(text.find("by hand: the piece stands over it"), std::string::npos);
@@ -152,21 +188,25 @@ TEST(JobProgram, PartsNameTheJobBefore) {
     EXPECT_NE(refusal(job_file(input)).find("before_sha256"), std::string::npos);
 }
 
-TEST(JobProgram, TheSheetShowsTimeToolsFiguresAndPicture) {
+TEST(JobProgram, SheetAndDetailsShowTimeToolsFiguresAndPicture) {
     JobInput input = job_with_program();
-    const Bytes sheet = parse_job(job_file(input), "AB.qjob").files.at("setup.html");
-    const std::string html(sheet.begin(), sheet.end());
-    for (const char* text :
-         {"13. Program and time", "largest gouge", "0.125", "deviation.png", "qc_2_002.src", "1, 7"}) {
-        EXPECT_NE(html.find(text), std::string::npos) << text;
+    const ReadJob job = parse_job(job_file(input), "AB.qjob");
+    const std::string sheet = text_of(job.files.at("setup.html"));
+    const std::string details = text_of(job.files.at("details.html"));
+    for (const char* text : {"5. Program and time", "started as qc_2", "<td class=\"n\">7</td>"}) {
+        EXPECT_NE(sheet.find(text), std::string::npos) << text;
     }
-    EXPECT_EQ(html.find("found faults"), std::string::npos);
+    for (const char* text : {"largest gouge", "0.125", "deviation.png", "qc_2_002.src"}) {
+        EXPECT_NE(details.find(text), std::string::npos) << text;
+    }
+    EXPECT_EQ(sheet.find("found faults"), std::string::npos);
     input.program->is_proven = false;
-    input.program->findings = {"qc_2_001.src line 7: rapid move in foam"};
-    const Bytes refused = parse_job(job_file(input), "AB.qjob").files.at("setup.html");
-    const std::string stop(refused.begin(), refused.end());
+    input.program->findings = {"qc_2_001.src line 7: rapid move in foam", "qc_2_001.src line 9: another"};
+    const ReadJob refused = parse_job(job_file(input), "AB.qjob");
+    const std::string stop = text_of(refused.files.at("setup.html"));
     EXPECT_NE(stop.find("DO NOT START: the replay of the program found faults"), std::string::npos);
     EXPECT_NE(stop.find("line 7: rapid move in foam"), std::string::npos);
+    EXPECT_NE(text_of(refused.files.at("details.html")).find("line 9: another"), std::string::npos);
 }
 
 using Change = std::function<void(nlohmann::ordered_json& program)>;

@@ -83,6 +83,7 @@ inline JobInput tilting_job(int rings = 8) {
     setup.undercut_by_count = 0.0625;
     setup.block = {1, false, true, {58, 56, 44}, true, {{339, 300, 60}, {58, 241, 60}, {58, 56, 13}}};
     setup.reach = some_reach(input);
+    setup.workholding = Workholding{{20, 0.1, 4}, 0.6, 32, 2500, 50, 45.5, 160.25, 2.5, 2400, std::nullopt};
     input.states.resize(input.piece.mesh->triangles.size());
     for (std::size_t t = 0; t < input.states.size(); ++t) {
         const Vec3 at = apply(setup.piece_in_setup, corners_of(*input.piece.mesh, t)[0]);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <random>
 #include <set>
 
@@ -105,6 +106,24 @@ TEST(KrlChunks, HoldEveryRunOnceAndAreSmallEnough) {
             EXPECT_EQ(part.files.size(), part.chunks.size() + 2);
         }
         for (std::size_t s = 0; s < runs.size(); ++s) EXPECT_EQ(runs[s], program.sections[s].runs.size());
+    }
+}
+
+TEST(KrlChunks, StateTheLimitsOfTheCellFile) {
+    Cell cell = kr60();
+    cell.machine->program.acceleration = 1500;
+    cell.machine->program.turn_speed = std::numbers::pi / 4;
+    cell.machine->program.joint_share = 0.2;
+    const ProgramPart part = post_krl(RandomProgram(4).make(cell, 2, 3, 5), cell, {3}).front();
+    for (const ProgramText& file : part.files) {
+        if (file.name.ends_with(".dat")) continue;
+        const bool is_chunk = file.name.starts_with("qc_3_0");
+        const auto states = [&](const char* line) {
+            return file.text.find(std::string("\r\n") + line + "\r\n") != std::string::npos;
+        };
+        EXPECT_TRUE(states("$VEL_AXIS[1] = 20") && states("$ACC_AXIS[6] = 20")) << file.name;
+        EXPECT_EQ(states("$ACC.CP = 1.5000"), is_chunk) << file.name;
+        EXPECT_EQ(states("$VEL.ORI1 = 45.0000") && states("$VEL.ORI2 = 45.0000"), is_chunk) << file.name;
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <numbers>
 #include <sstream>
@@ -50,7 +51,7 @@ TEST(KrlNumber, KnowsNoLocale) {
 
 // Poses of a KR 120 R2500 pro.
 TEST(KrlAngles, AreThoseOfKnownPoses) {
-    const Cell cell = read_cell(std::string(QCHOPPER_SOURCE_DIR) + "/cells/kr120-r2500-pro-rotary.toml");
+    const Cell cell = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr120-r2500-pro-rotary.toml");
     const auto flange = [&](Joints joints) {
         for (double& joint : joints) joint *= degree;
         return forward(cell.machine->robot->geometry, joints);

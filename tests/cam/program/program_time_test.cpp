@@ -23,6 +23,8 @@ Cell gantry() {
     return test_programs::ready_cell("gantry-3axis.toml");
 }
 
+const double path_acceleration = ProgramSettings{}.acceleration;
+
 TEST(ProgramTime, IsThatOfATrapezoidOrATriangle) {
     Program program;
     program.sections = {straight(1000, 100)};
@@ -74,7 +76,7 @@ TEST(ProgramTime, OfAJointMoveIsThatOfItsSlowestAxis) {
     to[1] = 1;
     to[4] = -3;
     // At half of 2 rad/s and of 4 rad/s2: 0.5 s and 0.25 rad at each end.
-    EXPECT_NEAR(joint_move_s(ranges, {}, to), 1 + 2.5, 1e-12);
+    EXPECT_NEAR(joint_move_s(ranges, 0.5, {}, to), 1 + 2.5, 1e-12);
 }
 
 }  // namespace

@@ -309,7 +309,7 @@ TEST(ChooseSetup, TheMachineMustHoldWhatFitsByBoxes) {
     EXPECT_TRUE(fits_cell_and_machine(standing_box({0, 0, 0}, {90, 50, 45}, 0), cell()));  // boxes only
 }
 
-// Height maps know of the holder, samples do not.
+// Height maps know of the holder, samples do not. One that is held may leave up to the cell's limit.
 TEST(ChooseSetup, TheOneThatIsTakenIsJudgedByMapsAndNoOtherLooksBetter) {
     const Cell short_tools = [] {
         Cell in = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "irb6640-185-2.8.toml");
@@ -322,10 +322,14 @@ TEST(ChooseSetup, TheOneThatIsTakenIsJudgedByMapsAndNoOtherLooksBetter) {
         options.samples = 500;
         options.map = {.cell = 1, .foam_points = 1U << 12U};
         const std::vector<qchopper::Setup> setups = choose_setup(piece, short_tools, options).setups;
+        const double share = setups.front().reach.unreachable_share();
+        const bool is_held = setups.front().workholding->passes();
         EXPECT_EQ(setups.front().reach.method, ReachMethod::mapped);
         for (const qchopper::Setup& setup : setups) {
             if (!check_envelope(setup, short_tools).fits()) continue;
-            EXPECT_GE(setup.reach.unreachable_share(), setups.front().reach.unreachable_share() - 0.001) << piece.name;
+            const double other = setup.reach.unreachable_share();
+            EXPECT_LE(share, std::max(other + 0.001, is_held ? short_tools.machine->max_unreachable : 0)) << piece.name;
+            EXPECT_FALSE(!is_held && setup.workholding->passes() && other <= share) << piece.name;
         }
     }
 }

@@ -85,6 +85,34 @@ TEST(MakeToolpath, EveryOperationIsCleanInAPlainReplay) {
     carve(shapes::ball({0, 0, 0}, 25, 24), 60, "ball");
 }
 
+// Of a ball carved along two directions: bodies without a crevice, where fine finishing has little to do.
+TEST(MakeToolpath, EachBallEndedToolIsUsedAlongADirectionOrListedWithTheReason) {
+    const TriangleMesh mesh = shapes::ball({0, 0, 0}, 25, 24);
+    const auto setup = setup_of(mesh, 8, 60);
+    const Cell cell = ready_cell();
+    const Toolpath path = make_toolpath(setup, mesh, cell, coarse_settings());
+    std::size_t listed = 0;
+    for (const std::size_t tool : {0, 2, 3}) {  // the balls of 20, 12 and 6 mm
+        for (std::size_t d = 0; d < setup.reach.directions.size(); ++d) {
+            const bool is_used = std::any_of(
+                path.operations.begin(), path.operations.end(),
+                [&](const Operation& operation) { return operation.tool == tool && operation.direction == d; });
+            const auto count = std::count_if(path.unused.begin(), path.unused.end(), [&](const UnusedTool& unused) {
+                EXPECT_FALSE(unused.because.empty());
+                return unused.tool.value_or(tool) == tool && unused.direction.value_or(d) == d;
+            });
+            EXPECT_EQ(count, is_used ? 0 : 1) << tool << " " << d;
+            listed += static_cast<std::size_t>(count);
+        }
+    }
+    EXPECT_GE(listed, setup.reach.directions.size())
+        << "the ball of 20 mm at least, in whose place the flat tool roughs";
+    const auto of_large = std::find_if(path.unused.begin(), path.unused.end(),
+                                       [](const UnusedTool& unused) { return unused.tool == std::size_t{0}; });
+    ASSERT_NE(of_large, path.unused.end());
+    EXPECT_EQ(of_large->because, "tool 2 roughs, tool 3 finishes, tool 4 finishes what is too narrow for it");
+}
+
 TEST(MakeToolpath, LeavesABallAndNothingAboveIt) {
     const TriangleMesh mesh = shapes::ball({0, 0, 0}, 25, 32);
     const auto setup = setup_of(mesh, 8, 60);

@@ -3,10 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <filesystem>
+#include <random>
 
+#include "segment/import/import_scan.h"
 #include "segment/io/write_stl.h"
+#include "segment/repair/repair.h"
 #include "segment/repair/weld.h"
 #include "tests/segment/io/help.h"
+#include "tests/segment/repair/soup.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
@@ -79,11 +85,14 @@ TEST(Inspect, CallsSolidsThatOnlyTouchReady) {
     EXPECT_EQ(judge(found).reasons.size(), 1U);  // that the edge is split
 
     TriangleMesh with_fin = shapes::box({0, 0, 0}, {1, 1, 1});
-    with_fin.points.push_back({2, 2, 0.5});
     const Triangle first = with_fin.triangles[0];
+    const Vec3 middle = 0.5 * (with_fin.points[first[0]] + with_fin.points[first[1]]);
+    with_fin.points.push_back(middle + Vec3{-0.03, -0.02, -0.04});
     with_fin.triangles.push_back({first[0], first[1], static_cast<std::uint32_t>(with_fin.points.size() - 1)});
     EXPECT_EQ(inspect(raw(with_fin)).touching, 0U);
     EXPECT_EQ(judge(inspect(raw(with_fin))).verdict, Verdict::to_repair);
+    with_fin.points.back() = {2, 2, 0.5};
+    EXPECT_EQ(judge(inspect(raw(with_fin))).verdict, Verdict::unrepairable) << "too large to be dropped";
 }
 
 TEST(Inspect, DistinguishesCavitiesFromShellsThatAreInsideOut) {
@@ -167,6 +176,78 @@ TEST(Inspect, JudgesByTheCounts) {
     const Inspection nothing = inspect(raw(line));
     EXPECT_EQ(nothing.triangles, 0U);
     EXPECT_EQ(judge(nothing).verdict, Verdict::unrepairable);
+}
+
+// Counts of verdicts, each held against what the import makes of the mesh, with and without resolving.
+struct Verdicts {
+    std::array<std::size_t, 3> count{};
+    void expect_that_of_repair(const TriangleMesh& mesh, const std::string& what) {
+        const Verdict verdict = judge(inspect(raw(mesh))).verdict;
+        ++count.at(static_cast<std::size_t>(verdict));
+        RepairOptions resolving;
+        resolving.resolve_self_intersections = true;
+        EXPECT_EQ(verdict != Verdict::unrepairable, repair(mesh).report.is_solid()) << what;
+        EXPECT_EQ(verdict != Verdict::unrepairable, repair(mesh, resolving).report.is_solid()) << what;
+    }
+};
+
+TEST(Inspect, TheVerdictIsThatOfRepair) {
+    Verdicts verdicts;
+    std::mt19937 random(7);
+    for (const shapes::Named& shape : shapes::all_closed()) {
+        verdicts.expect_that_of_repair(shape.mesh, shape.name);
+        for (const std::uint32_t of_ten : {1U, 5U, 8U, 9U}) {
+            TriangleMesh damaged = shape.mesh;
+            std::erase_if(damaged.triangles, [&](const Triangle&) { return random() % 10 < of_ten; });
+            for (Triangle& t : damaged.triangles) {
+                if (random() % 10 == 0) std::swap(t[0], t[1]);
+            }
+            verdicts.expect_that_of_repair(damaged, shape.name + " without " + std::to_string(of_ten) + " of ten");
+        }
+    }
+    // Caps of a ball: a fill that continues their curvature is larger than a flat one.
+    const TriangleMesh ball = shapes::ball({0, 0, 0}, 50, 24);
+    for (int z = -45; z <= 45; z += 3) {
+        TriangleMesh cap = ball;
+        std::erase_if(cap.triangles, [&](const Triangle& t) {
+            return std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return ball.points[v].z > z; });
+        });
+        verdicts.expect_that_of_repair(cap, "cap up to " + std::to_string(z));
+    }
+    // Halves with borders of their own, which coincide.
+    TriangleMesh halves = ball;
+    for (std::size_t t = 0; t < halves.triangles.size(); ++t) {
+        const auto first = static_cast<std::uint32_t>(halves.points.size());
+        const std::array corners = corners_of(ball, t);
+        if (corners[0].z + corners[1].z + corners[2].z < 0) continue;
+        halves.points.insert(halves.points.end(), corners.begin(), corners.end());
+        halves.triangles[t] = {first, first + 1, first + 2};
+    }
+    verdicts.expect_that_of_repair(halves, "halves");
+    for (std::uint32_t seed = 0; seed < 60; ++seed) {
+        verdicts.expect_that_of_repair(balanced_soup({seed % 2 == 0, seed}), "soup " + std::to_string(seed));
+    }
+    for (const std::size_t count : verdicts.count) EXPECT_GT(count, 10U);
+}
+
+TEST(Inspect, TheVerdictOfRealScansIsThatOfRepair) {
+    NEEDS_MESH("nasty");
+    ImportOptions options;
+    options.may_lack_unit = true;
+    for (const auto& entry : std::filesystem::directory_iterator(real_mesh("nasty"))) {
+        const auto is_refused = [&](const auto& action) {
+            try {
+                action();
+            } catch (const InputError&) {
+                return true;
+            }
+            return false;
+        };
+        std::optional<Verdict> verdict;
+        const bool is_unread = is_refused([&] { verdict = judge(inspect(read_mesh(entry.path()))).verdict; });
+        const bool is_no_solid = is_refused([&] { repair_scan(entry.path(), options); });
+        EXPECT_EQ(is_unread || *verdict == Verdict::unrepairable, is_no_solid) << entry.path();
+    }
 }
 
 // Reading and welding in one gives what reading, then welding gives.

@@ -4,8 +4,11 @@
 
 #include <cmath>
 #include <numeric>
+#include <random>
 
 #include "base/parallel.h"
+#include "segment/mesh/measure.h"
+#include "segment/mesh/triangle_tree.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
@@ -74,6 +77,42 @@ TEST(Distance, LeavesOutWhatHasNotChanged) {
     EXPECT_EQ(found.from_result.triangles, 1U);
     EXPECT_GT(found.largest().mm, 0.2);
     EXPECT_LE(found.largest().mm, 1 + 1e-12);
+}
+
+// The same surface in other triangles, as where a face was split or one of two that coincide was dropped: parts lie
+// across sides of the others everywhere, and there is no distance to find.
+TEST(Distance, BetweenTheSameSurfaceInOtherTrianglesIsFoundWithFewPoints) {
+    const TriangleMesh coarse = shapes::rotated(shapes::box({0, 0, 0}, {60, 50, 40}, 3), {1, 2, 3}, 0.7);
+    const TriangleMesh fine = shapes::rotated(shapes::box({0, 0, 0}, {60, 50, 40}, 5), {1, 2, 3}, 0.7);
+    DistanceOptions options;
+    options.tolerance_mm = 1e-5;
+    options.most_points = 200'000;
+    for (const auto& [from, to] : {std::pair(&coarse, &fine), std::pair(&fine, &coarse)}) {
+        const Farthest found = farthest(*from, all_of(*from), *to, options);
+        EXPECT_LE(found.mm, 1e-12);
+        EXPECT_LE(found.at_most, 1e-5 + 1e-12) << "all parts are settled before the points run out";
+    }
+}
+
+// Bounds are those of many points of the triangles.
+TEST(Distance, NoPointIsFartherThanTheBound) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> share(0, 1);
+    for (const shapes::Named& shape : shapes::all_closed()) {
+        const TriangleMesh other = shapes::moved(shapes::rotated(shape.mesh, {1, 1, 2}, 0.1), {0.3, -0.2, 0.1});
+        DistanceOptions options;
+        options.tolerance = 0.02;
+        const Farthest found = farthest(shape.mesh, all_of(shape.mesh), other, options);
+        const TriangleTree tree(other);
+        for (int i = 0; i < 3'000; ++i) {
+            const auto [a, b, c] = corners_of(shape.mesh, random() % shape.mesh.triangles.size());
+            const double u = share(random);
+            const double v = share(random) * (1 - u);
+            const Vec3 p = a + u * (b - a) + v * (c - a);
+            EXPECT_LE(tree.nearest(other, p).distance, found.at_most + 1e-12) << shape.name;
+        }
+        EXPECT_LE(found.at_most, 1.02 * found.mm + options.tolerance_mm + 1e-12) << shape.name;
+    }
 }
 
 TEST(Distance, ToNothingIsInfinite) {

@@ -81,12 +81,12 @@ double least_of_all_pairs(const TriangleMesh& mesh, const SearchSettings& settin
     const std::vector<Ranked> firsts = rank(start, first, settings, cache, {});
     for (std::size_t i = 0; i < firsts.size(); ++i) {
         Segmentation one = start;
-        EXPECT_TRUE(apply(one, cut_by(one, first, firsts, i, 0), 0));
+        EXPECT_TRUE(apply(one, cut_by(one, first, firsts, i, settings), 0));
         const std::size_t second = *next_piece(one, settings.stop, {}, {}).piece;
         const std::vector<Ranked> seconds = rank(one, second, settings, cache, {});
         for (std::size_t j = 0; j < seconds.size(); ++j) {
             Segmentation two = one;
-            EXPECT_TRUE(apply(two, cut_by(two, second, seconds, j, 0), 0));
+            EXPECT_TRUE(apply(two, cut_by(two, second, seconds, j, settings), 0));
             least = std::min(least, cost_of(two, settings));
         }
     }

@@ -1,6 +1,7 @@
 #include "tests/segment/search/greedy.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "segment/score/evaluate.h"
 
@@ -39,6 +40,18 @@ std::vector<Ranked> ranked(const Segmentation& segmentation, std::size_t piece, 
     return result;
 }
 
+// Without those that are the next along the same normal to a better one.
+std::vector<Ranked> without_neighbours(const std::vector<Ranked>& all) {
+    std::vector<Ranked> kept;
+    for (const Ranked& r : all) {
+        const auto is_next_to = [&](const Ranked& better) {
+            return better.normal_index == r.normal_index && std::abs(better.offset_index - r.offset_index) <= 1;
+        };
+        if (std::none_of(kept.begin(), kept.end(), is_next_to)) kept.push_back(r);
+    }
+    return kept;
+}
+
 }  // namespace
 
 bool search(Segmentation& segmentation, const SearchSettings& settings) {
@@ -54,8 +67,10 @@ bool search(Segmentation& segmentation, const SearchSettings& settings) {
         cut.candidates = all.size();
         if (!all.empty()) {
             cut.chosen = all.front();
-            const auto last = std::min(all.size(), settings.runners_up + 1);
-            cut.runners_up.assign(all.begin() + 1, all.begin() + static_cast<std::ptrdiff_t>(last));
+            std::vector<Ranked> others = without_neighbours(all);
+            others.erase(others.begin());
+            others.resize(std::min(others.size(), settings.runners_up));
+            cut.runners_up = std::move(others);
         }
         if (all.empty() || !apply(segmentation, cut, settings.objectives.fragment_volume_mm3))
             passed_over.push_back(name);

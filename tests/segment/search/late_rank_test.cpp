@@ -57,7 +57,7 @@ void expect_best_of_all(const std::string& name, const TriangleMesh& mesh, const
                 ASSERT_EQ(late[k], all[k]) << name << " cut " << cut << " best " << best << " place " << k;
             }
         }
-        ASSERT_TRUE(apply(s, cut_by(s, 0, all, 0, 0), 0)) << name;
+        ASSERT_TRUE(apply(s, cut_by(s, 0, all, 0, settings), 0)) << name;
     }
 }
 
@@ -106,7 +106,7 @@ TEST(LateRank, OwnBoxesAreThoseOfThePartsThatTheCutMakes) {
     double before = 0;
     for (std::size_t k = 0; k < std::min(ranked.size(), most_own_boxes); ++k) {
         Segmentation after = s;
-        ASSERT_TRUE(apply(after, cut_by(s, 0, ranked, k, 0), 0));
+        ASSERT_TRUE(apply(after, cut_by(s, 0, ranked, k, settings), 0));
         double boxes = 0;
         for (const Piece& p : after.pieces)
             boxes += print_boxes(oriented_box(p.mesh->points).size(), settings.objectives);

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "base/parallel.h"
+#include "segment/cut/nudge.h"
+#include "segment/mesh/measure.h"
 #include "segment/sample/sample.h"
 #include "segment/score/cut_reach.h"
 #include "segment/score/seam_cost.h"
@@ -70,7 +73,7 @@ TEST(ReachRank, TheBestPlanesAreThoseOfAllOfThem) {
             settings.beam = beam;
             EvaluationCache cache(settings.objectives, settings.candidates);
             std::vector<Ranked> best = rank_by_reach(segmentation, 0, settings, cache, {});
-            if (best.front().normal_index == refined_index) best.erase(best.begin());
+            std::erase_if(best, [](const Ranked& r) { return r.normal_index == refined_index; });
             ASSERT_GE(best.size(), beam);
             for (std::size_t i = 0; i < beam; ++i) {
                 EXPECT_EQ(best[i].plane, all[i].plane) << i;
@@ -93,7 +96,7 @@ TEST(ReachRank, WithConnectorAndSeamTheBestPlaneIsThatOfAllOfThemToo) {
     ASSERT_FALSE(all.empty());
     EvaluationCache cache(settings.objectives, settings.candidates);
     std::vector<Ranked> best = rank_by_reach(segmentation, 0, settings, cache, {});
-    if (best.front().normal_index == refined_index) best.erase(best.begin());
+    std::erase_if(best, [](const Ranked& r) { return r.normal_index == refined_index; });
     EXPECT_EQ(best[0].plane, all[0].plane);
     EXPECT_EQ(best[0].terms.connector, all[0].terms.connector);
     EXPECT_NEAR(best[0].terms.total, all[0].terms.total, 1e-12);
@@ -122,7 +125,8 @@ TEST(ReachRank, WhatAPlaneLeavesOutOfReachIsWhatItsPiecesDo) {
             const std::vector<Ranked> ranked = rank(segmentation, segmentation.pieces.size() - 1, settings, cache, {});
             ASSERT_FALSE(ranked.empty());
             const double wanted = ranked.front().terms.unreachable;
-            ASSERT_TRUE(apply(segmentation, cut_by(segmentation, segmentation.pieces.size() - 1, ranked, 0, 9), 0));
+            ASSERT_TRUE(
+                apply(segmentation, cut_by(segmentation, segmentation.pieces.size() - 1, ranked, 0, settings), 0));
             double sum = 0;
             for (const Piece& piece : segmentation.pieces) sum += unreachable_mm2(piece, settings.objectives.tilt_deg);
             EXPECT_NEAR(sum / scan_area_mm2(segmentation.pieces[0]), wanted, 0.004);
@@ -140,6 +144,90 @@ TEST(ReachRank, AnOwnPlaneCostsWhatTheSameCandidateCosts) {
     ASSERT_TRUE(own);
     EXPECT_NEAR(own->terms.unreachable, best.terms.unreachable, 0.002);
     EXPECT_NEAR(own->terms.fragility, best.terms.fragility, 1e-9);
+}
+
+// Calls `check` with the segmentation, the index of the piece that is cut next and its ranking, for three cuts of each
+// specimen.
+void for_rankings(const SearchSettings& settings,
+                  const std::function<void(const Segmentation&, std::size_t, const std::vector<Ranked>&)>& check) {
+    for (const Specimen specimen : {Specimen::femur, Specimen::vertebra, Specimen::skull}) {
+        Segmentation segmentation = sampled(bone(specimen));
+        for (int round = 0; round < 3; ++round) {
+            EvaluationCache cache(settings.objectives, settings.candidates);
+            const std::size_t piece = segmentation.pieces.size() - 1;
+            const std::vector<Ranked> ranked = rank(segmentation, piece, settings, cache, {});
+            check(segmentation, piece, ranked);
+            ASSERT_TRUE(apply(segmentation, cut_by(segmentation, piece, ranked, 0, settings), 0));
+        }
+    }
+}
+
+// The refined plane too. Of a side of several solids only the first four are known, because only cutting judges it.
+TEST(ReachRank, AllPlanesStandWhereTheSameEvaluationPutsThem) {
+    const SearchSettings settings = carving();
+    std::size_t refined = 0;
+    for_rankings(settings, [&](const Segmentation& s, std::size_t piece, const std::vector<Ranked>& ranked) {
+        EvaluationCache fresh(settings.objectives, settings.candidates);
+        double last = 0;
+        constexpr std::size_t most = 30;
+        for (std::size_t i = 0; i < ranked.size(); ++i) {
+            const Ranked& r = ranked[i];
+            EXPECT_GE(r.terms.total + tie, last);
+            last = r.terms.total;
+            if (i >= most && r.normal_index != refined_index) continue;
+            const Candidate same{r.plane, r.wanted_offset, r.normal_index, r.offset_index};
+            const std::size_t solids = fresh.evaluation_of(s.pieces[piece], same, {})->solids.size();
+            refined += r.normal_index == refined_index ? 1 : 0;
+            if (solids > 2 && i >= least_best_planes) continue;
+            const std::optional<Ranked> again = rank_plane(s, piece, same, settings, fresh, {});
+            ASSERT_TRUE(again);
+            EXPECT_NEAR(again->terms.total, r.terms.total, 1e-9) << "place " << i << " of " << ranked.size();
+        }
+    });
+    EXPECT_GT(refined, 0U);
+}
+
+TEST(ReachRank, PlanesOfAListAreMoreThanAStepApart) {
+    const SearchSettings settings = carving();
+    std::size_t dropped = 0;
+    for_rankings(settings, [&](const Segmentation& s, std::size_t piece, const std::vector<Ranked>& ranked) {
+        const TriangleMesh& mesh = *s.pieces[piece].mesh;
+        const auto are_neighbours = [&](const Ranked& a, const Ranked& b) {
+            const double step = offset_step(extent(mesh, a.plane.normal), settings.candidates);
+            return norm(a.plane.normal - b.plane.normal) < 1e-9 &&
+                   std::abs(a.plane.offset - b.plane.offset) < 1.0001 * step;
+        };
+        const auto are_close = [&](const Plane& a, const Plane& b) {
+            const Vec3 centre = bounds(mesh).centre();
+            const double sign = dot(a.normal, b.normal) < 0 ? -1 : 1;
+            const double moved = a.offset - height(a.normal, centre) - sign * (b.offset - height(b.normal, centre));
+            return sign * dot(a.normal, b.normal) > 0.98 &&
+                   std::abs(moved) < 1.01 * offset_step(extent(mesh, a.normal), settings.candidates);
+        };
+        const std::vector<std::size_t> listed =
+            without_neighbours(ranked, s.pieces[piece], settings.candidates, ranked.size());
+        ASSERT_FALSE(listed.empty());
+        EXPECT_EQ(listed.front(), 0U);
+        for (std::size_t i = 0; i < listed.size(); ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                EXPECT_LT(listed[j], listed[i]);
+                EXPECT_FALSE(are_neighbours(ranked[listed[j]], ranked[listed[i]])) << listed[j] << " " << listed[i];
+            }
+        }
+        for (std::size_t i = 0; i < ranked.size(); ++i) {
+            if (ranked[i].normal_index < 0 || std::find(listed.begin(), listed.end(), i) != listed.end()) continue;
+            ++dropped;
+            const bool is_near = std::any_of(listed.begin(), listed.end(), [&](std::size_t k) {
+                return k < i && are_close(ranked[k].plane, ranked[i].plane);
+            });
+            EXPECT_TRUE(is_near) << "place " << i << " is dropped for no better plane";
+        }
+        const Cut cut = cut_by(s, piece, ranked, 0, settings);
+        for (std::size_t i = 0; i < std::min(cut.runners_up.size(), listed.size() - 1); ++i) {
+            EXPECT_EQ(cut.runners_up[i], ranked[listed[i + 1]]);
+        }
+    });
+    EXPECT_GT(dropped, 0U);
 }
 
 TEST(ReachRank, WithoutSamplesOrWeightThePlanesOfTheBoxAreRanked) {

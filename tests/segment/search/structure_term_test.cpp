@@ -62,7 +62,7 @@ TEST_F(StructureTerm, OfEveryCandidateIsThatOfItsPlaneTimesTheWeight) {
 }
 
 TEST_F(StructureTerm, OfAPieceIsThatOfItsOwnVoxels) {
-    Cut cut = cut_by(segmentation, 0, ranking(0), 0, 0);
+    Cut cut = cut_by(segmentation, 0, ranking(0), 0, settings);
     ASSERT_TRUE(apply(segmentation, cut, 0));
     ASSERT_GE(segmentation.pieces.size(), 2U);
     std::size_t voxels = 0;

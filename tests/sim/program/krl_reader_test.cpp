@@ -23,6 +23,7 @@ std::string source(const std::string& name, const std::string& body) {
     return with_line_ends("&ACCESS RVP\n&REL 1\n&PARAM EDITMASK = *\nDEF " + name + "( )\n" + body + "END\n");
 }
 
+const std::string restored = "$APO.CDIS = 0\n";
 const std::string init = R"(BAS(#INITMOV,0)
 $VEL_AXIS[1] = 30
 $VEL_AXIS[2] = 30
@@ -38,8 +39,13 @@ $ACC_AXIS[5] = 20
 $ACC_AXIS[6] = 20
 )";
 
-// Line 5 is the first of the body.
-const std::string chunk = R"($TOOL = {X 0.000,Y 0.000,Z 550.000,A 0.0000,B 0.0000,C 0.0000}
+// What a chunk states besides frames and speeds: lines 5 to 20.
+const std::string settings = init.substr(init.find("$VEL_AXIS")) +
+                             "$LOAD = {M 16.2,CM {X 0.0,Y 0.0,Z 195.4,A 0.0,B 0.0,C 0.0},J {X 0.3,Y 0.3,Z 0.1}}\n"
+                             "$VEL.ORI1 = 100.0\n$VEL.ORI2 = 100.0\n$APO.CDIS = 2.0\n";
+
+// Line 21 is the first of these.
+const std::string chunk = settings + R"($TOOL = {X 0.000,Y 0.000,Z 550.000,A 0.0000,B 0.0000,C 0.0000}
 $BASE = {X 1200.000,Y 0.000,Z 310.000,A 0.0000,B 0.0000,C 0.0000}
 $VEL.CP = 0.1000
 $ACC.CP = 2.0000
@@ -56,7 +62,7 @@ std::vector<ProgramFile> files_of(const std::string& main_body, const std::strin
 }
 
 ParsedProgram read(const std::string& chunk_body) {
-    return read_krl(files_of(init + "QC_1_001( )\n", chunk_body), "qc_1", {{"change_tool"}});
+    return read_krl(files_of(init + "QC_1_001( )\n" + restored, chunk_body), "qc_1", {{"change_tool"}});
 }
 
 TEST(KrlReader, ReadsMovesWithTheirModalValues) {
@@ -67,7 +73,7 @@ TEST(KrlReader, ReadsMovesWithTheirModalValues) {
     EXPECT_NEAR(ptp.values[1], -90 * radian, 1e-12);
     const ProgramStep& last = program.steps[3];
     EXPECT_EQ(last.kind, StepKind::linear_move);
-    EXPECT_EQ(describe_place(program, last.place), "qc_1_001.src:12");
+    EXPECT_EQ(describe_place(program, last.place), "qc_1_001.src:28");
     EXPECT_EQ(last.values[2], 18);
     EXPECT_NEAR(last.values[3], 180 * radian, 1e-12);
     EXPECT_TRUE(program.steps[2].is_rounded);
@@ -86,6 +92,19 @@ TEST(KrlReader, KnowsTheHoleThatACommentNames) {
     std::vector<std::uint32_t> holes;
     for (const ProgramStep& step : program.steps) holes.push_back(step.hole);
     EXPECT_EQ(holes, (std::vector<std::uint32_t>{0, 0, 12, 12, 2}));
+}
+
+TEST(KrlReader, KnowsWhatAChunkSaysOfItsStart) {
+    const auto line_of_comment = [](const std::string& body) {
+        const ParsedProgram program = read(body);
+        EXPECT_EQ(program.chunks.size(), 3U);
+        EXPECT_EQ(program.chunks[1].end_line, 29U + (body.size() > chunk.size() ? 1 : 0));
+        EXPECT_EQ(program.chunks[2].end_line, program.chunks[0].end_line);
+        return program.chunks[1].free_from_home;
+    };
+    EXPECT_EQ(line_of_comment(chunk), 0U);
+    EXPECT_EQ(line_of_comment(";start from home: free\n" + chunk), 5U);
+    EXPECT_EQ(line_of_comment(";start from home: not free, see the chunks before\n" + chunk), 0U);
 }
 
 TEST(KrlReader, SummarisesChunks) {
@@ -111,7 +130,8 @@ TEST(KrlReader, ReadsSignalsStopsAndCalls) {
 
 TEST(KrlReader, ReadsAChainedBaseWithItsExternalAxis) {
     std::string body = chunk;
-    body.replace(body.find("{X 1200"), body.find("}\n$VEL") + 1 - body.find("{X 1200"),
+    const std::size_t base = body.find("{X 1200");
+    body.replace(base, body.find("}\n", base) + 1 - base,
                  "EK(MACHINE_DEF[3].ROOT,MACHINE_DEF[3].MECH_TYPE,{X 1.0,Y 2.0,Z 3.0,A 0.0,B 0.0,C 0.0})");
     body.replace(body.find("A6 0.000}"), 9, "A6 0.000,E2 30.000}");
     body.replace(body.find("C 180.000}"), 10, "C 180.000,E2 30.000}");
@@ -147,27 +167,30 @@ TEST_P(KrlFaults, AreRefusedWithFileAndLine) {
 
 INSTANTIATE_TEST_SUITE_P(
     Krl, KrlFaults,
-    testing::Values(Fault{"X 1.00", "X 1.00E2", "qc_1_001.src, line 10"}, Fault{"X 1.00", "X nan", "line 10"},
-                    Fault{"X 1.00", "X 1,00", "line 10"}, Fault{"X 1.00", "X 6000.00", "line 10"},
-                    Fault{"X 1.00", "X ", "line 10"}, Fault{"X 1.00", "X 1.0.0", "line 10"},
-                    Fault{",A 180.000,B 0.000,C 180.000", "", "line 10"}, Fault{",C 180.000", "", "line 10"},
-                    Fault{",C 180.000", ",C 180.000,E1 3.0", "line 10"}, Fault{",z 30.00}", ",x 30.00}", "line 11"},
-                    Fault{"lin", "line", "line 11"}, Fault{"c_dis", "c_ptp", "line 11"},
-                    Fault{"LIN {X 4.00", "IF TRUE THEN\nLIN {X 4.00", "line 12"},
-                    Fault{"LIN {X 4.00", "GOTO 3\nLIN {X 4.00", "line 12"},
-                    Fault{"LIN {X 4.00", "HALT\nLIN {X 4.00", "line 12"},
-                    Fault{"LIN {X 4.00", "unknown( )\nLIN {X 4.00", "line 12"},
-                    Fault{"LIN {X 4.00", "$VEL.CP = 60.0\nLIN {X 4.00", "line 12"},
-                    Fault{"LIN {X 4.00", "$VEL.CP = 0.0\nLIN {X 4.00", "line 12"},
-                    Fault{"LIN {X 4.00", "$VEL.PTP = 0.1\nLIN {X 4.00", "line 12"},
-                    Fault{"LIN {X 4.00", "$ADVANCE = 6\nLIN {X 4.00", "line 12"},
-                    Fault{"LIN {X 4.00", "BAS(#INITMOV,0)\nLIN {X 4.00", "line 12"},
-                    Fault{"LIN {X 4.00", "$OUT[1] = ON\nLIN {X 4.00", "line 12"},
-                    Fault{"LIN {X 4.00", "$TOOL = {X 0.0,Y 0.0,Z 1.0,A 0.0,B 0.0,C 0.0}\nLIN {X 4.00", "line 13"},
-                    Fault{"LIN {X 4.00", "\xC3\xA4\nLIN {X 4.00", "line 12"}, Fault{"$TOOL", "$TOLL", "line 5"},
-                    Fault{"$VEL.CP", ";", "line 10"}, Fault{"$TOOL", ";", "line 10"}, Fault{"$BASE", ";", "line 10"},
-                    Fault{"$ACC.CP", ";", "line 10"}, Fault{"PTP", ";", "line 10"}, Fault{",A6 0.000", "", "line 9"},
-                    Fault{"A6 0.000", "A6 900.000", "line 9"}, Fault{"PTP", "PTPX", "line 9"}));
+    testing::Values(
+        Fault{"X 1.00", "X 1.00E2", "qc_1_001.src, line 26"}, Fault{"X 1.00", "X nan", "line 26"},
+        Fault{"X 1.00", "X 1,00", "line 26"}, Fault{"X 1.00", "X 6000.00", "line 26"}, Fault{"X 1.00", "X ", "line 26"},
+        Fault{"X 1.00", "X 1.0.0", "line 26"}, Fault{",A 180.000,B 0.000,C 180.000", "", "line 26"},
+        Fault{",C 180.000", "", "line 26"}, Fault{",C 180.000", ",C 180.000,E1 3.0", "line 26"},
+        Fault{",z 30.00}", ",x 30.00}", "line 27"}, Fault{"lin", "line", "line 27"}, Fault{"c_dis", "c_ptp", "line 27"},
+        Fault{"LIN {X 4.00", "IF TRUE THEN\nLIN {X 4.00", "line 28"},
+        Fault{"LIN {X 4.00", "GOTO 3\nLIN {X 4.00", "line 28"}, Fault{"LIN {X 4.00", "HALT\nLIN {X 4.00", "line 28"},
+        Fault{"LIN {X 4.00", "unknown( )\nLIN {X 4.00", "line 28"},
+        Fault{"LIN {X 4.00", "$VEL.CP = 60.0\nLIN {X 4.00", "line 28"},
+        Fault{"LIN {X 4.00", "$VEL.CP = 0.0\nLIN {X 4.00", "line 28"},
+        Fault{"LIN {X 4.00", "$VEL.PTP = 0.1\nLIN {X 4.00", "line 28"},
+        Fault{"LIN {X 4.00", "$ADVANCE = 6\nLIN {X 4.00", "line 28"},
+        Fault{"LIN {X 4.00", "BAS(#INITMOV,0)\nLIN {X 4.00", "line 28"},
+        Fault{"LIN {X 4.00", "$OUT[1] = ON\nLIN {X 4.00", "line 28"},
+        Fault{"LIN {X 4.00", "$TOOL = {X 0.0,Y 0.0,Z 1.0,A 0.0,B 0.0,C 0.0}\nLIN {X 4.00", "line 29"},
+        Fault{"LIN {X 4.00", "\xC3\xA4\nLIN {X 4.00", "line 28"}, Fault{"$TOOL", "$TOLL", "line 21"},
+        Fault{"$VEL.CP", ";", "line 26"}, Fault{"$TOOL", ";", "line 26"}, Fault{"$BASE", ";", "line 26"},
+        Fault{"$ACC.CP", ";", "line 26"}, Fault{"PTP", ";", "line 26"}, Fault{",A6 0.000", "", "line 25"},
+        Fault{"$LOAD", ";", "line 25"}, Fault{"$VEL_AXIS[3]", ";", "line 25"}, Fault{"$ACC_AXIS[6]", ";", "line 25"},
+        Fault{"$VEL.ORI1", ";", "line 26"}, Fault{"$VEL.ORI2", ";", "line 26"}, Fault{"$APO.CDIS", ";", "line 27"},
+        Fault{"LIN {X 4.00,Y 6.00,Z 18.00}", "", "line 27"},
+        Fault{"LIN {X 4.00", "PTP {A1 0,A2 -90,A3 90,A4 0,A5 90,A6 0}\nLIN {X 4.00", "line 27"},
+        Fault{"A6 0.000", "A6 900.000", "line 25"}, Fault{"PTP", "PTPX", "line 25"}));
 
 std::string refusal(std::vector<ProgramFile> files) {
     try {
@@ -179,10 +202,11 @@ std::string refusal(std::vector<ProgramFile> files) {
 }
 
 TEST(KrlReader, RefusesFilesThatDoNotBelongTogether) {
-    const auto good = files_of(init + "QC_1_001( )\n", chunk);
+    const auto good = files_of(init + "QC_1_001( )\n" + restored, chunk);
     EXPECT_EQ(refusal(good), "");
     EXPECT_NE(refusal(files_of(init, chunk)).find("never called"), std::string::npos);
-    EXPECT_NE(refusal(files_of(init + "QC_1_001( )\nQC_1_001( )\n", chunk)).find("called twice"), std::string::npos);
+    EXPECT_NE(refusal(files_of(init + "QC_1_001( )\nQC_1_001( )\n" + restored, chunk)).find("called twice"),
+              std::string::npos);
     EXPECT_NE(refusal(files_of("QC_1_001( )\n", chunk)), "");
     EXPECT_NE(refusal(files_of(init + "$ADVANCE = 5\nQC_1_001( )\n", chunk)).find("$ADVANCE"), std::string::npos);
     EXPECT_NE(refusal({good[0], good[1]}).find("qc_1.src, line 18"), std::string::npos);

@@ -1,7 +1,7 @@
 #include "tests/sim/replay/box_job.h"
 
 #include "sim/program/krl_reader.h"
-#include "sim/replay/machine_walk.h"
+#include "sim/replay/signal_walk.h"
 #include "tests/shapes.h"
 
 namespace qchopper {
@@ -58,6 +58,7 @@ WrittenChunk side_chunk() {
 ReplayScene BoxJob::scene() const {
     return {&cell,
             job.directions,
+            job.directions.size(),
             chunks_of(job),
             {{-55, -40, -spoil}, {55, 40, tall + 5}},
             spoil,

@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "cam/cell/kuka_angles.h"
 #include "cam/cell/reach_map.h"
+#include "sim/replay/carried_load.h"
 
 namespace qchopper {
 namespace {
@@ -65,6 +66,8 @@ class Writer {
         return job_.directions[direction].table_angle;
     }
     std::string main_text() const;
+    std::string load_text(const WrittenChunk& chunk) const;
+    static std::string axis_text();
     std::string chunk_text(const WrittenChunk& chunk) const;
     Pose tip_in_setup(const WrittenChunk& chunk, Vec3 tip) const;
     Joints joints_at(const WrittenChunk& chunk) const;
@@ -75,25 +78,38 @@ class Writer {
 };
 
 std::string Writer::main_text() const {
-    std::string text = head("qc_1") + ";FOLD INI\r\nBAS(#INITMOV,0)\r\n;ENDFOLD\r\n$ADVANCE = 5\r\n";
-    for (int axis = 1; axis <= 6; ++axis) {
-        text += "$VEL_AXIS[" + std::to_string(axis) + "] = 30\r\n$ACC_AXIS[" + std::to_string(axis) + "] = 30\r\n";
-    }
+    std::string text = head("qc_1") + ";FOLD INI\r\nBAS(#INITMOV,0)\r\n;ENDFOLD\r\n$ADVANCE = 5\r\n" + axis_text();
     std::uint16_t last = 0;
-    text += axes_text(machine_.start.joints, e1(0));
+    text += load_text(job_.chunks.front()) + axes_text(machine_.start.joints, e1(0));
     for (std::size_t i = 0; i < job_.chunks.size(); ++i) {
         const WrittenChunk& chunk = job_.chunks[i];
         if (chunk.tool != last) {
-            text += "$OUT[1] = FALSE\r\n;ASK tool " + std::to_string(chunk.tool) +
-                    " is in the spindle, its length checked?\r\n";
-            text += "HALT\r\n$ANOUT[1] = " + fixed(chunk.rpm * machine_.spindle.speed->scale, 5) + "\r\n";
-            text += "$OUT[2] = TRUE\r\n$OUT[1] = TRUE\r\nWAIT FOR $IN[1]\r\n";
+            if (i > 0) text += "$OUT[1] = FALSE\r\n$OUT[2] = FALSE\r\n" + axes_text(machine_.start.joints, e1(0));
+            text += ";ASK tool " + std::to_string(chunk.tool) + " (" + tool(chunk.tool).name +
+                    ") is in the spindle, its length of " + fixed(gauge_length(tool(chunk.tool)), 2) +
+                    " mm checked?\r\nHALT\r\n";
         }
         last = chunk.tool;
         text += name(i) + "( )\r\n";
     }
     text += axes_text(machine_.start.joints, e1(job_.chunks.back().direction));
     return text + "$OUT[1] = FALSE\r\n$OUT[2] = FALSE\r\n$APO.CDIS = 0\r\n$ADVANCE = 3\r\nEND\r\n";
+}
+
+std::string Writer::axis_text() {
+    std::string text;
+    for (int axis = 1; axis <= 6; ++axis) {
+        text += "$VEL_AXIS[" + std::to_string(axis) + "] = 30\r\n$ACC_AXIS[" + std::to_string(axis) + "] = 30\r\n";
+    }
+    return text;
+}
+
+// In the ready cells the axes of the spindle are those of the flange.
+std::string Writer::load_text(const WrittenChunk& chunk) const {
+    const CarriedLoad load = carried_load(machine_.spindle, tool(chunk.tool));
+    return "$LOAD = {M " + fixed(load.mass_kg, 2) + ",CM " + frame_text({Pose{}.row, load.centre}, 3, 4) + ",J {X " +
+           fixed(load.inertia[0].x, 4) + ",Y " + fixed(load.inertia[1].y, 4) + ",Z " + fixed(load.inertia[2].z, 4) +
+           "}}\r\n";
 }
 
 // As near as possible to the orientation that the tool has at home.
@@ -129,9 +145,7 @@ std::string Writer::chunk_text(const WrittenChunk& chunk) const {
     const SceneDirection& direction = job_.directions[chunk.direction];
     const Pose& nose = machine_.spindle.spindle_in_flange;
     const Pose tool_frame{nose.row, nose.shift + gauge_length(used) * column(nose, 2)};
-    const double mass = machine_.spindle.mass_kg + used.mass_kg;
-    std::string text =
-        "$LOAD = {M " + fixed(mass, 2) + ",CM {X 0.0,Y 0.0,Z 200.0,A 0.0,B 0.0,C 0.0},J {X 0.1,Y 0.1,Z 0.1}}\r\n";
+    std::string text = axis_text() + load_text(chunk);
     text += "$TOOL = " + frame_text(tool_frame, 3, 4) + "\r\n";
     if (machine_.rotary_table) {
         const double angle = direction.table_angle;
@@ -142,7 +156,10 @@ std::string Writer::chunk_text(const WrittenChunk& chunk) const {
     } else {
         text += "$BASE = " + frame_text(inverse(machine_.robot->base_in_cell) * direction.setup_in_cell, 3, 4) + "\r\n";
     }
-    text += "$APO.CDIS = " + fixed(job_.rounding, 2) + "\r\n$ACC.CP = " + fixed(job_.acceleration, 4) + "\r\n";
+    text += "$APO.CDIS = " + fixed(job_.rounding, 2) + "\r\n$ACC.CP = " + fixed(job_.acceleration, 4) +
+            "\r\n$VEL.ORI1 = 90.0\r\n$VEL.ORI2 = 90.0\r\n";
+    text += "$ANOUT[1] = " + fixed(chunk.rpm * machine_.spindle.speed->scale, 5) + "\r\n";
+    text += "$OUT[2] = TRUE\r\n$OUT[1] = TRUE\r\nWAIT FOR $IN[1]\r\n";
     double feed = 0;
     bool is_first = true;
     const auto state_feed = [&](double wanted) {

@@ -155,6 +155,13 @@ Change without(const std::string& word, const std::string& ending = {}) {
     };
 }
 
+bool replace_first(std::string& text, std::size_t from, const std::string& what, const std::string& by) {
+    const std::size_t at = text.find(what, from);
+    if (at == std::string::npos) return false;
+    text.replace(at, what.size(), by);
+    return true;
+}
+
 std::vector<std::size_t> lin_places(const Lines& lines) {
     std::vector<std::size_t> places;
     for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -342,13 +349,6 @@ Mutation of_text(const std::string& name, const std::function<bool(std::string&)
             }};
 }
 
-bool replace_first(std::string& text, std::size_t from, const std::string& what, const std::string& by) {
-    const std::size_t at = text.find(what, from);
-    if (at == std::string::npos) return false;
-    text.replace(at, what.size(), by);
-    return true;
-}
-
 void add_geometry(std::vector<Mutation>& all) {
     const std::vector<std::string> xyz{"X", "Y", "Z"};
     const auto times = [](double f) { return [f](double v) { return f * v; }; };
@@ -391,6 +391,20 @@ void add_frames(std::vector<Mutation>& all) {
     all.push_back(everywhere("base_1_mm_lower", each_component("$base", {"Z"}, plus(-1))));
     all.push_back(everywhere("base_turned", each_component("$base", {"A"}, plus(3))));
     all.push_back(everywhere("load_lost", without("$load")));
+    all.push_back(in_one_chunk("load_lost_in_a_chunk", without("$load")));
+    all.push_back(everywhere("load_centre_300_mm_off", each_component("$load", {"X"}, plus(300))));
+    all.push_back(everywhere("load_centre_at_the_tip", each_component("$load", {"Z"}, plus(350))));
+    all.push_back(everywhere("load_without_spindle", each_component("$load", {"M"}, plus(-15))));
+    all.push_back(everywhere("load_inertia_times_10", each("$load", [times](std::string& line) {
+                                 std::string inertia = line.substr(line.find(",J {"));
+                                 line.resize(line.size() - inertia.size());
+                                 bool is_changed = false;
+                                 for (const char* component : {"X", "Y", "Z"})
+                                     is_changed |= change_number(inertia, component, times(10));
+                                 line += inertia;
+                                 return is_changed;
+                             })));
+    all.push_back(everywhere("tool_turned_about_its_axis", each_component("$tool", {"A"}, plus(10))));
     const std::vector<std::string> external{"E1", "E2", "E3", "E4", "E5", "E6"};
     all.push_back(everywhere("table_turned_the_other_way", [times, external](Lines& lines) {
         const bool lin = each_component("lin ", external, times(-1))(lines);
@@ -417,6 +431,97 @@ void add_speeds(std::vector<Mutation>& all) {
     all.push_back(everywhere("spindle_not_waited_for", without("wait ")));
     all.push_back(everywhere("spindle_too_slow", each_value("$anout", times(0.1))));
     all.push_back(everywhere("tool_change_not_asked", without("halt")));
+    all.push_back(everywhere("tool_length_wrong_in_the_question", each(";ask tool", [](std::string& line) {
+                                 return replace_first(line, 0, "00 mm", "10 mm");
+                             })));
+    all.push_back(everywhere("acceleration_times_10", each_value("$acc.cp", times(10))));
+    all.push_back(in_one_chunk("acceleration_times_10_in_a_chunk", each_value("$acc.cp", times(10))));
+    all.push_back(everywhere("orientation_speed_times_10", each_value("$vel.ori", times(10))));
+    all.push_back(everywhere("joint_moves_at_full_speed", each_value("$vel_axis", [](double) { return 100; })));
+    all.push_back(everywhere("joint_moves_at_full_acceleration", each_value("$acc_axis", [](double) { return 100; })));
+    for (const char* word : {"$acc.cp", "$vel.ori2", "$vel_axis[3]", "$acc_axis[6]", "$apo.cdis"}) {
+        all.push_back(in_one_chunk(std::string(word) + "_not_stated_in_a_chunk", without(word)));
+    }
+}
+
+// Changes of one line: the last one of the main program, or the first one of the last chunk, that begins with a word.
+Change lose(const std::string& word, bool is_last) {
+    return [word, is_last](Lines& lines) {
+        std::vector<std::size_t> places;
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            if (begins(lines[i], word)) places.push_back(i);
+        }
+        if (places.empty()) return false;
+        lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(is_last ? places.back() : places.front()));
+        return true;
+    };
+}
+
+// In the middle of the moves.
+Change insert(const std::string& line) {
+    return [line](Lines& lines) {
+        const std::vector<std::size_t> places = lin_places(lines);
+        if (places.size() < 6) return false;
+        lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(places[places.size() / 2]), line);
+        return true;
+    };
+}
+
+// The last chunk.
+Mutation in_last_chunk(const std::string& name, const Change& change) {
+    return {name, [change](const ProgramFiles& files) -> std::optional<ProgramFiles> {
+                std::size_t last = files.size();
+                for (std::size_t i = next_chunk(files); i < files.size(); i = next_chunk(files, i + 1)) last = i;
+                if (last == files.size()) return std::nullopt;
+                ProgramFiles changed = files;
+                Lines lines = lines_of(files[last].text);
+                if (!change(lines)) return std::nullopt;
+                changed[last].text = text_of(lines);
+                return changed;
+            }};
+}
+
+Mutation in_main_lines(const std::string& name, const Change& change) {
+    return in_main(name, [change](ProgramFiles&, Lines& lines, const auto&) { return change(lines); });
+}
+
+// In the ready cells output 1 is the spindle's, output 2 that of extraction.
+void add_signals(std::vector<Mutation>& all) {
+    all.push_back(everywhere("extraction_never_on", without("$out[2]", "true")));
+    all.push_back(in_last_chunk("extraction_not_on_in_the_last_chunk", without("$out[2]", "true")));
+    all.push_back(in_last_chunk("extraction_off_in_the_middle", insert("$OUT[2] = FALSE")));
+    all.push_back(in_main_lines("extraction_on_at_the_end", lose("$out[2]", true)));
+    all.push_back(in_main_lines("spindle_on_at_the_end", lose("$out[1]", true)));
+    all.push_back(in_last_chunk("spindle_off_in_the_middle", insert("$OUT[1] = FALSE")));
+    all.push_back(in_last_chunk("spindle_not_on_in_the_last_chunk", without("$out[1]", "true")));
+    all.push_back(in_last_chunk("speed_not_waited_for_in_the_last_chunk", without("wait ")));
+    all.push_back(in_last_chunk("speed_not_stated_in_the_last_chunk", without("$anout")));
+    all.push_back(in_last_chunk("speed_changed_without_waiting", insert("$ANOUT[1] = 0.90000")));
+    all.push_back(in_one_chunk("output_of_nobody", insert("$OUT[77] = TRUE")));
+    all.push_back(in_one_chunk("waits_for_another_input",
+                               each("wait ", [](std::string& line) { return replace_first(line, 0, "[1]", "[2]"); })));
+    const auto one_degree = each_component("ptp ", {"A1"}, [](double v) { return v + 1; });
+    const auto of_line = [one_degree](bool is_last) {
+        return [one_degree, is_last](Lines& lines) {
+            std::vector<std::size_t> places;
+            for (std::size_t i = 0; i < lines.size(); ++i) {
+                if (begins(lines[i], "ptp ")) places.push_back(i);
+            }
+            if (places.empty()) return false;
+            Lines one{lines[is_last ? places.back() : places.front()]};
+            one_degree(one);
+            lines[is_last ? places.back() : places.front()] = one.front();
+            return true;
+        };
+    };
+    all.push_back(in_main_lines("begins_away_from_home", of_line(false)));
+    all.push_back(in_main_lines("ends_away_from_home", of_line(true)));
+    all.push_back(in_one_chunk("last_corner_rounded", [](Lines& lines) {
+        const std::vector<std::size_t> places = lin_places(lines);
+        if (places.empty()) return false;
+        lines[places.back()] += " C_DIS";
+        return true;
+    }));
 }
 
 void add_chunks(std::vector<Mutation>& all) {
@@ -485,6 +590,7 @@ std::vector<Mutation> all_mutations() {
     add_geometry(all);
     add_frames(all);
     add_speeds(all);
+    add_signals(all);
     add_chunks(all);
     add_text(all);
     return all;

@@ -1,0 +1,76 @@
+// Text and JSON from a value; nothing is computed but sums.
+
+#include "app/report/program_report.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/project/shell_word.h"
+#include "base/text.h"
+
+namespace qchopper {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Of all parts of a program.
+std::size_t drilled_holes(const PieceReport& piece) {
+    double holes = 0;
+    for (const JobVerdict& verdict : piece.verdicts) {
+        for (const ProofFigure& figure : verdict.figures) holes += figure.key == "holes_drilled" ? figure.value : 0;
+    }
+    return static_cast<std::size_t>(holes);
+}
+
+Json verdict_json(const JobVerdict& verdict) {
+    Json figures = Json::object();
+    for (const ProofFigure& figure : verdict.figures) figures[figure.key] = figure.value;
+    return {{"job", verdict.job},
+            {"positive", verdict.is_positive},
+            {"figures", figures},
+            {"findings", verdict.findings.size() + verdict.findings_left_out},
+            {"notes", verdict.notes}};
+}
+
+// What the proof says against the program of a piece; empty: nothing.
+std::string refusal_word(const PieceReport& piece, const std::filesystem::path& folder) {
+    const auto refused = std::find_if(piece.verdicts.begin(), piece.verdicts.end(),
+                                      [](const JobVerdict& verdict) { return !verdict.is_positive; });
+    if (refused == piece.verdicts.end()) return {};
+    const std::string why = refused->findings.empty() ? "nothing was carved" : describe(refused->findings.front());
+    return "piece " + piece.name + ": its program is not proven: " + why + "; see qchopper verify " +
+           shell_word(folder) + " --piece " + piece.name;
+}
+
+}  // namespace
+
+std::string program_word(const PieceReport& piece) {
+    if (piece.verdicts.empty()) return "-";
+    std::string word = duration(static_cast<std::uint32_t>(piece.time_s));
+    if (piece.verdicts.size() > 1) word += " in " + std::to_string(piece.verdicts.size()) + " parts";
+    if (const std::size_t holes = drilled_holes(piece); holes > 0) word += ", " + counted(holes, "hole");
+    return word + (piece.is_proven() ? ", verified" : ", REFUSED");
+}
+
+std::vector<std::string> program_warnings(const PieceReport& piece, const std::filesystem::path& folder) {
+    std::vector<std::string> sentences;
+    const std::string refusal = refusal_word(piece, folder);
+    if (!refusal.empty()) sentences.push_back(refusal);
+    if (piece.verdicts.empty()) return sentences;
+    for (const std::string& note : piece.verdicts.back().notes)
+        sentences.push_back("piece " + piece.name + ": " + note);
+    return sentences;
+}
+
+Json program_json(const PieceReport& piece) {
+    if (piece.verdicts.empty()) return {{"parts", 0}, {"none_because", piece.no_program_because}};
+    Json verdicts = Json::array();
+    for (const JobVerdict& verdict : piece.verdicts) verdicts.push_back(verdict_json(verdict));
+    return {{"parts", piece.verdicts.size()},
+            {"proven", piece.is_proven()},
+            {"time_s", piece.time_s},
+            {"length_mm", piece.length_mm},
+            {"verdicts", verdicts}};
+}
+
+}  // namespace qchopper

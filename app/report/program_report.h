@@ -1,0 +1,23 @@
+// The program of a piece and what its proof found, in the reports of the commands that make programs.
+
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "app/project/piece_jobs.h"
+
+namespace qchopper {
+
+// "3 h 20 min, 4 holes, verified", "-" without a program.
+std::string program_word(const PieceReport& piece);
+
+// What speaks against the program, and the notes of its verdict: one sentence each, which names the piece.
+std::vector<std::string> program_warnings(const PieceReport& piece, const std::filesystem::path& folder);
+
+// Parts, proof, time and verdicts, or why there is none.
+nlohmann::ordered_json program_json(const PieceReport& piece);
+
+}  // namespace qchopper

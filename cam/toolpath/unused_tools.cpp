@@ -1,0 +1,78 @@
+// Directions without any operation first, then tools one after the other.
+
+#include "cam/toolpath/unused_tools.h"
+
+#include <algorithm>
+#include <string>
+
+namespace qchopper {
+namespace {
+
+std::string number_of(const CellMachine& machine, std::size_t tool) {
+    return "tool " + std::to_string(machine.tools[tool].number);
+}
+
+// "tool 2 roughs, tool 3 finishes, tool 4 finishes what is too narrow for it".
+std::string describe(const CellMachine& machine, const ToolChoice& chosen) {
+    std::string text =
+        number_of(machine, chosen.roughing) + " roughs, " + number_of(machine, chosen.finishing) + " finishes";
+    if (chosen.fine) text += ", " + number_of(machine, *chosen.fine) + " finishes what is too narrow for it";
+    return text;
+}
+
+class Listing {
+ public:
+    Listing(const CellMachine& machine, const ToolChoice& chosen, const Toolpath& toolpath,
+            const ToolsAlong& has_nothing)
+        : machine_(machine), chosen_(chosen), has_nothing_(has_nothing) {
+        for (const Operation& operation : toolpath.operations) used_.insert({operation.tool, operation.direction});
+    }
+
+    std::vector<UnusedTool> list(std::size_t directions) const {
+        std::vector<UnusedTool> unused;
+        for (std::size_t d = 0; d < directions; ++d) {
+            if (!is_carved(d)) unused.push_back({std::nullopt, d, why(chosen_.fine.value_or(chosen_.finishing), d)});
+        }
+        for (std::size_t tool = 0; tool < machine_.tools.size(); ++tool) {
+            if (machine_.tools[tool].shape != ToolShape::ball) continue;
+            if (!is_chosen(tool)) {
+                unused.push_back({tool, std::nullopt, describe(machine_, chosen_)});
+                continue;
+            }
+            for (std::size_t d = 0; d < directions; ++d) {
+                if (is_carved(d) && !used_.contains({tool, d})) unused.push_back({tool, d, why(tool, d)});
+            }
+        }
+        return unused;
+    }
+
+ private:
+    bool is_carved(std::size_t direction) const {
+        return std::any_of(used_.begin(), used_.end(), [&](const auto& pair) { return pair.second == direction; });
+    }
+    bool is_chosen(std::size_t tool) const {
+        return tool == chosen_.roughing || tool == chosen_.finishing || tool == chosen_.fine;
+    }
+    std::string why(std::size_t tool, std::size_t direction) const {
+        const bool finishes = tool == chosen_.finishing || tool == chosen_.fine;
+        if (!finishes) return "it roughs, and no foam is left for that";
+        if (has_nothing_.contains({tool, direction})) {
+            return "tools and directions before it leave no surface that it would finish";
+        }
+        return "foam that stands keeps its holder or its flute from all of its passes";
+    }
+
+    const CellMachine& machine_;
+    const ToolChoice& chosen_;
+    const ToolsAlong& has_nothing_;
+    ToolsAlong used_;
+};
+
+}  // namespace
+
+std::vector<UnusedTool> unused_tools(const CellMachine& machine, const ToolChoice& chosen, std::size_t directions,
+                                     const Toolpath& toolpath, const ToolsAlong& has_nothing) {
+    return Listing(machine, chosen, toolpath, has_nothing).list(directions);
+}
+
+}  // namespace qchopper

@@ -1,0 +1,134 @@
+// A signal is what the cell file says it is; any other is a finding, because nobody knows what it moves.
+
+#include "sim/replay/signal_walk.h"
+
+#include <optional>
+
+#include "sim/program/krl_file.h"
+
+namespace qchopper {
+namespace {
+
+using MaybeSignal = std::optional<Signal>;
+
+bool is_signal(const MaybeSignal& signal, SignalKind kind, const std::string& target) {
+    return signal && signal->kind == kind && lower_case(signal->target) == target;
+}
+
+MaybeSignal extraction_on(const CellMachine& machine) {
+    return machine.extraction ? machine.extraction->on : std::nullopt;
+}
+
+MaybeSignal extraction_off(const CellMachine& machine) {
+    return machine.extraction ? machine.extraction->off : std::nullopt;
+}
+
+// The line that switches off.
+std::string off_line(const MaybeSignal& on, const MaybeSignal& off) {
+    const MaybeSignal& signal = off ? off : on;
+    if (!signal) return "a line that the cell file does not name";
+    return signal->kind == SignalKind::call ? signal->target + "( )" : "$OUT[" + signal->target + "] = FALSE";
+}
+
+}  // namespace
+
+std::vector<std::string> called_programs(const Cell& cell) {
+    std::vector<std::string> names;
+    if (!cell.machine) return names;
+    const CellMachine& machine = *cell.machine;
+    const Spindle& spindle = machine.spindle;
+    for (const MaybeSignal& signal :
+         {spindle.on, spindle.speed, spindle.at_speed, spindle.off, extraction_on(machine), extraction_off(machine)}) {
+        if (signal && signal->kind == SignalKind::call) names.push_back(signal->target);
+    }
+    if (machine.program.tool_change_call) names.push_back(*machine.program.tool_change_call);
+    return names;
+}
+
+void SignalWalk::take(const ProgramStep& step, const std::string& called) {
+    const Spindle& spindle = machine_.spindle;
+    const std::string number = std::to_string(step.number);
+    switch (step.kind) {
+        case StepKind::output:
+            return take_output(step);
+        case StepKind::analog_output:
+            if (!is_signal(spindle.speed, SignalKind::output, number)) return refuse(step, "$ANOUT[" + number + "]");
+            return take_speed(step.value / spindle.speed->scale);
+        case StepKind::wait_input:
+            if (!is_signal(spindle.at_speed, SignalKind::input, number)) return refuse(step, "$IN[" + number + "]");
+            return reach_speed();
+        case StepKind::call:
+            return take_call(step, called);
+        default:
+            return;
+    }
+}
+
+void SignalWalk::take_output(const ProgramStep& step) {
+    const std::string number = std::to_string(step.number);
+    const auto is = [&](const MaybeSignal& signal) { return is_signal(signal, SignalKind::output, number); };
+    const bool is_on = step.value > 0;
+    const bool of_spindle = is(machine_.spindle.on) || is(machine_.spindle.off);
+    const bool of_extraction = is(extraction_on(machine_)) || is(extraction_off(machine_));
+    if (!of_spindle && !of_extraction) return refuse(step, "$OUT[" + number + "]");
+    if (of_spindle && (!is_on || is(machine_.spindle.on))) switch_spindle(is_on);
+    if (of_extraction && (!is_on || is(extraction_on(machine_)))) switch_extraction(is_on);
+}
+
+void SignalWalk::take_speed(double rpm) {
+    for (SignalState* state : {&now_, &alone_}) {
+        if (rpm != state->rpm) state->has_speed = !machine_.spindle.at_speed;
+        state->rpm = rpm;
+    }
+}
+
+void SignalWalk::take_call(const ProgramStep& step, const std::string& called) {
+    const Spindle& spindle = machine_.spindle;
+    const auto is = [&](const MaybeSignal& signal) { return is_signal(signal, SignalKind::call, called); };
+    const std::optional<std::string>& change = machine_.program.tool_change_call;
+    const bool is_change = change && lower_case(*change) == called;
+    if (step.has_argument != (is(spindle.speed) || is_change)) {
+        log_.add(FindingKind::unknown_signal, step.place, step.value, 0, [&] {
+            return called + " is called " + (step.has_argument ? "with a value, and takes none" : "without its value");
+        });
+    }
+    if (is(spindle.speed)) take_speed(step.value / spindle.speed->scale);
+    if (is(spindle.on)) switch_spindle(true);
+    if (is(spindle.off)) switch_spindle(false);
+    if (is(spindle.at_speed)) reach_speed();
+    if (is(extraction_on(machine_))) switch_extraction(true);
+    if (is(extraction_off(machine_))) switch_extraction(false);
+}
+
+void SignalWalk::switch_spindle(bool is_on) {
+    for (SignalState* state : {&now_, &alone_}) {
+        if (is_on && !state->spindle_is_on) state->has_speed = !machine_.spindle.at_speed;
+        if (!is_on) state->has_speed = false;
+        state->spindle_is_on = is_on;
+    }
+}
+
+void SignalWalk::switch_extraction(bool is_on) {
+    now_.extraction_is_on = alone_.extraction_is_on = is_on;
+}
+
+void SignalWalk::reach_speed() {
+    for (SignalState* state : {&now_, &alone_}) state->has_speed |= state->spindle_is_on;
+}
+
+void SignalWalk::refuse(const ProgramStep& step, const std::string& what) const {
+    log_.add(FindingKind::unknown_signal, step.place, step.number, 0,
+             [&] { return what + " is used, and the cell file names no such signal of spindle or extraction"; });
+}
+
+void SignalWalk::check_off(FindingKind kind, SourcePlace place, const std::string& when) const {
+    const auto check = [&](bool is_on, const char* what, const std::string& line) {
+        if (!is_on) return;
+        log_.add(kind, place, 0, 0,
+                 [&] { return std::string(what) + " is still on " + when + ", expected before: " + line; });
+    };
+    check(now_.spindle_is_on, "the spindle", off_line(machine_.spindle.on, machine_.spindle.off));
+    check(now_.extraction_is_on, "extraction", off_line(extraction_on(machine_), extraction_off(machine_)));
+}
+
+}  // namespace qchopper

@@ -1,0 +1,1 @@
+// Compiles the header that is precompiled for the tests (CMakeLists.txt).

@@ -1,0 +1,179 @@
+// What must be carved follows from the piece, the directions of the setup and the tools of the cell, whatever the
+// program does: a bar with a groove that only the finest ball enters, and a notch that only a tilted tool sees.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+#include "sim/replay/leftover.h"
+#include "sim/replay/reachable.h"
+#include "tests/shapes.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::uint16_t flat_20 = 2;  // numbers of kr60-ha
+constexpr std::uint16_t ball_12 = 3;
+constexpr std::uint16_t ball_6 = 4;
+constexpr double tall = 22;
+constexpr double length = 43;
+constexpr double groove_floor = 14;
+
+// 70 mm wide, with a groove of 8 mm by 8 mm along its middle and a notch of the same size in its right wall. Faces
+// between the boxes lie inside, where nothing comes to.
+TriangleMesh bar() {
+    return shapes::joined({shapes::box({-35, 0, 0}, {35, length, 6}), shapes::box({-35, 0, 6}, {27, length, 14}),
+                           shapes::box({-35, 0, 14}, {-4, length, tall}), shapes::box({4, 0, 14}, {35, length, tall})});
+}
+
+struct Bar {
+    Cell cell = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
+    TriangleMesh target = bar();
+    ReplayScene scene;
+    Foam foam{{{-65, -30, -10}, {65, length + 30, tall + 5}}, {{0, 0, 1}, {std::sin(1.0), 0, std::cos(1.0)}}, 0.25};
+
+    // The top and all sides are carved with the flat tool, from above.
+    Bar() {
+        scene.cell = &cell;
+        scene.directions = {{{0, 0, 1}, 0, {}}, {{std::sin(1.0), 0, std::cos(1.0)}, 0, {}}};
+        scene.chunks = {{"qc_1_001", flat_20, 0}, {"qc_1_002", ball_12, 0}};
+        scene.block = foam.block();
+        scene.target = &target;
+        for (std::size_t t = 0; t < target.triangles.size(); ++t) {
+            scene.is_base.push_back(area_vector(target, static_cast<std::uint32_t>(t)).z < 0 &&
+                                    corners_of(target, static_cast<std::uint32_t>(t))[0].z == 0);
+        }
+        const Cutter flat = cutter_of(cell.machine->tools[1]);
+        for (double y = -20; y < length + 20; y += 8) foam.cut(0, flat, 100, {-60, y, tall}, {60, y, tall});
+        for (const double aside : {10.0, 25.0}) {
+            const double x = 35 + aside;
+            for (const double side : {-x, x}) foam.cut(0, flat, 100, {side, -25, -2}, {side, length + 25, -2});
+            for (const double y : {-aside, length + aside}) foam.cut(0, flat, 100, {-60, y, -2}, {60, y, -2});
+        }
+    }
+    void carve_groove() {
+        const Cutter ball = cutter_of(cell.machine->tools[3]);
+        for (const double x : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
+            foam.cut(0, ball, 100, {x, -10, groove_floor}, {x, length + 10, groove_floor});
+        }
+    }
+    LeftoverFigures measured() const {
+        return measure_leftover(foam, scene, std::vector<float>(target.triangles.size(), 0), {}, {});
+    }
+    // Of the groove what a ball of 6 mm comes to within 0.4375 mm, all but 1.32 mm from its corners, less the upper
+    // 0.75 mm of its walls, where the foam is within tolerance; the ball of 12 mm comes to the upper 0.57 mm.
+    double groove_mm2() const { return length * (8 - 2 * 1.32 + 2 * (tall - groove_floor - 1.32 - 0.75)); }
+    // Of the floor of the notch, 8 mm below its lip, what the tilted ball comes to within 0.4375 mm. Its centre, 3 mm
+    // above the floor and 3 mm beside the ray through the lip, comes 2.24 mm under it, so that the back wall is never
+    // touched. At the open sides the foam of the outer 0.75 mm is within tolerance.
+    static double notch_mm2() {
+        const double under = (8 - 3 - 3 / std::sin(1.0)) * std::tan(1.0);
+        const double beside = std::sqrt(3.4375 * 3.4375 - 9);
+        return (length - 2 * 0.75) * (under + beside - 0.75);
+    }
+};
+
+TEST(GivenUp, IsWhatTheFinestToolOfTheCellReachesAndTheProgramDoesNotUse) {
+    Bar bar;
+    bar.scene.drilling = 1;  // the tilted direction is of holes alone
+    const LeftoverFigures left = bar.measured();
+    ASSERT_EQ(left.given_up.size(), 1U);
+    EXPECT_EQ(left.given_up[0].tool, ball_6);
+    EXPECT_EQ(left.given_up[0].direction, 0U);
+    EXPECT_NEAR(left.given_up_mm2(), bar.groove_mm2(), 0.2 * bar.groove_mm2());
+    EXPECT_NEAR(left.within_mm2, left.reachable_mm2 - left.given_up_mm2(), 0.005 * left.area_mm2);
+    EXPECT_TRUE(left.not_allowed.empty());
+}
+
+TEST(GivenUp, IsNothingWhereTheToolIsUsedOrTheSurfaceIsCarved) {
+    Bar used;
+    used.scene.drilling = 1;
+    used.scene.chunks.push_back({"qc_1_003", ball_6, 0});
+    const LeftoverFigures kept = used.measured();
+    EXPECT_TRUE(kept.given_up.empty());
+    EXPECT_LT(kept.within_mm2, kept.reachable_mm2 - 0.8 * used.groove_mm2()) << "its foam speaks against the program";
+    Bar carved;
+    carved.scene.drilling = 1;
+    carved.carve_groove();
+    const LeftoverFigures clear = carved.measured();
+    EXPECT_LT(clear.given_up_mm2(), 0.01 * carved.groove_mm2());
+    EXPECT_EQ(clear.reachable_mm2, kept.reachable_mm2) << "what is reachable does not depend on the program";
+}
+
+TEST(GivenUp, ByOrderOfTheOperatorIsToldApart) {
+    Bar bar;
+    bar.scene.drilling = 1;
+    const LeftoverFigures all = bar.measured();
+    bar.scene.tools = {1, flat_20, ball_12};
+    const LeftoverFigures left = bar.measured();
+    EXPECT_TRUE(left.given_up.empty());
+    ASSERT_EQ(left.not_allowed.size(), 1U);
+    EXPECT_EQ(left.not_allowed[0].tool, ball_6);
+    EXPECT_NEAR(left.not_allowed_mm2(), all.given_up_mm2(), 1e-3 * all.given_up_mm2());
+    EXPECT_NEAR(left.reachable_mm2 + left.not_allowed_mm2(), all.reachable_mm2, 0.01 * all.reachable_mm2);
+}
+
+TEST(GivenUp, ADirectionOfTheSetupThatTheProgramDoesNotTake) {
+    Bar bar;
+    bar.carve_groove();
+    const LeftoverFigures left = bar.measured();
+    ASSERT_FALSE(left.given_up.empty());
+    EXPECT_EQ(left.given_up[0].direction, 1U) << "the notch";
+    EXPECT_NEAR(left.given_up_mm2(), bar.notch_mm2(), 0.25 * bar.notch_mm2());
+    bar.scene.chunks.push_back({"qc_1_003", ball_6, 1});
+    EXPECT_LT(bar.measured().given_up_mm2(), 0.01 * left.given_up_mm2());
+}
+
+// Balls on a plate beside a wall, against all closings of all ball-ended tools.
+void expect_few_are_enough(double wall, std::size_t expected) {
+    const Cell cell = read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
+    std::vector<TriangleMesh> meshes{shapes::box({0, 0, 0}, {60, 60, 5}), shapes::box({-12, 0, 0}, {0, 60, wall})};
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> at(5, 55);
+    for (int i = 0; i < 12; ++i) meshes.push_back(shapes::ball({at(random), at(random), 6}, 7, 10));
+    const TriangleMesh mesh = shapes::joined(meshes);
+    ReplayScene scene;
+    scene.cell = &cell;
+    scene.directions = {{{0, 0, 1}, 0, {}}};
+    scene.target = &mesh;
+    Closings known(scene, 0.5);
+    const std::vector<const Closing*> few = known.along(0, allowed_tools(scene), {});
+    EXPECT_EQ(few.size(), expected);
+    std::vector<SurfaceMap> all;
+    for (const std::size_t tool : {0, 2, 3}) all.push_back(closing_of(scene, 0, cell.machine->tools[tool], 0.5, {}));
+    for (double x = 0.25; x < 60; x += 0.5) {
+        for (double y = 0.25; y < 60; y += 0.5) {
+            double lowest_of_few = 1e9;
+            double lowest_of_all = 1e9;
+            const Vec3 q = apply_inverse(all[0].frame_in_setup, Vec3{x, y, 0});
+            for (const Closing* closing : few) lowest_of_few = std::min(lowest_of_few, closing->map.at(q.x, q.y));
+            for (const SurfaceMap& map : all) lowest_of_all = std::min(lowest_of_all, map.at(q.x, q.y));
+            ASSERT_NEAR(lowest_of_few, lowest_of_all, 0.25) << x << " " << y;  // half a cell
+        }
+    }
+}
+
+TEST(Closings, TheFinestIsEnoughWhereItsHolderIsClear) {
+    expect_few_are_enough(60, 1);
+}
+
+TEST(Closings, LongerToolsCountBesideAWallThatStopsTheHolderOfTheFinest) {
+    expect_few_are_enough(130, 2);
+    expect_few_are_enough(190, 3);
+}
+
+TEST(Closings, WhereNothingIsInTheWayOfTheFinestToolItsOwnIsEnough) {
+    Bar bar;
+    Closings known(bar.scene, 0.5);
+    const auto all = known.along(0, allowed_tools(bar.scene), {});
+    ASSERT_EQ(all.size(), 1U);
+    EXPECT_EQ(bar.cell.machine->tools[all[0]->tool].number, ball_6);
+    const auto flat = known.along(0, {1}, {});
+    ASSERT_EQ(flat.size(), 1U);
+    EXPECT_EQ(bar.cell.machine->tools[flat[0]->tool].number, flat_20) << "where no other is named";
+}
+
+}  // namespace
+}  // namespace qchopper
