@@ -55,10 +55,9 @@ class Attempt {
         return sum;
     }
 
-    bool does_every_piece_hold() const { return failing().empty(); }
-
     bool make_next() {
-        std::vector<std::size_t> members = failing();
+        std::vector<std::size_t> members = family();
+        std::erase_if(members, [&](std::size_t p) { return !judge_.breaks_a_rule(segmentation_.pieces[p]); });
         std::stable_sort(members.begin(), members.end(), [&](std::size_t a, std::size_t b) {
             return judge_.unreachable(segmentation_.pieces[a]).mm2 > judge_.unreachable(segmentation_.pieces[b]).mm2;
         });
@@ -73,13 +72,6 @@ class Attempt {
             const std::string& name = segmentation_.pieces[p].name;
             if (std::find(family_.begin(), family_.end(), name) != family_.end()) members.push_back(p);
         }
-        return members;
-    }
-
-    // Those of the family that break a rule.
-    std::vector<std::size_t> failing() const {
-        std::vector<std::size_t> members = family();
-        std::erase_if(members, [&](std::size_t p) { return !judge_.breaks_a_rule(segmentation_.pieces[p]); });
         return members;
     }
 
@@ -120,8 +112,7 @@ std::optional<Trial> try_cuts(const Segmentation& segmentation, const Cut& first
     const double least = least_fall_mm2(*piece, before, judge.least_gain_mm2());
     while (true) {
         const double after = attempt.unreachable_mm2();
-        if (before - after >= least || attempt.does_every_piece_hold())
-            return Trial{std::move(attempt.segmentation()), {}};
+        if (before - after >= least) return Trial{std::move(attempt.segmentation()), {}};
         const bool is_cut_short = attempt.cuts() < trial_cuts &&
                                   static_cast<int>(attempt.segmentation().cuts.size()) >= settings.stop.max_cuts;
         if (attempt.cuts() == trial_cuts || is_cut_short || !attempt.make_next()) {
@@ -132,7 +123,7 @@ std::optional<Trial> try_cuts(const Segmentation& segmentation, const Cut& first
 
 std::string describe(const RevertedTrial& trial) {
     constexpr std::array<const char*, trial_cuts> counts{"one cut", "two cuts", "three cuts"};
-    if (trial.cuts < 1 || trial.cuts > trial_cuts) return "no cut was tried";  // in a file of another version
+    if (trial.cuts < 1 || trial.cuts > trial_cuts) return "too little for a cut to count";
     const int decimals = trial.before_mm2 >= 10 * mm2_per_cm2 ? 1 : 3;
     return std::string(counts[static_cast<std::size_t>(trial.cuts) - 1]) + " changed that from " +
            fixed(trial.before_mm2 / mm2_per_cm2, decimals) + " to " + fixed(trial.after_mm2 / mm2_per_cm2, decimals) +

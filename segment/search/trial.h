@@ -1,10 +1,9 @@
 // Cuts a piece on trial: its cuts are kept if they make enough of its surface reachable.
 //
-// mm2. Cuts make a piece better if, within three cuts of it and its descendants, every piece holds the rules, or their
-// unreachable area falls by at least 10 % of the piece's, by 0.2 % of the piece's area, and by what the finest tool can
-// tell from nothing (PieceChecks::least_gain_mm2); one cut may gain nothing. Every cut made is real: nothing is
-// estimated. On what was chosen: docs/decisions/0020-cuts-on-trial-are-one-decision.md. Tests:
-// tests/segment/search/trial_test.cpp.
+// mm2. Cuts make a piece better if, within three cuts of it and its descendants, their unreachable area falls by at
+// least 10 % of the piece's, by 0.2 % of the piece's area, and by what the finest tool can tell from nothing
+// (PieceChecks::least_gain_mm2); one cut may gain nothing. Every cut made is real: nothing is estimated. On what was
+// chosen: docs/decisions/0020-cuts-on-trial-are-one-decision.md. Tests: tests/segment/search/trial_test.cpp.
 
 #pragma once
 
@@ -22,8 +21,7 @@ namespace qchopper {
 
 constexpr int trial_cuts = 3;
 
-// By how much the unreachable area of a piece must fall at least, if `before_mm2` is out of reach now and not every
-// piece holds the rules then. O(triangles).
+// By how much the unreachable area of a piece must fall at least, if `before_mm2` is out of reach now. O(triangles).
 double least_fall_mm2(const Piece& piece, double before_mm2, double least_gain_mm2);
 
 struct Trial {
