@@ -229,7 +229,9 @@ class RequestHandler {
             }
             told = best.cuts.size();
         };
-        const SearchEnd end = project_.search(checks_, on_round, context_, request.time_limit_s);
+        std::optional<TimeLimit> time_limit;
+        if (request.time_limit_s) time_limit.emplace(TimeLimit{*request.time_limit_s});
+        const SearchEnd end = project_.search(checks_, on_round, context_, time_limit);
         answer_.warnings = project_.segmentation().warnings;
         answer_.done = "The search ended: " + end.sentence + "; cost " + fixed(end.cost, 4) + ".";
         if (!end.is_finished()) refuse("The stop rules do not hold.");

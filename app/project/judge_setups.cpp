@@ -51,19 +51,26 @@ void OpenProject::drop_unfinished_verdict() {
     if (is_being_judged()) project_.verdict.reset();
 }
 
-void OpenProject::judge_setups(const Context& context, const std::function<void(const Segmentation&)>& on_round) {
-    if (!asks_for_verdict()) return;
+std::optional<SearchEnd> OpenProject::judge_setups(const Context& context,
+                                                   const std::function<void(const Segmentation&)>& on_round,
+                                                   const std::optional<TimeLimit>& time_limit) {
+    if (!asks_for_verdict()) return std::nullopt;
     if (!project_.verdict) {
         project_.verdict.emplace();
         save();
     }
     if (!project_.verdict->are_cuts_asked) judge_cuts(context);
-    cut_by_setups(context, on_round);
+    std::optional<SearchEnd> end = cut_by_setups(context, on_round, time_limit);
+    if (end && end->is_out_of_time()) {
+        end_ = end;
+        return end;
+    }
     setups()->keep_only(segmentation().pieces);
     if (project_.stage == Stage::cutting) write_current_pieces();
     project_.stage = Stage::cut;
     project_.verdict->is_done = true;
     save();
+    return end;
 }
 
 void OpenProject::judge_cuts(const Context& context) {
@@ -119,8 +126,11 @@ BeamProgress OpenProject::after_the_search(const Segmentation& segmentation) {
 
 // A search of its own, with trials that setups decide. Its state is saved as that of any search; that it is this one
 // follows from the verdict.
-void OpenProject::cut_by_setups(const Context& context, const std::function<void(const Segmentation&)>& on_round) {
-    if (!project_.settings.stop.max_unreachable) return;
+std::optional<SearchEnd> OpenProject::cut_by_setups(const Context& context,
+                                                    const std::function<void(const Segmentation&)>& on_round,
+                                                    const std::optional<TimeLimit>& time_limit) {
+    if (!project_.settings.stop.max_unreachable) return std::nullopt;
+    if (time_limit && time_limit->has_passed()) return end_of_time(*time_limit);
     const StageTimer stage(context, "pieces cut by their setups");
     setups()->compute_held(segmentation().pieces, context);
     Segmentation working = segmentation();
@@ -137,11 +147,17 @@ void OpenProject::cut_by_setups(const Context& context, const std::function<void
         setups()->keep_only(segmentation().pieces);
         if (on_round) on_round(s);
     };
-    const SearchEnd end = qchopper::search(working, settings, cache(), checks_by_setups(settings, context), keep,
-                                           context, std::nullopt, &progress);
+    SearchEnd end = qchopper::search(working, settings, cache(), checks_by_setups(settings, context), keep, context,
+                                     time_limit, &progress);
     project_.beam.reset();
+    if (end.is_out_of_time()) {
+        project_.beam = progress.saved();
+        save();
+        return end;
+    }
     record(project_, segmentation());
     record_end(end);
+    return end;
 }
 
 std::map<std::int32_t, Piece> OpenProject::pieces_to_recut(std::vector<std::int32_t> numbers, const Context& context) {

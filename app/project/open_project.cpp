@@ -344,7 +344,7 @@ void OpenProject::set_has_programs(bool has_programs) {
 }
 
 SearchEnd OpenProject::search(const PieceChecks& checks, const std::function<void(const Segmentation&)>& on_round,
-                              const Context& context, std::optional<double> time_limit_s) {
+                              const Context& context, const std::optional<TimeLimit>& time_limit) {
     remove_outputs(folder_, project_);
     Segmentation working = segmentation();
     const StageTimer stage(context, "search");
@@ -357,7 +357,7 @@ SearchEnd OpenProject::search(const PieceChecks& checks, const std::function<voi
         on_round(best);
     };
     SearchEnd end =
-        qchopper::search(working, project_.settings, cache(), checks, keep, context, time_limit_s, &progress);
+        qchopper::search(working, project_.settings, cache(), checks, keep, context, time_limit, &progress);
     adopt(working, end.is_out_of_time() ? progress.saved() : std::nullopt);
     end_ = end;
     if (end.is_out_of_time()) return end;

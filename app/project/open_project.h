@@ -119,15 +119,18 @@ class OpenProject {
     // Runs the search to the stop rules, saves the best segmentation of every round, then calls `on_round` with it, and
     // writes the pieces at its end, unless time ran out. Throws Cancelled; the last round stays saved.
     SearchEnd search(const PieceChecks& checks, const std::function<void(const Segmentation&)>& on_round,
-                     const Context& context, std::optional<double> time_limit_s);
+                     const Context& context, const std::optional<TimeLimit>& time_limit);
 
     // After a search in a project with a cell, setups judge what it made. With the weight `unreachable` a cut of which
     // the pieces can be carved better along another plane is replaced (verdict.h); every cut is asked once, and saved
     // before the next; a replacement is a decision. With the rule max_unreachable a piece of which the setup of its job
     // leaves more out of reach is cut again on trial, by planes that setups compare (planes_by_setups.h); `on_round` is
     // called with the segmentation after each such decision. project().end_reason then says of the final setups whether
-    // the rules hold. Does nothing where that is done already, or the search has not ended. Throws Cancelled.
-    void judge_setups(const Context& context, const std::function<void(const Segmentation&)>& on_round = {});
+    // the rules hold. Returns the end of that cutting: if time ran out, the next call goes on with it. Does nothing where
+    // that is done already, or the search has not ended. Throws Cancelled.
+    std::optional<SearchEnd> judge_setups(const Context& context,
+                                          const std::function<void(const Segmentation&)>& on_round = {},
+                                          const std::optional<TimeLimit>& time_limit = std::nullopt);
     // Whether a search has ended that setups are still judging: it does not go on before that is done.
     bool is_being_judged() const { return project_.verdict && !project_.verdict->is_done; }
 
@@ -154,7 +157,9 @@ class OpenProject {
     void drop_unfinished_verdict();
     std::map<std::int32_t, Piece> pieces_to_recut(std::vector<std::int32_t> numbers, const Context& context);
     void judge_cuts(const Context& context);
-    void cut_by_setups(const Context& context, const std::function<void(const Segmentation&)>& on_round);
+    std::optional<SearchEnd> cut_by_setups(const Context& context,
+                                           const std::function<void(const Segmentation&)>& on_round,
+                                           const std::optional<TimeLimit>& time_limit);
     BeamProgress after_the_search(const Segmentation& segmentation);
     PieceChecks checks_by_setups(const SearchSettings& settings, const Context& context);
     void judge_cut(std::int32_t number, const std::map<std::int32_t, Piece>& divided, const Context& context);

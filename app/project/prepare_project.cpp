@@ -38,10 +38,12 @@ PreparedProject finish(OpenProject& project, const PrepareOptions& options, cons
         told = s.cuts.size();
     };
     std::optional<SearchEnd> end;
+    std::optional<TimeLimit> time_limit;
+    if (options.time_limit_s) time_limit.emplace(TimeLimit{*options.time_limit_s});
     if (project.project().stage == Stage::cutting && !project.is_being_judged()) {
-        end = project.search(project.checks(), on_round, context, options.time_limit_s);
+        end = project.search(project.checks(), on_round, context, time_limit);
     }
-    project.judge_setups(context, on_round);
+    if (const std::optional<SearchEnd> judged = project.judge_setups(context, on_round, time_limit)) end = judged;
     if (end) context.warn(project.segmentation().warnings);
     if (end && end->is_out_of_time()) {
         context.warn({early_end(end->sentence)});

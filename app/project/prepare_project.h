@@ -16,7 +16,7 @@ namespace qchopper {
 
 struct PrepareOptions {
     std::string program_version;         // is written into the jobs
-    std::optional<double> time_limit_s;  // of the search; the round that is being made is finished
+    std::optional<double> time_limit_s;  // of all cutting; the round that is being made is finished
     // Whether jobs get robot programs, where the cell allows it, from now on; nothing: as the project says, and those
     // of a new one do.
     std::optional<bool> has_programs = {};

@@ -5,7 +5,6 @@
 #include "segment/search/search.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "base/timings.h"
 #include "segment/search/beam.h"
@@ -16,8 +15,6 @@
 
 namespace qchopper {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t evaluated_together = 2;  // one piece alone leaves cores idle towards its end
 
@@ -40,8 +37,7 @@ class Search {
           progress_(settings.has_state() ? progress : nullptr) {}
 
     SearchEnd run(Segmentation& segmentation, const std::function<void(const Segmentation&)>& on_round,
-                  std::optional<double> time_limit_s) {
-        const auto started = Clock::now();
+                  const std::optional<TimeLimit>& time_limit) {
         if (progress_ != nullptr && !progress_->state.branches.empty()) {
             resume();
         } else {
@@ -51,10 +47,9 @@ class Search {
         while (true) {
             context_.check_cancelled();
             find_next_pieces();
-            const bool is_late =
-                time_limit_s && std::chrono::duration<double>(Clock::now() - started).count() >= *time_limit_s;
-            const bool has_decided = rounds_ > 0 || (time_limit_s && *time_limit_s <= 0);
-            if (is_late && has_decided && is_any_live()) return end(segmentation, time_limit_s);
+            const bool is_late = time_limit && time_limit->has_passed();
+            const bool has_decided = rounds_ > 0 || (time_limit && time_limit->seconds <= 0);
+            if (is_late && has_decided && is_any_live()) return end(segmentation, time_limit);
             rank_children();
             if (!is_any_live()) return end(segmentation, std::nullopt);
             make_cuts();
@@ -193,23 +188,23 @@ class Search {
         on_round(segmentation);
     }
 
-    SearchEnd end(Segmentation& segmentation, std::optional<double> time_limit_s) {
+    SearchEnd end(Segmentation& segmentation, const std::optional<TimeLimit>& time_limit) {
         const auto finished = std::find_if(beam_.begin(), beam_.end(), [](const Bsp& b) { return b.next.is_finished; });
         const Bsp& best = finished != beam_.end() ? *finished : beam_.empty() ? *stuck_ : beam_.front();
-        SearchEnd result = end_with(best, finished != beam_.end(), time_limit_s);
+        SearchEnd result = end_with(best, finished != beam_.end(), time_limit);
         result.cost = best.cost;
         result.reverted = best.reverted;
         segmentation = best.segmentation;
         return result;
     }
 
-    SearchEnd end_with(const Bsp& best, bool is_finished, std::optional<double> time_limit_s) {
-        const std::string time = time_limit_s ? describe(EndReason::time_limit, decimal(*time_limit_s)) : "";
+    SearchEnd end_with(const Bsp& best, bool is_finished, const std::optional<TimeLimit>& time_limit) {
+        const std::string time = time_limit ? end_of_time(*time_limit).sentence : "";
         if (is_finished) {
             const EndReason reason = settings_.stop.is_any_set() ? EndReason::rules_hold : EndReason::no_rule;
-            return {reason, describe(reason) + (time_limit_s ? "; " + time : "")};
+            return {reason, describe(reason) + (time_limit ? "; " + time : "")};
         }
-        if (time_limit_s) return {EndReason::time_limit, time};
+        if (time_limit) return end_of_time(*time_limit);
         const std::string pieces = settings_.stop.max_unreachable ? passed_over_pieces(best) : "";
         const int most = settings_.stop.max_cuts;
         const bool is_cut_short = std::any_of(best.reverted.begin(), best.reverted.end(),
@@ -261,10 +256,18 @@ StopJudge judge_for(const SearchSettings& settings, const PieceChecks& checks, E
     return {settings.stop, checks, [&cache](const Piece& p) { return cache.box(p).size(); }, std::move(priority)};
 }
 
+bool TimeLimit::has_passed() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() >= seconds;
+}
+
+SearchEnd end_of_time(const TimeLimit& limit) {
+    return {EndReason::time_limit, describe(EndReason::time_limit, decimal(limit.seconds))};
+}
+
 SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, EvaluationCache& cache,
                  const PieceChecks& checks, const std::function<void(const Segmentation&)>& on_round,
-                 const Context& context, std::optional<double> time_limit_s, BeamProgress* progress) {
-    return Search(settings, cache, checks, context, progress).run(segmentation, on_round, time_limit_s);
+                 const Context& context, const std::optional<TimeLimit>& time_limit, BeamProgress* progress) {
+    return Search(settings, cache, checks, context, progress).run(segmentation, on_round, time_limit);
 }
 
 }  // namespace qchopper

@@ -13,6 +13,7 @@
 
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -37,6 +38,16 @@ struct SearchEnd {
     bool is_out_of_time() const { return reason == EndReason::time_limit; }
 };
 
+// Several searches of one command share one limit: its start is that of the first.
+struct TimeLimit {
+    double seconds = 0;
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    bool has_passed() const;
+};
+
+// The end of a search that a limit which has passed keeps from its first round.
+SearchEnd end_of_time(const TimeLimit& limit);
+
 // The progress of a search that has a state beside its segmentation (SearchSettings::has_state). If `state` has
 // branches the search resumes from it, and `root` is the segmentation that the branches start from. After every round
 // `state` is the present beam. At b = 1 its one branch has no cuts but those of the root, which is the segmentation
@@ -54,13 +65,13 @@ StopJudge judge_for(const SearchSettings& settings, const PieceChecks& checks, E
 
 // Continues from the cuts of `segmentation` and returns the best BSP in it. `on_round` is called with the best so far
 // after every round that changes it, so that it can be saved: at b = 1 after every decision. The search ends with the
-// round in which `time_limit_s` passes; at least one round is made unless the limit is 0. Throws Cancelled if the
+// round in which `time_limit` passes; at least one round is made unless the limit is 0. Throws Cancelled if the
 // context is cancelled; `segmentation` is then the best of the last round. A search that is interrupted anywhere and
 // resumed from `progress` ends as if it had not been interrupted (tests/app/project/open_project_test.cpp). `progress`
 // may be null.
 SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, EvaluationCache& cache,
                  const PieceChecks& checks, const std::function<void(const Segmentation&)>& on_round,
-                 const Context& context, std::optional<double> time_limit_s = std::nullopt,
+                 const Context& context, const std::optional<TimeLimit>& time_limit = std::nullopt,
                  BeamProgress* progress = nullptr);
 
 }  // namespace qchopper

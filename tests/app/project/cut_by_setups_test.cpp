@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
+
 #include "app/project/open_project.h"
 #include "app/project/planes_by_setups.h"
 #include "app/project/project_folder.h"
@@ -133,6 +135,32 @@ TEST_F(CutBySetups, WhatIsInterruptedGoesOnToTheSameBytes) {
         EXPECT_TRUE(project.is_being_judged());
         project.judge_setups({});
     }
+    EXPECT_EQ(bytes(), whole);
+}
+
+// A limit that has passed before this cutting begins allows no round; one that passes in it lets the round be finished.
+TEST_F(CutBySetups, WhatRunsOutOfTimeGoesOnToTheSameBytes) {
+    const fs::path copy = folder.string() + ".copy";
+    fs::remove_all(copy);
+    fs::copy(folder, copy, fs::copy_options::recursive);
+    const std::optional<SearchEnd> whole_end = open().judge_setups({});
+    ASSERT_TRUE(whole_end);
+    EXPECT_FALSE(whole_end->is_out_of_time());
+    const std::string whole = bytes();
+    fs::remove_all(folder);
+    fs::rename(copy, folder);
+    const auto judge_for = [&](std::chrono::milliseconds wait) {
+        return open().judge_setups({}, {}, TimeLimit{1e-9, std::chrono::steady_clock::now() + wait}).value();
+    };
+    const std::size_t before = load_project(folder).cuts.size();
+    EXPECT_TRUE(judge_for(std::chrono::milliseconds(-1)).is_out_of_time());
+    EXPECT_EQ(load_project(folder).cuts.size(), before);
+    int runs = 1;
+    for (; runs < 60 && judge_for(std::chrono::milliseconds(200)).is_out_of_time(); ++runs) {
+        EXPECT_FALSE(load_project(folder).verdict->is_done);
+    }
+    EXPECT_GT(runs, 1);
+    EXPECT_LT(runs, 60);
     EXPECT_EQ(bytes(), whole);
 }
 

@@ -338,9 +338,9 @@ UnreachableSurface some_out_of_reach(const Piece& piece) {
 // A trial is one decision: what is saved is a state before or after it, and a search that goes on ends alike.
 TEST_F(OpenedProject, ASearchWithTrialsThatIsInterruptedEndsWithTheSameBytesForEveryWidth) {
     const PieceChecks checks{{}, some_out_of_reach};
-    const auto search_on = [&](const std::function<void()>& on_round, std::optional<double> time_limit_s) {
+    const auto search_on = [&](const std::function<void()>& on_round, std::optional<TimeLimit> time_limit) {
         return open().search(
-            checks, [&](const Segmentation&) { on_round(); }, {}, time_limit_s);
+            checks, [&](const Segmentation&) { on_round(); }, {}, time_limit);
     };
     for (const std::size_t beam : {1U, 2U, 3U}) {
         fs::remove_all(folder);
@@ -370,7 +370,7 @@ TEST_F(OpenedProject, ASearchWithTrialsThatIsInterruptedEndsWithTheSameBytesForE
         for (const auto& [name, text] : whole.end) fs::remove(folder / name);
         write_file(folder / "project.json", whole.saved.front());
         std::size_t runs = 1;
-        for (; runs < 40 && search_on([] {}, 1e-9).is_out_of_time(); ++runs) {
+        for (; runs < 40 && search_on([] {}, TimeLimit{1e-9}).is_out_of_time(); ++runs) {
         }
         EXPECT_GE(runs, whole.saved.size());
         EXPECT_EQ(files_but_cache(), whole.end) << "beam " << beam << ", out of time after every decision";

@@ -163,7 +163,7 @@ TEST(Beam, WhatIsStoppedForTimeEndsWithTheDecisionBeingMade) {
         EvaluationCache cache(settings.objectives, settings.candidates);
         std::size_t reported = 0;
         const SearchEnd end = search(
-            segmentation, settings, cache, {}, [&](const Segmentation&) { ++reported; }, {}, 1e-9);
+            segmentation, settings, cache, {}, [&](const Segmentation&) { ++reported; }, {}, TimeLimit{1e-9});
         EXPECT_TRUE(end.is_out_of_time());
         EXPECT_FALSE(end.is_finished());
         EXPECT_EQ(reported, 1U);
@@ -178,7 +178,7 @@ TEST(Beam, ThatIsFinishedWhenItsTimeEndsReportsThatItIsFinished) {
     Segmentation segmentation = uncut(shapes::ball({0, 0, 0}, 10), 0);
     EvaluationCache cache(settings.objectives, settings.candidates);
     const SearchEnd end = search(
-        segmentation, settings, cache, {}, [](const Segmentation&) {}, {}, 1e-9);
+        segmentation, settings, cache, {}, [](const Segmentation&) {}, {}, TimeLimit{1e-9});
     EXPECT_TRUE(end.is_finished());
     EXPECT_FALSE(end.is_out_of_time());
 }
