@@ -2,9 +2,7 @@
 
 #include "app/project/distance_store.h"
 
-#include "app/project/cache_bytes.h"
-#include "base/error.h"
-#include "base/hex.h"
+#include "app/project/cache_file.h"
 
 namespace qchopper {
 namespace {
@@ -14,7 +12,7 @@ namespace fs = std::filesystem;
 // To be raised whenever distances of the same samples change.
 constexpr std::uint32_t version_of_distances = 1;
 
-std::string name_of_file(const SampledScan& scan) {
+fs::path file_for(const fs::path& folder, const SampledScan& scan) {
     CacheWriter out;
     out.put(version_of_distances);
     for (const auto& solid : scan.solid) {
@@ -25,24 +23,23 @@ std::string name_of_file(const SampledScan& scan) {
     for (const SurfaceSample& sample : scan.samples.sample) {
         for (const double x : {sample.point.x, sample.point.y, sample.point.z}) out.put(x);
     }
-    return to_hex(sha256(out.bytes())) + ".distances";
+    return cache_file(folder, out, ".distances");
 }
 
-Bytes to_bytes(const std::vector<PieceAccessibility>& pieces) {
+CacheWriter content_of(const std::vector<PieceAccessibility>& pieces) {
     CacheWriter out;
     out.put(pieces.size());
     for (const PieceAccessibility& piece : pieces) {
         out.put_all(piece.sample);
         out.put_all(piece.distance);
     }
-    return sealed(std::move(out.bytes()));
+    return out;
 }
 
-std::optional<std::vector<PieceAccessibility>> from_bytes(std::span<const std::uint8_t> bytes,
-                                                          const SampledScan& scan) {
-    const auto body = unsealed(bytes);
-    if (!body) return std::nullopt;
-    CacheReader in(*body);
+std::optional<std::vector<PieceAccessibility>> found_in(const fs::path& file, const SampledScan& scan) {
+    const std::optional<Bytes> bytes = kept(file);
+    if (!bytes) return std::nullopt;
+    CacheReader in(*bytes);
     std::vector<PieceAccessibility> pieces = unasked_accessibility(scan);
     if (in.get<std::size_t>() != pieces.size()) return std::nullopt;
     for (PieceAccessibility& piece : pieces) {
@@ -60,20 +57,9 @@ std::optional<std::vector<PieceAccessibility>> from_bytes(std::span<const std::u
 
 DistanceStore distance_store(const fs::path& folder) {
     DistanceStore store;
-    store.find = [=](const SampledScan& scan) -> std::optional<std::vector<PieceAccessibility>> {
-        try {
-            return from_bytes(read_file(folder / name_of_file(scan)), scan);
-        } catch (const InputError&) {
-            return std::nullopt;
-        }
-    };
+    store.find = [=](const SampledScan& scan) { return found_in(file_for(folder, scan), scan); };
     store.keep = [=](const SampledScan& scan, const std::vector<PieceAccessibility>& pieces) {
-        std::error_code error;
-        fs::create_directories(folder, error);
-        try {
-            write_file(folder / name_of_file(scan), to_bytes(pieces));
-        } catch (const InputError&) {  // a full disk costs time, not work
-        }
+        keep(file_for(folder, scan), content_of(pieces));
     };
     return store;
 }

@@ -5,10 +5,7 @@
 
 #include <cassert>
 
-#include "app/project/cache_bytes.h"
-#include "base/error.h"
-#include "base/file.h"
-#include "base/sha256.h"
+#include "app/project/cache_file.h"
 #include "segment/structure/stress.h"
 
 namespace qchopper {
@@ -63,7 +60,7 @@ CutEvaluation evaluation_from(CacheReader& in) {
     return evaluation;
 }
 
-Bytes to_bytes(const PieceEvaluations& evaluations) {
+CacheWriter content_of(const PieceEvaluations& evaluations) {
     CacheWriter out;
     assert(evaluations.candidates.size() == evaluations.evaluations.size());
     out.put(evaluations.candidates.size());
@@ -76,13 +73,13 @@ Bytes to_bytes(const PieceEvaluations& evaluations) {
         out.put(static_cast<std::uint8_t>(evaluations.evaluations[i].has_value()));
         if (evaluations.evaluations[i]) put(out, *evaluations.evaluations[i]);
     }
-    return sealed(std::move(out.bytes()));
+    return out;
 }
 
-std::optional<PieceEvaluations> from_bytes(std::span<const std::uint8_t> bytes) {
-    const auto body = unsealed(bytes);
-    if (!body) return std::nullopt;
-    CacheReader in(*body);
+std::optional<PieceEvaluations> found_in(const fs::path& file) {
+    const std::optional<Bytes> bytes = kept(file);
+    if (!bytes) return std::nullopt;
+    CacheReader in(*bytes);
     PieceEvaluations evaluations;
     evaluations.candidates.resize(in.count());
     for (Candidate& c : evaluations.candidates) {
@@ -104,7 +101,7 @@ void put(CacheWriter& out, const CandidateOptions& options) {
     if (options.no_cut.points) out.put_all(*options.no_cut.points);
 }
 
-std::string name_of_file(const std::string& settings, const Piece& piece) {
+fs::path file_for(const fs::path& folder, const std::string& settings, const Piece& piece) {
     CacheWriter out;
     out.put(settings);
     out.put_all(piece.mesh->points);
@@ -121,7 +118,7 @@ std::string name_of_file(const std::string& settings, const Piece& piece) {
         out.put(half_space.plane);
         out.put(static_cast<std::uint8_t>(half_space.above));
     }
-    return to_hex(sha256(out.bytes())) + ".evaluations";
+    return cache_file(folder, out, ".evaluations");
 }
 
 }  // namespace
@@ -145,20 +142,9 @@ EvaluationStore evaluation_store(const fs::path& folder, const Objectives& objec
     if (objectives.needs_symmetry()) w.put(*objectives.symmetry_plane);
     const std::string settings(w.bytes().begin(), w.bytes().end());
     EvaluationStore store;
-    store.find = [=](const Piece& piece) -> std::optional<PieceEvaluations> {
-        try {
-            return from_bytes(read_file(folder / name_of_file(settings, piece)));
-        } catch (const InputError&) {
-            return std::nullopt;
-        }
-    };
+    store.find = [=](const Piece& piece) { return found_in(file_for(folder, settings, piece)); };
     store.keep = [=](const Piece& piece, const PieceEvaluations& evaluations) {
-        std::error_code error;
-        fs::create_directories(folder, error);
-        try {
-            write_file(folder / name_of_file(settings, piece), to_bytes(evaluations));
-        } catch (const InputError&) {  // a full disk costs time, not work
-        }
+        keep(file_for(folder, settings, piece), content_of(evaluations));
     };
     return store;
 }

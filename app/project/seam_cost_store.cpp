@@ -4,9 +4,7 @@
 
 #include <optional>
 
-#include "app/project/cache_bytes.h"
-#include "base/error.h"
-#include "base/hex.h"
+#include "app/project/cache_file.h"
 #include "segment/score/seam_cost.h"
 
 namespace qchopper {
@@ -19,7 +17,7 @@ constexpr std::uint32_t version_of_costs = 1;
 
 using Costs = std::shared_ptr<const std::vector<float>>;
 
-std::string name_of_file(std::span<const Piece> uncut) {
+fs::path file_for(const fs::path& folder, std::span<const Piece> uncut) {
     CacheWriter out;
     out.put(version_of_costs);
     out.put(default_asked_points);
@@ -27,25 +25,19 @@ std::string name_of_file(std::span<const Piece> uncut) {
         out.put_all(piece.mesh->points);
         out.put_all(piece.mesh->triangles);
     }
-    return to_hex(sha256(out.bytes())) + ".seams";
+    return cache_file(folder, out, ".seams");
 }
 
-Bytes to_bytes(std::span<const Piece> uncut) {
+CacheWriter content_of(std::span<const Piece> uncut) {
     CacheWriter out;
     for (const Piece& piece : uncut) out.put_all(*piece.seam_cost);
-    return sealed(std::move(out.bytes()));
+    return out;
 }
 
 std::optional<std::vector<Costs>> found_in(const fs::path& file, std::span<const Piece> uncut) {
-    Bytes bytes;
-    try {
-        bytes = read_file(file);
-    } catch (const InputError&) {
-        return std::nullopt;
-    }
-    const auto body = unsealed(bytes);
-    if (!body) return std::nullopt;
-    CacheReader in(*body);
+    const std::optional<Bytes> bytes = kept(file);
+    if (!bytes) return std::nullopt;
+    CacheReader in(*bytes);
     std::vector<Costs> costs;
     for (const Piece& piece : uncut) {
         costs.push_back(std::make_shared<const std::vector<float>>(in.get_all<float>()));
@@ -59,18 +51,13 @@ std::optional<std::vector<Costs>> found_in(const fs::path& file, std::span<const
 
 void find_kept_seam_costs(const fs::path& folder, std::span<Piece> uncut, const Context& context) {
     if (folder.empty()) return find_seam_costs(uncut, context);
-    const fs::path file = folder / name_of_file(uncut);
+    const fs::path file = file_for(folder, uncut);
     if (std::optional<std::vector<Costs>> found = found_in(file, uncut)) {
         for (std::size_t p = 0; p < uncut.size(); ++p) uncut[p].seam_cost = std::move((*found)[p]);
         return;
     }
     find_seam_costs(uncut, context);
-    std::error_code error;
-    fs::create_directories(folder, error);
-    try {
-        write_file(file, to_bytes(uncut));
-    } catch (const InputError&) {  // a full disk costs time, not work
-    }
+    keep(file, content_of(uncut));
 }
 
 }  // namespace qchopper

@@ -2,8 +2,7 @@
 
 #include "app/project/stress_store.h"
 
-#include "app/project/cache_bytes.h"
-#include "base/error.h"
+#include "app/project/cache_file.h"
 #include "base/timings.h"
 
 namespace qchopper {
@@ -14,7 +13,7 @@ namespace fs = std::filesystem;
 // To be raised whenever the stress of the same scan and load changes.
 constexpr std::uint32_t version_of_stress = 1;
 
-std::string name_of_file(const TriangleMesh& scan, const StructureOptions& load) {
+fs::path file_for(const fs::path& folder, const TriangleMesh& scan, const StructureOptions& load) {
     CacheWriter out;
     out.put(version_of_stress);
     for (const double x : {load.up.x, load.up.y, load.up.z, load.density_kg_per_m3, load.strength_mpa, load.force_n,
@@ -25,7 +24,7 @@ std::string name_of_file(const TriangleMesh& scan, const StructureOptions& load)
     out.put(load.unknowns);
     out.put_all(scan.points);
     out.put_all(scan.triangles);
-    return to_hex(sha256(out.bytes())) + ".stress";
+    return cache_file(folder, out, ".stress");
 }
 
 void put(CacheWriter& out, Vec3 v) {
@@ -72,7 +71,7 @@ StructureReport report_from(CacheReader& in) {
     return report;
 }
 
-Bytes to_bytes(const StressedModel& model) {
+CacheWriter content_of(const StressedModel& model) {
     CacheWriter out;
     for (const Vec3 axis : model.grid.axis) put(out, axis);
     put(out, model.grid.corner);
@@ -83,13 +82,13 @@ Bytes to_bytes(const StressedModel& model) {
     out.put_all(model.stress);
     out.put_all(model.is_thick);
     put(out, model.report);
-    return sealed(std::move(out.bytes()));
+    return out;
 }
 
-std::optional<StressedModel> from_bytes(std::span<const std::uint8_t> bytes) {
-    const auto body = unsealed(bytes);
-    if (!body) return std::nullopt;
-    CacheReader in(*body);
+std::optional<StressedModel> found_in(const fs::path& file) {
+    const std::optional<Bytes> bytes = kept(file);
+    if (!bytes) return std::nullopt;
+    CacheReader in(*bytes);
     StressedModel model;
     for (Vec3& axis : model.grid.axis) axis = vec3_from(in);
     model.grid.corner = vec3_from(in);
@@ -106,30 +105,17 @@ std::optional<StressedModel> from_bytes(std::span<const std::uint8_t> bytes) {
     return model;
 }
 
-std::optional<StressedModel> found_in(const fs::path& file) {
-    try {
-        return from_bytes(read_file(file));
-    } catch (const InputError&) {
-        return std::nullopt;
-    }
-}
-
 }  // namespace
 
 std::shared_ptr<const StressedModel> kept_stress(const fs::path& folder, const TriangleMesh& scan,
                                                  const StructureOptions& load, const Context& context) {
     const StageTimer stage(context, "stress analysed");
-    const fs::path file = folder / name_of_file(scan, load);
+    const fs::path file = file_for(folder, scan, load);
     if (std::optional<StressedModel> found = found_in(file)) {
         return std::make_shared<const StressedModel>(std::move(*found));
     }
     auto model = std::make_shared<const StressedModel>(stress_of(scan, load, context));
-    std::error_code error;
-    fs::create_directories(folder, error);
-    try {
-        write_file(file, to_bytes(*model));
-    } catch (const InputError&) {  // a full disk costs time, not work
-    }
+    keep(file, content_of(*model));
     return model;
 }
 

@@ -1,12 +1,13 @@
-// Values in the files of a project's cache: in the byte order of the machine, and at the end a SHA-256 of the rest, by
-// which a damaged file is known.
+// The files of a project's cache, which may be deleted at any time: values in the byte order of the machine, and at the
+// end a SHA-256 of the rest, by which a damaged file is known. Each kind of content has a store of its own, with a
+// number that is raised whenever the same key has other content, and a test (tests/app/project/*_store_test.cpp).
 
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,7 +15,6 @@
 #include <vector>
 
 #include "base/file.h"
-#include "base/sha256.h"
 #include "segment/mesh/plane.h"
 
 namespace qchopper {
@@ -36,7 +36,7 @@ class CacheWriter {
         for (const double x : {p.normal.x, p.normal.y, p.normal.z, p.offset}) put(x);
     }
     void put(const std::string& text) { put_all(std::vector<char>(text.begin(), text.end())); }
-    Bytes& bytes() { return bytes_; }
+    const Bytes& bytes() const { return bytes_; }
 
  private:
     // Not inline: of several calls in a row g++ 12 believes that the vector cannot grow.
@@ -92,19 +92,14 @@ class CacheReader {
     bool is_short_ = false;
 };
 
-inline Bytes sealed(Bytes bytes) {
-    const Sha256 digest = sha256(bytes);
-    bytes.insert(bytes.end(), digest.bytes.begin(), digest.bytes.end());
-    return bytes;
-}
+// The file in `folder` for what follows from the values in `key`: named by their SHA-256.
+std::filesystem::path cache_file(const std::filesystem::path& folder, const CacheWriter& key,
+                                 const std::string& extension);
 
-// What was sealed; nothing if the bytes are not as they were sealed.
-inline std::optional<std::span<const std::uint8_t>> unsealed(std::span<const std::uint8_t> bytes) {
-    if (bytes.size() < sizeof(Sha256)) return std::nullopt;
-    const auto body = bytes.first(bytes.size() - sizeof(Sha256));
-    const Sha256 digest = sha256(body);
-    if (!std::equal(digest.bytes.begin(), digest.bytes.end(), bytes.last(sizeof(Sha256)).begin())) return std::nullopt;
-    return body;
-}
+// What keep() wrote; nothing if there is no such file, or it is damaged. Never throws InputError.
+std::optional<Bytes> kept(const std::filesystem::path& file);
+
+// Makes the folder when needed. What cannot be written is not kept: a full disk costs time, not work.
+void keep(const std::filesystem::path& file, const CacheWriter& content);
 
 }  // namespace qchopper
