@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
-#include <numeric>
 
 #include "app/project/project_folder.h"
 #include "app/project/shell_word.h"
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/shared_progress.h"
 #include "base/staged_folder.h"
 #include "base/text.h"
 #include "base/timings.h"
@@ -175,25 +174,18 @@ void check_shape(const ExportedPiece& row, double piece_diagonal, const ExportRe
         "allow more faces; or pass --simplify " + significant(usual, 2) + " for as few as that deviation allows");
 }
 
-// Pieces on several threads; progress is the sum over all of them, reported from one thread at a time.
+// Pieces on several threads.
 void simplify_all(std::vector<ExportedPiece>& rows, const ExportRequest& request, const Context& context) {
     const StageTimer stage(context, "pieces simplified");
     SimplifyOptions options;
     options.tolerance = request.simplify_mm;
     options.most_faces = request.max_faces;
-    std::mutex reporting;
-    std::vector<std::size_t> done(rows.size(), 0);
     std::size_t points = 0;
     for (const ExportedPiece& row : rows) points += row.piece.mesh->points.size();
+    SharedProgress shared(context, "points removed", points);
     std::vector<double> diagonals(rows.size());
     parallel_for(0, rows.size(), [&](std::size_t i) {
-        Context of_piece;
-        of_piece.cancelled = context.cancelled;
-        of_piece.on_progress = [&](const Progress& progress) {
-            const std::lock_guard lock(reporting);
-            done[i] = progress.done;
-            context.progress(progress.what, std::accumulate(done.begin(), done.end(), std::size_t{0}), points);
-        };
+        const Context of_piece = shared.of_part();
         of_piece.check_cancelled();
         TriangleMesh mesh = *rows[i].piece.mesh;
         diagonals[i] = norm(bounds(mesh).size());

@@ -356,8 +356,7 @@ SearchEnd OpenProject::search(const PieceChecks& checks, const std::function<voi
         adopt(best, progress.saved());
         on_round(best);
     };
-    SearchEnd end =
-        qchopper::search(working, project_.settings, cache(), checks, keep, context, time_limit, &progress);
+    SearchEnd end = qchopper::search(working, project_.settings, cache(), checks, keep, context, time_limit, &progress);
     adopt(working, end.is_out_of_time() ? progress.saved() : std::nullopt);
     end_ = end;
     if (end.is_out_of_time()) return end;

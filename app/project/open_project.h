@@ -126,8 +126,8 @@ class OpenProject {
     // before the next; a replacement is a decision. With the rule max_unreachable a piece of which the setup of its job
     // leaves more out of reach is cut again on trial, by planes that setups compare (planes_by_setups.h); `on_round` is
     // called with the segmentation after each such decision. project().end_reason then says of the final setups whether
-    // the rules hold. Returns the end of that cutting: if time ran out, the next call goes on with it. Does nothing where
-    // that is done already, or the search has not ended. Throws Cancelled.
+    // the rules hold. Returns the end of that cutting: if time ran out, the next call goes on with it. Does nothing
+    // where that is done already, or the search has not ended. Throws Cancelled.
     std::optional<SearchEnd> judge_setups(const Context& context,
                                           const std::function<void(const Segmentation&)>& on_round = {},
                                           const std::optional<TimeLimit>& time_limit = std::nullopt);

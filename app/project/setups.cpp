@@ -7,6 +7,7 @@
 
 #include "app/project/unreachable_of.h"
 #include "base/parallel.h"
+#include "base/shared_progress.h"
 #include "cam/cell/allowed_tools.h"
 #include "cam/setup/blocks_needed.h"
 #include "cam/setup/held_setup.h"
@@ -52,14 +53,14 @@ void Setups::compute(std::span<const Piece> pieces, const Context& context) {
     for (const Piece& piece : pieces) {
         if (!carvings_.contains(piece.mesh.get())) missing.push_back(&piece);
     }
+    SharedProgress progress(context, "setups chosen", missing.size());
     std::mutex changing;
-    std::size_t done = 0;
     parallel_for(0, missing.size(), [&](std::size_t i) {
         context.check_cancelled();
         Carving carving = carving_of(*missing[i]);
         const std::lock_guard lock(changing);
         carvings_[missing[i]->mesh.get()] = std::move(carving);
-        context.progress("setups chosen", ++done, missing.size());
+        progress.add(1);
     });
 }
 
@@ -75,9 +76,8 @@ void Setups::compute_held(std::span<const Piece> pieces, const Context& context)
     for (const Piece& piece : pieces) {
         if (!held_.contains(piece.mesh.get())) missing.push_back(&piece);
     }
-    context.progress("work envelopes judged", 0, missing.size());
+    SharedProgress progress(context, "work envelopes judged", missing.size());
     std::mutex changing;
-    std::size_t done = 0;
     Context quiet;  // several pieces at a time: places of one are no progress of all
     quiet.cancelled = context.cancelled;
     parallel_for(0, missing.size(), [&](std::size_t i) {
@@ -86,7 +86,7 @@ void Setups::compute_held(std::span<const Piece> pieces, const Context& context)
         Carving carving = held_of(piece, carvings_.at(piece.mesh.get()), quiet);
         const std::lock_guard lock(changing);
         held_[piece.mesh.get()] = std::move(carving);
-        context.progress("work envelopes judged", ++done, missing.size());
+        progress.add(1);
     });
 }
 

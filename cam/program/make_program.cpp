@@ -10,12 +10,12 @@
 #include <exception>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <numbers>
 #include <optional>
 #include <span>
 
 #include "base/parallel.h"
+#include "base/shared_progress.h"
 #include "cam/cell/reach_map.h"
 #include "cam/program/check_toolpath.h"
 #include "cam/program/hold_search.h"
@@ -238,9 +238,7 @@ HeldSections held_sections(const Toolpath& toolpath, const Setup& setup, const W
     std::vector<std::vector<HeldSection>> by_operation(count);
     std::vector<std::exception_ptr> refused(count);
     std::vector<std::pair<double, std::string>> left_out(count);
-    std::mutex mutex;
-    std::size_t done = 0;
-    context.progress("operations held", 0, count);
+    SharedProgress progress(context, "operations held", count);
     parallel_for(0, count, [&](std::size_t i) {
         const std::string where = "operation " + std::to_string(i + 1) + " of the toolpath";
         try {
@@ -250,8 +248,7 @@ HeldSections held_sections(const Toolpath& toolpath, const Setup& setup, const W
         } catch (const ProgramRefused&) {
             refused[i] = std::current_exception();
         }
-        const std::lock_guard lock(mutex);
-        context.progress("operations held", ++done, count);
+        progress.add(1);
     });
     HeldSections held_all;
     for (std::size_t i = 0; i < count; ++i) {

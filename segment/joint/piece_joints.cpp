@@ -4,10 +4,9 @@
 #include "segment/joint/piece_joints.h"
 
 #include <algorithm>
-#include <mutex>
-#include <numeric>
 
 #include "base/parallel.h"
+#include "base/shared_progress.h"
 #include "base/text.h"
 #include "segment/joint/dowel_pattern.h"
 #include "segment/joint/dowel_sites.h"
@@ -159,13 +158,11 @@ std::vector<SitesOfSizes> all_sites(std::span<const Piece> pieces, const std::ve
         if (is_asked[i]) surfaces[i].emplace(pieces[i]);
     });
     std::vector<SitesOfSizes> sites(joints.size());
-    std::mutex reporting;
-    std::size_t done = 0;
+    SharedProgress progress(context, "joints searched for dowels", joints.size());
     parallel_for(0, joints.size(), [&](std::size_t j) {
         context.check_cancelled();
         sites[j] = sites_of(joints[j], surfaces, settings);
-        const std::lock_guard lock(reporting);
-        context.progress("joints searched for dowels", ++done, joints.size());
+        progress.add(1);
     });
     return sites;
 }

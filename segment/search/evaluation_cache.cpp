@@ -6,42 +6,15 @@
 #include <algorithm>
 #include <cassert>
 #include <iterator>
-#include <mutex>
 #include <set>
 
 #include "base/parallel.h"
+#include "base/shared_progress.h"
 #include "base/timings.h"
 #include "segment/score/evaluate.h"
 #include "segment/score/sampled_piece.h"
 
 namespace qchopper {
-namespace {
-
-// Adds up the progress of several pieces. The callback is called from one thread at a time.
-class SharedProgress {
- public:
-    SharedProgress(const Context& context, std::size_t total) : context_(context), total_(total) {}
-
-    Context of_one_piece() {
-        Context context;
-        context.cancelled = context_.cancelled;
-        context.on_progress = [this, before = std::size_t{0}](const Progress& p) mutable {
-            const std::lock_guard lock(reporting_);
-            done_ += p.done - before;
-            before = p.done;
-            context_.progress(p.what, done_, total_);
-        };
-        return context;
-    }
-
- private:
-    const Context& context_;
-    std::size_t total_;
-    std::size_t done_ = 0;
-    std::mutex reporting_;
-};
-
-}  // namespace
 
 EvaluationCache::EvaluationCache(const Objectives& objectives, const CandidateOptions& options, EvaluationStore store)
     : objectives_(objectives), options_(options), store_(std::move(store)) {}
@@ -111,11 +84,11 @@ void EvaluationCache::evaluate(std::span<const Piece* const> pieces, const Conte
     });
     std::size_t planes = 0;
     for (const Task& task : tasks) planes += task.evaluations.candidates.size();
-    SharedProgress progress(context, planes);
+    SharedProgress progress(context, "planes evaluated", planes);
     parallel_for(0, tasks.size(), [&](std::size_t i) {
         Task& task = tasks[i];
         task.evaluations.evaluations = evaluate_all(*task.piece, task.evaluations.candidates, objectives_,
-                                                    progress.of_one_piece(), &task.entry->box->axis);
+                                                    progress.of_part(), &task.entry->box->axis);
     });
     for (Task& task : tasks) {
         if (store_.keep) store_.keep(*task.piece, task.evaluations);
