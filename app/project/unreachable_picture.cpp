@@ -1,9 +1,7 @@
-// Two views side by side, without ambient light, so that shade is not taken for a colour; the legend is drawn below.
-// O(triangles + samples) a view.
+// The states of the surface are indices of a palette. O(triangles + samples).
 
 #include "app/project/unreachable_picture.h"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstdint>
@@ -11,31 +9,27 @@
 #include "cam/job/setup_picture.h"
 #include "segment/mesh/triangle_mesh.h"
 #include "segment/picture/exploded.h"
-#include "segment/picture/lettering.h"
-#include "segment/picture/picture.h"
-#include "segment/picture/png.h"
+#include "segment/picture/two_sides.h"
 
 namespace qchopper {
 namespace {
 
-constexpr int view_width = 1000;
-constexpr int view_height = 900;
-constexpr int legend_height = 60;
-constexpr double letter_height = 15;
-constexpr double letter_width = 11.8;  // at that height, about
-constexpr int square = 24;
-
-struct Named {
-    Rgb colour;
-    const char* name;
-};
+constexpr TwoSidesLayout layout{.view_width = 1000,
+                                .view_height = 900,
+                                .legend_height = 60,
+                                .square = 24,
+                                .letter_height = 15,
+                                .letter_width = 11.8,
+                                .left_of_legend = 30,
+                                .after_square = 10,
+                                .after_name = 30};
 
 constexpr std::uint8_t base_index = 6;
 
 // In the order of SurfaceState; then the base.
-std::array<Named, base_index + 1> colours(bool narrow_counts) {
+std::array<LegendEntry, base_index + 1> colours(bool narrow_counts) {
     const auto of = [&](SurfaceState state, const char* name) {
-        return Named{surface_colour(state, narrow_counts), name};
+        return LegendEntry{surface_colour(state, narrow_counts), name};
     };
     return {{of(SurfaceState::reached, "reached"),
              of(SurfaceState::too_narrow, narrow_counts ? "too narrow" : "too narrow: does not count"),
@@ -56,32 +50,17 @@ std::vector<std::uint8_t> colours_of(const Piece& piece, const CarvedPiece& carv
     return result;
 }
 
-void paste(Pixels& onto, const Pixels& view, int left) {
-    for (int y = 0; y < view.height; ++y) {
-        const auto from = view.rows.begin() + static_cast<std::ptrdiff_t>(y) * view.width;
-        std::copy(from, from + view.width, onto.rows.begin() + static_cast<std::ptrdiff_t>(y) * onto.width + left);
-    }
-}
-
 // Of the colours that occur, and always of the three kinds of surface that cuts and tools can open.
-void draw_legend(Pixels& pixels, std::span<const Named> entries, const std::array<bool, base_index + 1>& occurs) {
-    double x = 30;
-    const int top = pixels.height - (legend_height + square) / 2;
+std::vector<LegendEntry> legend_of(std::span<const LegendEntry> entries,
+                                   const std::array<bool, base_index + 1>& occurs) {
+    std::vector<LegendEntry> legend;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const auto state = static_cast<SurfaceState>(i);
         const bool is_kind =
             state == SurfaceState::hidden || state == SurfaceState::too_narrow || state == SurfaceState::steep;
-        if (!occurs[i] && !is_kind) continue;
-        for (int row = top; row < top + square; ++row) {
-            const auto first =
-                pixels.rows.begin() + static_cast<std::ptrdiff_t>(row) * pixels.width + static_cast<std::ptrdiff_t>(x);
-            std::fill(first, first + square, entries[i].colour);
-        }
-        const std::string name = entries[i].name;
-        const double width = letter_width * static_cast<double>(name.size());
-        draw_text(pixels, x + square + 10 + width / 2, top + square / 2.0, name, letter_height);
-        x += square + 10 + width + 30;
+        if (occurs[i] || is_kind) legend.push_back(entries[i]);
     }
+    return legend;
 }
 
 }  // namespace
@@ -103,19 +82,7 @@ Bytes draw_unreachable(std::span<const Piece> pieces, std::span<const Vec3> shif
         meshes[p].palette = palette;
         meshes[p].colour_of = indices[p];
     }
-    const Scene scene(meshes, false);
-    PictureOptions options;
-    options.width = view_width;
-    options.height = view_height;
-    options.background = {255, 255, 255};
-    options.ambient_rays = 0;
-    Pixels all{2 * view_width, view_height + legend_height, {}};
-    all.rows.assign(static_cast<std::size_t>(all.width) * static_cast<std::size_t>(all.height), options.background);
-    paste(all, render(scene, options, context), 0);
-    options.view = {-options.view.x, -options.view.y, -options.view.z};
-    paste(all, render(scene, options, context), view_width);
-    draw_legend(all, entries, occurs);
-    return to_png(all.rows, all.width, all.height);
+    return draw_two_sides(meshes, legend_of(entries, occurs), layout, context);
 }
 
 }  // namespace qchopper
