@@ -116,7 +116,7 @@ ReplayScene scene_of(const ProofInput& input) {
     const Setup setup = with_drill_directions(input.setup, input.program.drilling);
     const std::size_t own = input.setup.reach.directions.size();
     for (std::size_t d = 0; d < setup.reach.directions.size(); ++d) {
-        const Vec3 out = normalized(rotate(setup.piece_in_setup, setup.reach.directions[d].out));
+        const Vec3 out = setup.tool_axis(d);
         const Pose frame = d < own ? input.setup_in_cell[std::min(d, input.setup_in_cell.size() - 1)]
                                    : setup_in_cell(input.cell, setup.spoil, setup.placement, d);
         scene.directions.push_back({out, setup.placement.table_angle(d), frame});
@@ -124,8 +124,7 @@ ReplayScene scene_of(const ProofInput& input) {
     for (const JobChunk& chunk : input.program.chunks) {
         scene.chunks.push_back({without_ending(chunk.file), chunk.tool, chunk.direction});
     }
-    const Vec3 size = setup.block.size;
-    scene.block = {{-size.x / 2, -size.y / 2, -setup.spoil}, {size.x / 2, size.y / 2, size.z - setup.spoil}};
+    scene.block = setup.block_box();
     scene.spoil = setup.spoil;
     scene.target = &input.mesh;
     scene.is_base = base_of(setup, input.mesh);

@@ -55,20 +55,20 @@ std::vector<std::string> row_of(const Setup& setup, const Cell& cell, bool is_he
 }
 
 // Degrees from x towards y of the setup, of the way the tool comes out.
-double azimuth_deg(const Setup& setup, Vec3 out) {
-    const Vec3 d = rotate(setup.piece_in_setup, out);
+double azimuth_deg(const Setup& setup, const SetupDirection& direction) {
+    const Vec3 d = setup.tool_axis(direction);
     return std::atan2(d.y, d.x) * 180 / std::numbers::pi;
 }
 
 std::string direction_line(const Setup& setup, const SetupDirection& d) {
-    return "tilt " + fixed(d.tilt_deg, 0) + ", azimuth " + fixed(azimuth_deg(setup, d.out), 0) + " degrees";
+    return "tilt " + fixed(d.tilt_deg, 0) + ", azimuth " + fixed(azimuth_deg(setup, d), 0) + " degrees";
 }
 
 void add_directions(const Setup& setup, std::vector<std::string>& lines) {
     std::vector<std::vector<std::string>> rows{{"direction", "tilt", "azimuth", "reaches more", "depth mm"}};
     for (std::size_t i = 0; i < setup.reach.directions.size(); ++i) {
         const SetupDirection& d = setup.reach.directions[i];
-        rows.push_back({std::to_string(i + 1), fixed(d.tilt_deg, 0), i == 0 ? "-" : fixed(azimuth_deg(setup, d.out), 0),
+        rows.push_back({std::to_string(i + 1), fixed(d.tilt_deg, 0), i == 0 ? "-" : fixed(azimuth_deg(setup, d), 0),
                         share_word(d.gained_share), fixed(d.depth_mm, 0)});
     }
     for (const std::string& line : columns(rows)) lines.push_back(line);

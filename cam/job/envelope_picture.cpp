@@ -87,7 +87,7 @@ bool names(const std::string& pair, const std::string& body) {
 
 TriangleMesh edges_of(const Setup& setup) {
     const Vec3 size = setup.block.size;
-    const Vec3 low{-size.x / 2, -size.y / 2, -setup.spoil};
+    const Vec3 low = setup.block_box().min;
     const double half = 0.003 * norm(size);
     TriangleMesh bars;
     for (int axis = 0; axis < 3; ++axis) {

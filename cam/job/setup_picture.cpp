@@ -25,11 +25,6 @@ constexpr Rgb bar_colour{105, 110, 120};
 constexpr Rgb arrow_colour{70, 75, 85};
 constexpr Rgb touch_colour{25, 27, 30};
 
-Box block_box(const Setup& setup) {
-    const Vec3 size = setup.block.size;
-    return {{-size.x / 2, -size.y / 2, -setup.spoil}, {size.x / 2, size.y / 2, size.z - setup.spoil}};
-}
-
 // Bars of so many mm along those edges of a box whose middle the test accepts.
 template <class Test>
 void add_bars(TriangleMesh& mesh, const Box& box, double width, Test is_wanted) {
@@ -51,7 +46,7 @@ void add_bars(TriangleMesh& mesh, const Box& box, double width, Test is_wanted) 
 
 TriangleMesh bars_of(const Setup& setup, double width) {
     TriangleMesh bars;
-    Box box = block_box(setup);
+    Box box = setup.block_box();
     add_bars(bars, box, width, [](const Box&) { return true; });
     if (setup.spoil <= 0) return bars;
     box.max.z = 0;  // where the piece is parted from the spoil layer
@@ -61,7 +56,7 @@ TriangleMesh bars_of(const Setup& setup, double width) {
 
 // From outside towards the middle of the piece, its tip just outside of the block.
 TriangleMesh arrow(const Setup& setup, Vec3 out, double diagonal) {
-    const Box block = block_box(setup);
+    const Box block = setup.block_box();
     const Vec3 middle = setup.box.centre();
     double inside = std::numeric_limits<double>::max();
     for (int axis = 0; axis < 3; ++axis) {
@@ -108,7 +103,7 @@ Rgb surface_colour(SurfaceState state, bool narrow_counts) {
 }
 
 std::array<TouchPoint, 3> touch_points(const Setup& setup) {
-    const Box block = block_box(setup);
+    const Box block = setup.block_box();
     return {{{"P1", "corner of the block's top at -x, -y", {block.min.x, block.min.y, block.max.z}},
              {"P2", "corner of the block's top at +x, -y", {block.max.x, block.min.y, block.max.z}},
              {"P3", "corner of the block's top at -x, +y", {block.min.x, block.max.y, block.max.z}}}};
@@ -125,7 +120,7 @@ SetupPictures setup_pictures(const JobInput& input, const TriangleMesh& lying) {
     const std::vector<std::uint8_t> colours = colours_of(input, lying);
     std::vector<std::pair<TriangleMesh, std::string>> named;  // with what is written on each
     for (const SetupDirection& direction : setup.reach.directions) {
-        const Vec3 out = rotate(setup.piece_in_setup, direction.out);
+        const Vec3 out = setup.tool_axis(direction);
         named.emplace_back(arrow(setup, out, diagonal), std::to_string(named.size() + 1));
     }
     const std::size_t arrows = named.size();

@@ -40,7 +40,7 @@ std::string piece_section(const Setup& setup) {
 }
 
 std::vector<Entry> direction_row(const Setup& setup, const std::string& name, const SetupDirection& direction) {
-    const Vec3 out = rotate(setup.piece_in_setup, direction.out);
+    const Vec3 out = setup.tool_axis(direction);
     const bool is_vertical = std::hypot(out.x, out.y) < 1e-6;
     const double azimuth = degrees(std::atan2(out.y, out.x));
     return {word(name), number(direction.tilt_deg, 1),

@@ -38,7 +38,7 @@ std::vector<double> angles_for(const Setup& setup, const Cell& cell, Vec3 out) {
     const auto azimuth = [](Vec3 v) { return std::atan2(v.y, v.x); };
     const std::size_t count = setup.reach.directions.size();
     for (std::size_t d = 0; d < count; ++d) {
-        const Vec3 own = out_in_setup(setup, d);
+        const Vec3 own = setup.tool_axis(d);
         if (std::hypot(own.x, own.y) < upright || std::hypot(out.x, out.y) < upright) continue;
         add(setup.placement.table_angle(d) + azimuth(own) - azimuth(out));
     }

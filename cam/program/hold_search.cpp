@@ -72,10 +72,6 @@ PoseCheck refusing_check(const MarginTally& tally) {
 
 }  // namespace
 
-Vec3 out_in_setup(const Setup& setup, std::size_t direction) {
-    return normalized(rotate(setup.piece_in_setup, setup.reach.directions[direction].out));
-}
-
 double followed_speed(const JointRanges& ranges, const Joints& from, const Joints& to, double length) {
     double speed = std::numeric_limits<double>::infinity();
     for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
@@ -90,9 +86,9 @@ HoldSearch::HoldSearch(const Setup& setup, const WorkEnvelope& envelope, const C
       operation_(operation),
       slow_tool_(slowed(cell.machine->tools[operation.tool])),
       judge_(cell, slow_tool_),
-      out_(out_in_setup(setup, operation.direction)) {
-    standing_ = judge_.standing(setup_in_cell(cell, setup.spoil, setup.placement, operation.direction),
-                                setup.block.size, setup.spoil);
+      out_(setup.tool_axis(operation.direction)) {
+    standing_ =
+        judge_.standing(setup_in_cell(cell, setup.spoil, setup.placement, operation.direction), setup.block_box());
     candidates_ = hold_candidates(envelope, cell, operation.direction, judge_.turns_by_axis_6());
 }
 

@@ -77,7 +77,4 @@ class HoldSearch {
 // The largest speed of a tip that goes a length while the joints go from one pose to another: infinite if none turns.
 double followed_speed(const JointRanges& ranges, const Joints& from, const Joints& to, double length);
 
-// The way the tool comes out, a unit vector in setup coordinates.
-Vec3 out_in_setup(const Setup& setup, std::size_t direction);
-
 }  // namespace qchopper

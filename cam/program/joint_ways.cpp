@@ -58,7 +58,7 @@ JointWays::JointWays(const Setup& setup, const Cell& cell, std::size_t tool)
 
 StandingBlock JointWays::standing_at(double table_angle) const {
     const Pose in_cell = table_in_cell(cell_, table_angle) * setup_in_table(setup_.placement, setup_.spoil);
-    return judge_.standing(in_cell, setup_.block.size, setup_.spoil);
+    return judge_.standing(in_cell, setup_.block_box());
 }
 
 bool JointWays::is_clear(const StandingBlock& block, const Joints& joints) {

@@ -26,7 +26,7 @@ Setup empty_setup(const Cell& cell, Vec3 block, double tilt) {
     const Margins margins = margins_of(cell);
     setup.spoil = std::min(margins.spoil, 0.5 * block.z);
     setup.block.size = block;
-    setup.box = {{-block.x / 2, -block.y / 2, 0}, {block.x / 2, block.y / 2, block.z - setup.spoil}};
+    setup.box = setup.milled_box();
     setup.reach.directions.push_back({{0, 0, 1}, 0, 0, 0});
     for (int i = 0; tilt > 0 && i < block_azimuths; ++i) {
         const double azimuth = 2 * std::numbers::pi * i / block_azimuths;

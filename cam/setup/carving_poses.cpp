@@ -30,11 +30,6 @@ Vec3 column(const Pose& pose, int i) {
     return {pose.row[0][i], pose.row[1][i], pose.row[2][i]};
 }
 
-Box block_box(const Setup& setup) {
-    const Vec3 half{0.5 * setup.block.size.x, 0.5 * setup.block.size.y, 0};
-    return {-half, half + Vec3{0, 0, setup.block.size.z - setup.spoil}};
-}
-
 Vec3 corner_of(const Box& box, int corner) {
     Vec3 point;
     for (int i = 0; i < 3; ++i) point[i] = ((corner >> i) & 1) != 0 ? box.max[i] : box.min[i];
@@ -327,10 +322,10 @@ std::vector<DirectionPoses> carving_poses(const Setup& setup, const TriangleMesh
                                           const PoseOptions& options) {
     assert(cell.machine && !setup.reach.directions.empty() && options.step > 0);
     const ToolBody tool = tool_body(longest_tool(cell.machine->tools), cell.machine->spindle);
-    const Box block = block_box(setup);
+    const Box block = setup.milled_box();
     std::vector<DirectionPoses> all;
     for (const SetupDirection& direction : setup.reach.directions) {
-        const Vec3 out = rotate(setup.piece_in_setup, direction.out);
+        const Vec3 out = setup.tool_axis(direction);
         const TipHeights heights = tip_heights(block, tool, out, cell.clearance);
         DirectionPoses poses{out, {block_region(block, heights, options)}};
         if (!options.block_only) add_tips(setup, mesh, direction.out, tool, heights, options, poses);

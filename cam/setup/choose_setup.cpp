@@ -113,11 +113,6 @@ Setup laid_out(const Piece& piece, const PieceBase& base, const Cell& cell) {
     return setup;
 }
 
-Box block_box(const Setup& setup) {
-    const Vec3 size = setup.block.size;
-    return {{-size.x / 2, -size.y / 2, -setup.spoil}, {size.x / 2, size.y / 2, size.z - setup.spoil}};
-}
-
 double tilt_of(const Cell& cell, const SetupOptions& options) {
     return options.max_tilt_deg.value_or(max_tilt_deg(cell));
 }
@@ -275,7 +270,7 @@ class Choice {
         mapped.base = setup.base;
         mapped.up = setup.up;
         mapped.piece_in_setup = setup.piece_in_setup;
-        mapped.block = block_box(setup);
+        mapped.block = setup.block_box();
         for (const SetupDirection& d : setup.reach.directions) mapped.directions.push_back(d.out);
         mapped.tool = deepest_tool(cell_);
         mapped.smallest_ball_radius = smallest_radius(cell_);

@@ -68,7 +68,7 @@ PlaceScore PlaceScorer::judged(BlockPlacement placement, const ScoreOptions& opt
 }
 
 StandingBlock PlaceScorer::standing(const BlockPlacement& placement, std::size_t direction) const {
-    return judge_.standing(setup_in_cell(cell_, setup_.spoil, placement, direction), setup_.block.size, setup_.spoil);
+    return judge_.standing(setup_in_cell(cell_, setup_.spoil, placement, direction), setup_.block_box());
 }
 
 // Of home with each tool, the first being the one of the poses.

@@ -91,9 +91,8 @@ PoseJudge::PoseJudge(const Cell& cell, const CarvingTool& tool)
     for (const LinkCapsule& own : machine_.robot->capsules) links_.push_back({own.link, {{}, {}, own.radius}});
 }
 
-StandingBlock PoseJudge::standing(const Pose& setup_in_cell, Vec3 block_size, double spoil) const {
-    const Vec3 half{0.5 * block_size.x, 0.5 * block_size.y, 0};
-    return {setup_in_cell, placed(setup_in_cell, {-half - Vec3{0, 0, spoil}, half + Vec3{0, 0, block_size.z - spoil}})};
+StandingBlock PoseJudge::standing(const Pose& setup_in_cell, const Box& block_in_setup) const {
+    return {setup_in_cell, placed(setup_in_cell, block_in_setup)};
 }
 
 void PoseJudge::judge(const StandingBlock& block, Vec3 out, const PoseRegion& region, std::size_t count,

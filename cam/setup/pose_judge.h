@@ -42,7 +42,7 @@ class PoseJudge {
     // Whether the tool axis is the axis of joint 6, so that a turn about it moves that joint alone.
     bool turns_by_axis_6() const { return turns_by_axis_6_; }
 
-    StandingBlock standing(const Pose& setup_in_cell, Vec3 block_size, double spoil) const;
+    StandingBlock standing(const Pose& setup_in_cell, const Box& block_in_setup) const;
 
     // Adds the margins of the first `count` poses of a region to the tally. Ends early, with some of them not added,
     // once the score is below `bound`. With turns_freely, `hold` gets the turn.

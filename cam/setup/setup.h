@@ -46,6 +46,18 @@ struct Setup {
     double base_mm2 = 0;                     // projected area of the base; 0 without one
     double projected_area_mm2 = 0;           // of the piece, along up
     std::vector<std::string> warnings;
+    // The block in setup coordinates: the one place that says where it lies (tests/cam/setup/setup_test.cpp).
+    Box block_box() const {
+        const Vec3 size = block.size;
+        return {{-size.x / 2, -size.y / 2, -spoil}, {size.x / 2, size.y / 2, size.z - spoil}};
+    }
+    // Of it what is milled: the spoil layer under the piece is left standing.
+    Box milled_box() const { return {{block_box().min.x, block_box().min.y, 0}, block_box().max}; }
+
+    // From the tip into the spindle, in setup coordinates: a unit vector, to rounding.
+    Vec3 tool_axis(const SetupDirection& direction) const { return rotate(piece_in_setup, direction.out); }
+    Vec3 tool_axis(std::size_t direction) const { return tool_axis(reach.directions[direction]); }
+
     bool operator==(const Setup&) const = default;
 };
 

@@ -165,7 +165,7 @@ class HolePlanner {
 std::size_t direction_index(const Setup& setup, Vec3 out, std::vector<DrillDirection>& drilling) {
     const std::vector<SetupDirection>& own = setup.reach.directions;
     for (std::size_t d = 0; d < own.size(); ++d) {
-        if (norm(rotate(setup.piece_in_setup, own[d].out) - out) <= same_direction) return d;
+        if (norm(setup.tool_axis(d) - out) <= same_direction) return d;
     }
     const auto found = std::find_if(drilling.begin(), drilling.end(),
                                     [&](const DrillDirection& d) { return norm(d.out - out) <= same_direction; });

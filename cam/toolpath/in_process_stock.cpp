@@ -35,11 +35,6 @@ constexpr double least_way = 1e-6;                           // mm across; a sho
 constexpr double least_sine = 1e-9;                          // of the angle of a line and a row
 constexpr std::size_t square = 16;                           // cells of a map of which the highest is known
 
-Box block_of(const Setup& setup) {
-    const Vec3 half{0.5 * setup.block.size.x, 0.5 * setup.block.size.y, 0};
-    return {-half - Vec3{0, 0, setup.spoil}, half + Vec3{0, 0, setup.block.size.z - setup.spoil}};
-}
-
 // Where a line enters and leaves a box: from the higher parameter to the lower.
 struct Span {
     double high = infinite;
@@ -203,7 +198,7 @@ class Rays {
         setup_in_map_ = map_in_setup;
         out_ = rotate(map_in_setup, {0, 0, 1});
         const double across = std::hypot(out_.x, out_.y);
-        box_ = block_of(setup);
+        box_ = setup.block_box();
         const Vec3 more = more_cells * frame.cell * Vec3{1, 1, across};
         box_.min = box_.min - more;
         box_.max = box_.max + more;
@@ -376,7 +371,7 @@ void InProcessStock::remove_above(std::size_t direction, const HeightMap& map) {
 }
 
 bool InProcessStock::may_be_foam(Vec3 point) const {
-    const Box block = block_of(*setup_);
+    const Box block = setup_->block_box();
     for (int i = 0; i < 3; ++i) {
         if (point[i] < block.min[i] || point[i] > block.max[i]) return false;
     }

@@ -107,10 +107,6 @@ class ToolpathMaker {
         return std::max(lowest, rim_clear_of_table - setup_.spoil + rim);
     }
 
-    Vec3 out_of(std::size_t direction) const {
-        return rotate(setup_.piece_in_setup, setup_.reach.directions[direction].out);
-    }
-
     HeightMap target(std::size_t direction, double cell, double floor_z) const {
         return target_map(setup_, mesh_, direction, {cell, floor_z, border_});
     }
@@ -190,7 +186,7 @@ class ToolpathMaker {
         operation.step = finishing_step(tool, options);
         operation.scallop = options.scallop;
         operation.rounding = settings_.rounding;
-        const double floor_z = finishing_floor(out_of(direction), 0.5 * tool.diameter);
+        const double floor_z = finishing_floor(setup_.tool_axis(direction), 0.5 * tool.diameter);
         auto over_piece = std::make_unique<ToolOverPiece>(target(direction, settings_.cell, floor_z), tool);
         HeightMap own_tip = tip_surface(over_piece->piece, tool, finishing_tip_options);  // without holder and spindle
         HeightMap tip = finishing_tip(operation, over_piece->piece, own_tip);
@@ -331,7 +327,7 @@ class ToolpathMaker {
 
     Operation new_operation(std::size_t direction, std::size_t tool, OperationKind kind) const {
         Operation operation = operation_of(machine_, tool, kind, direction);
-        operation.retract = retract_height(setup_, out_of(direction), cell_.clearance);
+        operation.retract = retract_height(setup_, setup_.tool_axis(direction), cell_.clearance);
         return operation;
     }
 
@@ -371,9 +367,8 @@ class ToolpathMaker {
 }  // namespace
 
 double retract_height(const Setup& setup, Vec3 out, double clearance) {
-    const Vec3 half{0.5 * setup.block.size.x, 0.5 * setup.block.size.y, 0};
-    const double top = std::max(0.0, out.z) * (setup.block.size.z - setup.spoil);
-    return std::abs(out.x) * half.x + std::abs(out.y) * half.y + top + clearance;
+    const Vec3 corner = setup.milled_box().max;
+    return std::abs(out.x) * corner.x + std::abs(out.y) * corner.y + std::max(0.0, out.z) * corner.z + clearance;
 }
 
 Toolpath make_toolpath(const Setup& setup, const TriangleMesh& mesh, const Cell& cell, const ToolpathSettings& settings,

@@ -135,11 +135,11 @@ void raise_to_mesh(HeightMap& map, const TriangleMesh& mesh) {
 
 Box box_in_map(const Pose& piece_in_map, const Setup& setup, const TriangleMesh& mesh) {
     const Pose setup_in_piece = inverse(setup.piece_in_setup);
-    const Vec3 half = 0.5 * setup.block.size;
+    const Box block = setup.block_box();
     Box box;
     for (unsigned k = 0; k < 8; ++k) {
-        const Vec3 corner{(k & 1U) != 0 ? half.x : -half.x, (k & 2U) != 0 ? half.y : -half.y,
-                          (k & 4U) != 0 ? setup.block.size.z - setup.spoil : -setup.spoil};
+        const Vec3 corner{(k & 1U) != 0 ? block.max.x : block.min.x, (k & 2U) != 0 ? block.max.y : block.min.y,
+                          (k & 4U) != 0 ? block.max.z : block.min.z};
         const Vec3 p = rotate(piece_in_map, apply(setup_in_piece, corner));
         if (k == 0) box = {p, p};
         extend(box, p);
@@ -195,7 +195,7 @@ HeightMap target_map(const Setup& setup, const TriangleMesh& mesh, std::size_t d
     map.cell = options.cell;
     const Vec3 out = setup.reach.directions[direction].out;
     // Rows along the sides of the block: the map of a block that is turned under it is up to twice as large.
-    const auto [e1, e2] = frame_under(rotate(setup.piece_in_setup, out));
+    const auto [e1, e2] = frame_under(setup.tool_axis(direction));
     map.piece_in_map.row = {rotate_inverse(setup.piece_in_setup, e1), rotate_inverse(setup.piece_in_setup, e2), out};
     const Box box = box_in_map(map.piece_in_map, setup, mesh);
     // Sides of the block, and walls that lie whole cells from them, are neither on lines between cells nor in the

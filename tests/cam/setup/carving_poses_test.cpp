@@ -56,7 +56,7 @@ TEST(CarvingPoses, LieOnThePieceAtTheBlockAndAbove) {
             }
         }
     }
-    // A tilted tool comes to one more side of the block, down to its foot.
+    // A tilted tool comes to one more side of the block, down to the base: the spoil layer below it is left standing.
     EXPECT_EQ(count(all[1], PoseKind::corner), 6U);
     double least = 1e9;
     for (const CarvingPose& pose : all[1].regions.front().poses) least = std::min(least, pose.tip.z);

@@ -284,7 +284,7 @@ double best_by_trying(const Cell& cell, const BoxSetup& s, const DirectionPoses&
                       double step_deg) {
     PoseJudge judge(cell, longest_tool(cell.machine->tools));
     const StandingBlock block =
-        judge.standing(setup_in_cell(cell, s.setup.spoil, s.setup.placement, 0), s.setup.block.size, s.setup.spoil);
+        judge.standing(setup_in_cell(cell, s.setup.spoil, s.setup.placement, 0), s.setup.block_box());
     double best = -1e9;
     for (const ArmBranch& branch : all_branches()) {
         for (double turn = 0; turn < 360; turn += step_deg) {
