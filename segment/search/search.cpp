@@ -97,13 +97,13 @@ class Search {
         for (Bsp& b : beam_) find_next_piece(b);
     }
 
-    // Passes pieces over whose unreachable area is so small that no cut can gain enough.
+    // Passes pieces over of which so little is out of reach that no cut can gain enough.
     void find_next_piece(Bsp& b) {
         for (b.next = judge_.next(b.segmentation, b.passed_over); b.next.is_trial;
              b.next = judge_.next(b.segmentation, b.passed_over)) {
             const Piece& piece = b.segmentation.pieces[*b.next.piece];
             const double unreachable = judge_.unreachable(piece).mm2;
-            if (unreachable >= least_fall_mm2(piece, unreachable, judge_.least_gain_mm2())) return;
+            if (unreachable >= least_fall_to_hold_mm2(judge_.least_gain_mm2())) return;
             b.passed_over.push_back(piece.name);
             b.reverted.push_back({piece.name, 0, unreachable, unreachable, false});
         }

@@ -55,9 +55,10 @@ class Attempt {
         return sum;
     }
 
+    bool does_every_piece_hold() const { return failing().empty(); }
+
     bool make_next() {
-        std::vector<std::size_t> members = family();
-        std::erase_if(members, [&](std::size_t p) { return !judge_.breaks_a_rule(segmentation_.pieces[p]); });
+        std::vector<std::size_t> members = failing();
         std::stable_sort(members.begin(), members.end(), [&](std::size_t a, std::size_t b) {
             return judge_.unreachable(segmentation_.pieces[a]).mm2 > judge_.unreachable(segmentation_.pieces[b]).mm2;
         });
@@ -72,6 +73,13 @@ class Attempt {
             const std::string& name = segmentation_.pieces[p].name;
             if (std::find(family_.begin(), family_.end(), name) != family_.end()) members.push_back(p);
         }
+        return members;
+    }
+
+    // Those of the family that break a rule.
+    std::vector<std::size_t> failing() const {
+        std::vector<std::size_t> members = family();
+        std::erase_if(members, [&](std::size_t p) { return !judge_.breaks_a_rule(segmentation_.pieces[p]); });
         return members;
     }
 
@@ -110,9 +118,11 @@ std::optional<Trial> try_cuts(const Segmentation& segmentation, const Cut& first
                                     [&](const Piece& p) { return p.name == first.piece; });
     const double before = judge.unreachable(*piece).mm2;
     const double least = least_fall_mm2(*piece, before, judge.least_gain_mm2());
+    const double least_to_hold = least_fall_to_hold_mm2(judge.least_gain_mm2());
     while (true) {
         const double after = attempt.unreachable_mm2();
-        if (before - after >= least) return Trial{std::move(attempt.segmentation()), {}};
+        const bool holds = before - after >= least_to_hold && attempt.does_every_piece_hold();
+        if (holds || before - after >= least) return Trial{std::move(attempt.segmentation()), {}};
         const bool is_cut_short = attempt.cuts() < trial_cuts &&
                                   static_cast<int>(attempt.segmentation().cuts.size()) >= settings.stop.max_cuts;
         if (attempt.cuts() == trial_cuts || is_cut_short || !attempt.make_next()) {

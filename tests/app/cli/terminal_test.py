@@ -64,7 +64,8 @@ class Terminal:
                 if pid != 0:
                     os.close(self.terminal)
                     return os.waitstatus_to_exitcode(status)
-                self.step(0.1)
+                if not self.step(0.1):
+                    time.sleep(0.1)  # the terminal is closed before the process has ended
         raise AssertionError("it cannot be ended")
 
 
@@ -123,11 +124,13 @@ class ReadmeSession(InFolder):
 
         server = threading.Thread(target=serve)
         server.start()
-        code = dispatched.wait()
-        ended.set()
-        server.join()
-        os.write(serving.terminal, b"\x03")  # Ctrl-C
-        serving.end()
+        try:
+            code = dispatched.wait()
+        finally:
+            ended.set()
+            server.join()
+            os.write(serving.terminal, b"\x03")  # Ctrl-C
+            serving.end()
         self.assertEqual(code, 0, dispatched.output + serving.output)
         self.assertGreaterEqual(serving.answered, 1, serving.output)
         self.assertRegex(dispatched.output, r"all \d+ jobs ended complete on the simulated cell")
@@ -138,7 +141,7 @@ class SizeQuestion(InFolder):
 
     def setUp(self):
         super().setUp()
-        self.assertEqual(self.run_here("sample", "vertebra", "--faces", "1000", "-o", "s.ply").returncode, 0)
+        self.assertEqual(self.run_here("sample", "vertebra", "--faces", "2000", "-o", "s.ply").returncode, 0)
         self.repair = ["repair", "s.ply", "--units", "mm", "--scale", "0.01", "-o"]
         self.make = ["segment", "s.ply", "--units", "m", "--scale", "1", "--preset", "thesis", "-o"]
 

@@ -113,7 +113,9 @@ TEST(Trial, OfASmallSolidDoesNotDependOnTheScanAroundIt) {
     const double before = 0.06 * area_mm2(small);
     ASSERT_LT(before, 0.002 * area_mm2(both));
     const UnreachableOf reach = [&](const Piece& p) {
-        return is_of_a(p) ? none : by_cuts({{before, 0.06}, {before / 10, 0.006}})(p);
+        constexpr double tenth = 0.1;
+        const UnreachableSurface left{tenth * before, 0.03};
+        return is_of_a(p) ? none : by_cuts({{before, 0.06}, left, left, left})(p);
     };
     const auto cuts_with = [&](double least_gain_mm2) {
         PieceChecks checks{{}, reach};
@@ -159,19 +161,31 @@ TEST(Trial, WhereEveryPieceIsPassedOverEachIsNamed) {
     const Found found = searched(two_balls(), settings_of(),
                                  {{}, [](const Piece& p) { return is_of_a(p) ? halved(100'000)(p) : too_much(100); }});
     EXPECT_EQ(found.end.reason, EndReason::passed_over);
-    EXPECT_NE(found.end.sentence.find("piece A: 7.4 % of its surface is out of reach (2 % may be), three cuts"),
-              std::string::npos);
-    EXPECT_NE(found.end.sentence.find("piece B: 7.4 % of its surface is out of reach (2 % may be), too little for a "
-                                      "cut to count"),
-              std::string::npos)
-        << found.end.sentence;
+    for (const char* piece : {"A", "B"}) {
+        const std::string named = std::string("piece ") + piece + ": 7.4 % of its surface is out of reach (2 % may be)";
+        EXPECT_NE(found.end.sentence.find(named + ", three cuts changed that"), std::string::npos)
+            << found.end.sentence;
+    }
     EXPECT_TRUE(found.segmentation.cuts.empty());
 }
 
-TEST(Trial, IsNotBegunWhereNoCutCanGainEnough) {
-    const Found found = searched(ball(), settings_of(), {{}, halved(3000)});
-    EXPECT_EQ(found.end.reason, EndReason::passed_over);
-    EXPECT_EQ(found.evaluated, 0U);
+// A piece that breaks the rule is no job: what makes all pieces hold it counts from a quarter of the floor on.
+TEST(Trial, IsKeptWhereEveryPieceHoldsTheRuleThen) {
+    for (const std::size_t beam : {1U, 2U}) {
+        PieceChecks checks{{}, by_cuts({too_much(3000)})};
+        checks.least_gain_mm2 = 4 * 2999;
+        const Found one = searched(ball(), settings_of(beam), checks);
+        EXPECT_EQ(one.end.reason, EndReason::rules_hold) << one.end.sentence;
+        EXPECT_EQ(one.reported, (std::vector<std::size_t>{1}));
+        checks.least_gain_mm2 = 4 * 3001;
+        const Found too_little = searched(ball(), settings_of(beam), checks);
+        EXPECT_TRUE(too_little.end.sentence.ends_with("(2 % may be), too little for a cut to count"))
+            << too_little.end.sentence;
+        EXPECT_EQ(too_little.evaluated, 0U) << "no cut is tried";
+        const Found not_all = searched(ball(), settings_of(beam), {{}, halved(3000)});
+        EXPECT_EQ(not_all.end.reason, EndReason::passed_over);
+        EXPECT_TRUE(not_all.segmentation.cuts.empty());
+    }
 }
 
 TEST(Trial, OfAPieceThatNoPlanePartsSaysSo) {
