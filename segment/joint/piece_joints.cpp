@@ -4,6 +4,7 @@
 #include "segment/joint/piece_joints.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/parallel.h"
 #include "base/shared_progress.h"

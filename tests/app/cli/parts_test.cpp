@@ -32,8 +32,20 @@ struct Parts : ::testing::Test {
     program::Ended run(const program::Arguments& arguments) const { return program::run(arguments, {folder.path}); }
     void SetUp() override { ASSERT_EQ(run({"sample", "vertebra", "--faces", "2000", "-o", "v.ply"}).code, 0); }
 
-    // A small vertebra for a controller of so many bytes.
-    void prepare(const std::string& memory, const std::string& project) {
+    // A small vertebra for a controller of so many bytes: made once, then copied.
+    void prepare(const std::string& memory, const std::string& project) const {
+        static std::map<std::string, program::Folder> made;
+        const auto [it, is_new] = made.try_emplace(memory);
+        if (is_new) {
+            make(memory, project);
+            fs::copy(folder.path, it->second.path, fs::copy_options::recursive);
+            fs::rename(it->second.path / project, it->second.path / "made.qch");
+            return;
+        }
+        fs::copy(it->second.path / "cell.toml", folder.path, fs::copy_options::overwrite_existing);
+        fs::copy(it->second.path / "made.qch", folder.path / project, fs::copy_options::recursive);
+    }
+    void make(const std::string& memory, const std::string& project) const {
         const std::string cell = program::bytes_in(fs::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml");
         program::put(folder.path / "cell.toml", replaced(cell, "memory_bytes = 3000000", "memory_bytes = " + memory));
         const program::Ended made = run({"prepare", "v.ply", "--units", "mm", "--scale", "0.15", "--cell", "cell.toml",
