@@ -419,7 +419,7 @@ TEST_F(OpenedProject, KnowsAgainWhyItsSearchEnded) {
 TEST_F(OpenedProject, OutOfTimeItStaysBeingCut) {
     OpenProject project = open();
     const SearchEnd end = project.search(
-        {}, [](const Segmentation&) {}, {}, 1e-9);
+        {}, [](const Segmentation&) {}, {}, TimeLimit{1e-9});
     EXPECT_TRUE(end.is_out_of_time());
     EXPECT_FALSE(end.is_finished());
     const Project saved = load_project(folder);
@@ -438,7 +438,7 @@ TEST_F(OpenedProject, ABeamThatIsNotOfItsDecisionsIsRefused) {
     rules.min_cuts = 40;
     project.set_search(rules, 3);
     project.search(
-        {}, [](const Segmentation&) {}, {}, 1e-9);
+        {}, [](const Segmentation&) {}, {}, TimeLimit{1e-9});
     const Project saved = load_project(folder);
     ASSERT_TRUE(saved.beam);
     ASSERT_EQ(saved.beam->branches.size(), 3U);

@@ -210,7 +210,7 @@ TEST(SizeCut, ASearchIsTheSameForAnyNumberOfThreadsAndIfItIsInterrupted) {
     do {
         EvaluationCache cache(settings.objectives, settings.candidates);
         end = search(
-            in_parts, settings, cache, {}, [](const Segmentation&) {}, {}, 1e-9);
+            in_parts, settings, cache, {}, [](const Segmentation&) {}, {}, TimeLimit{1e-9});
     } while (end.is_out_of_time() && ++parts < 100);
     EXPECT_GE(parts, 3U);
     EXPECT_EQ(in_parts.cuts, whole.segmentation.cuts);

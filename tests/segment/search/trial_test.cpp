@@ -295,7 +295,7 @@ TEST(Trial, OfASearchThatGoesOnIsNotMadeAgain) {
                 return only_b_gains(p);
             };
             end = search(
-                segmentation, settings, cache, {{}, reach}, [](const Segmentation&) {}, {}, 1e-9, &progress);
+                segmentation, settings, cache, {{}, reach}, [](const Segmentation&) {}, {}, TimeLimit{1e-9}, &progress);
             if (beam == 1) progress.root = segmentation;
             trials_of_a.push_back(asked.size());
         } while (end.is_out_of_time() && trials_of_a.size() < 9);
