@@ -7,7 +7,7 @@ namespace {
 
 TEST(SetupFrame, SpoilLayerAndWhatIsMilledAreTheBlock) {
     for (const double spoil : {0.0, 12.5}) {
-        Setup setup;
+        qchopper::Setup setup;
         setup.block.size = {301, 187, 93};
         setup.spoil = spoil;
         const Box block = setup.block_box();
