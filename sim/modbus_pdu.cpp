@@ -25,6 +25,11 @@ std::uint16_t u16_at(std::span<const std::uint8_t> bytes, std::size_t at) {
     return static_cast<std::uint16_t>((bytes[at] << 8U) | bytes[at + 1]);
 }
 
+// Two bytes: the function code with its high bit set, and the exception code.
+Bytes exception_pdu(std::uint8_t function, std::uint8_t code) {
+    return {static_cast<std::uint8_t>(function | 0x80U), code};
+}
+
 // Nothing if the cell has no such block.
 const Block* block_around(const CellState& cell, Side side, std::uint32_t address, std::uint32_t count) {
     for (const Block* block : all_blocks()) {
@@ -112,10 +117,6 @@ Bytes answer_write(std::span<const std::uint8_t> pdu, CellState& cell, CellTime 
 }
 
 }  // namespace
-
-Bytes exception_pdu(std::uint8_t function, std::uint8_t code) {
-    return {static_cast<std::uint8_t>(function | 0x80U), code};
-}
 
 Bytes answer_pdu(std::uint8_t unit, std::span<const std::uint8_t> pdu, CellState& cell, CellTime now,
                  const CellHooks& hooks) {

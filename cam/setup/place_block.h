@@ -34,10 +34,6 @@ WorkEnvelope place_block(const Setup& setup, const TriangleMesh& mesh, const Cel
 WorkEnvelope place_block(const Setup& setup, const std::vector<DirectionPoses>& directions, const Cell& cell,
                          const PlacementOptions& options = {}, const Context& context = {});
 
-// Whether all poses are held where the block stands, Setup::placement: quicker than a report, because it ends at the
-// first pose that is not.
-bool holds_at_placement(const Setup& setup, const std::vector<DirectionPoses>& directions, const Cell& cell);
-
 // The first place of a coarse grid (100 mm, 30 degrees) at which all poses are held, `first` being tried before them:
 // far quicker than place_block() where none is. Nothing: there is none in that grid. Precondition: the cell has a
 // machine.

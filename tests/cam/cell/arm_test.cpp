@@ -9,6 +9,8 @@
 
 #include "cam/cell/kuka_angles.h"
 #include "tests/cam/cell/arms.h"
+#include "tests/reference/cam/cell/joint_speeds.h"
+#include "tests/reference/cam/cell/turns_within.h"
 
 namespace qchopper {
 namespace {

@@ -12,6 +12,7 @@
 #include "segment/score/binary_fragility.h"
 #include "segment/score/seam_cost.h"
 #include "tests/pieces.h"
+#include "tests/reference/segment/score/evaluate_by_cutting.h"
 #include "tests/segment/score/cut_samples.h"
 #include "tests/segment/score/same_evaluation.h"
 #include "tests/shapes.h"

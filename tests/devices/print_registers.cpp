@@ -1,5 +1,7 @@
 // Prints the tables of registers.cpp, codes.cpp and packml.cpp as Markdown. O(characters).
 
+#include "tests/devices/print_registers.h"
+
 #include <cstdio>
 #include <initializer_list>
 
