@@ -13,9 +13,9 @@
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/oriented_box.h"
-#include "segment/score/binary_fragility.h"
-#include "segment/score/fragility.h"
 #include "segment/score/section_measures.h"
+#include "tests/reference/segment/score/binary_fragility.h"
+#include "tests/reference/segment/score/fragility.h"
 
 namespace qchopper {
 namespace {
