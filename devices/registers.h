@@ -19,7 +19,7 @@ constexpr std::uint16_t chunk_head = 5;  // registers of CHUNK before the data
 
 extern const Block status_block;
 extern const Block result_block;
-extern const Block identity_block;  // since 1.1
+extern const Block identity_block;
 extern const Block command_block;
 extern const Block ticket_block;
 extern const Block signature_block;
