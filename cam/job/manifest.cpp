@@ -145,7 +145,7 @@ Json from_stock(const JobInput& input) {
             {"sawn", input.setup.block.is_sawn},
             {"offcuts", offcuts},
             {"holds", input.setup.block.holds},
-            {"margin", input.cell.stock_margin}};
+            {"margin", input.cell.stock_margin()}};
 }
 
 double not_negative(const Json& object, const std::string& key) {

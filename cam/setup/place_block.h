@@ -25,8 +25,8 @@ struct PlacementOptions {
     bool has_other_base = true;  // whether a refused piece may be laid otherwise, for WorkEnvelope::cure
 };
 
-// Preconditions: the mesh is that of the piece, with area; setup.reach.directions is not empty. A cell of version 1 is
-// not checked. Throws InputError (use) as height_map() does, and Cancelled.
+// Preconditions: the mesh is that of the piece, with area; setup.reach.directions is not empty. A cell without a
+// machine is not checked. Throws InputError (use) as height_map() does, and Cancelled.
 WorkEnvelope place_block(const Setup& setup, const TriangleMesh& mesh, const Cell& cell,
                          const PlacementOptions& options = {}, const Context& context = {});
 
@@ -43,7 +43,7 @@ std::optional<BlockPlacement> first_place(const Setup& setup, const std::vector<
 
 // Whether the machine holds the extreme poses of a setup at some place: the stop rule --fits-cell beyond boxes. Asks
 // for the corners of the block and the outermost tips of each direction alone, and ends at the first place that holds
-// them. True for a cell of version 1.
+// them. True for a cell without a machine.
 bool fits_machine(const Setup& setup, const TriangleMesh& mesh, const Cell& cell);
 
 }  // namespace qchopper
