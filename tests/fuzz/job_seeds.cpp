@@ -37,7 +37,7 @@ JobInput some_job() {
     DrawnCap cap;
     cap.cap.cut = 4;
     cap.cap.cap_in_piece.row = {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, -1}};
-    cap.cap.joints = {{"C", 200, "", {{6, 16, {1, 2}, {1, -2, 0}, {0, 0, 1}, false}}}};
+    cap.cap.joints = {{"C", 200, "", {{1, 6, 16, {1, 2}, {1, -2, 0}, {0, 0, 1}, false, "no drill"}}}};
     cap.outline = {{{-10, -5}, {10, -5}, {10, 5}, {-10, 5}}};
     cap.names_at = {{0, 0}};
     cap.size = {20, 10};
