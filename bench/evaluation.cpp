@@ -11,9 +11,9 @@
 #include "bench/measures.h"
 #include "segment/cut/cut.h"
 #include "segment/score/evaluate.h"
-#include "segment/score/reference.h"
 #include "segment/score/sweep.h"
 #include "segment/search/piece_names.h"
+#include "tests/reference/segment/score/evaluate_by_cutting.h"
 
 namespace qchopper::bench {
 namespace {

@@ -17,7 +17,6 @@
 #include "bench/clock.h"
 #include "cam/job/read_job.h"
 #include "cam/toolpath/make_toolpath.h"
-#include "cam/toolpath/time_estimate.h"
 #include "segment/mesh/measure.h"
 #include "sim/replay/carve_foam.h"
 #include "sim/replay/finding.h"
@@ -192,7 +191,6 @@ int measure(const std::string& job_file, const std::string& cell_file, double re
     const Toolpath path = timed_toolpath(setup, mesh, cell);
     lap("toolpath");
     print_operations(path, cell);
-    std::printf("time estimated: %.2f h\n", time_estimate(path).total_s() / 3600);
     const ReplayScene scene = scene_of(setup, path, mesh, cell);
     const ToolPath lines = lines_of(path);
     ParsedProgram names;

@@ -17,7 +17,6 @@
 #include "cam/program/make_program.h"
 #include "cam/setup/choose_setup.h"
 #include "cam/toolpath/make_toolpath.h"
-#include "cam/toolpath/time_estimate.h"
 #include "segment/mesh/measure.h"
 
 namespace {
@@ -128,10 +127,6 @@ void record(const std::string& name, const Setup& setup, const Toolpath& path, F
         // One direction alone; scripts/prove has the figure of all directions of all pieces, which may be at most 4.
         figures.record(name, what, number_text(megabytes));
     }
-    const TimeEstimate time = time_estimate(path);
-    figures.record(name, "time estimated: all, cuts, links",
-                   number_text(time.total_s() / 3600) + " h, " + number_text(time.cut_s / 3600) + " h, " +
-                       number_text((time.link_s + time.approach_s) / 3600) + " h");
 }
 
 void measure_one(const Choice& choice, const std::string& name, const std::string& file, double longest, double cell,

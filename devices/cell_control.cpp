@@ -122,7 +122,7 @@ class Control {
     // What shows that the cell lost its memory, or "".
     std::string loss_of_store() {
         if (order_.past.store_is_lost) return "nobody has accepted the new memory of the cell";
-        const std::optional<SeenStore> now = read_store(bus_, end_.status);
+        const std::optional<SeenStore> now = read_store(bus_);
         if (!now) return "its IDENTITY cannot be read";
         if (order_.past.store) {
             if (std::string what = loss_between(*order_.past.store, *now); !what.empty()) return what;

@@ -11,8 +11,14 @@
 namespace qchopper {
 namespace {
 
-bool is_our_major(std::uint16_t version) {
-    return version >> 8 == map_version >> 8;
+// The oldest version of a block that is taken.
+template <class T>
+constexpr std::uint16_t oldest_version = map_version;
+template <>
+constexpr std::uint16_t oldest_version<Command> = command_version;
+
+bool is_taken(std::uint16_t version, std::uint16_t oldest) {
+    return version >> 8 == oldest >> 8 && version >= oldest;
 }
 
 // Registers before the first field of that role; npos if the block has none.
@@ -41,7 +47,7 @@ BlockFault fault_of(const Block& block, std::span<const std::uint16_t> registers
     if (is_all_zero(registers)) return BlockFault::empty;
     const auto at = [&](FieldRole role) { return registers[offset_of<T>(role)]; };
     if (has<T>(FieldRole::magic) && at(FieldRole::magic) != cell_magic) return BlockFault::magic;
-    if (has<T>(FieldRole::version) && !is_our_major(at(FieldRole::version))) return BlockFault::version;
+    if (has<T>(FieldRole::version) && !is_taken(at(FieldRole::version), oldest_version<T>)) return BlockFault::version;
     if (has<T>(FieldRole::snap_end) && at(FieldRole::snap_begin) != at(FieldRole::snap_end)) return BlockFault::torn;
     if (!has<T>(FieldRole::crc)) return BlockFault::none;
     return crc32_of_registers(registers.first(offset_of<T>(FieldRole::crc))) == crc_of<T>(registers) ? BlockFault::none

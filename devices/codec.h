@@ -21,7 +21,8 @@
 
 namespace qchopper {
 
-// empty: all registers are zero; version: another major number; torn: SNAP_BEGIN and SNAP_END differ.
+// empty: all registers are zero; version: another major number, or an older minor one; torn: SNAP_BEGIN and SNAP_END
+// differ.
 enum class BlockFault : std::uint8_t { none, length, empty, magic, version, crc, torn };
 // Completes "STATUS is ...".
 const char* describe(BlockFault fault);
@@ -63,7 +64,7 @@ struct TicketOrder {
     bool rehearse = false;   // a rehearsal is required before PREPARE
     Transfer transfer = Transfer::drop_folder;
     LinkLoss on_link_loss = LinkLoss::go_on;
-    std::uint16_t part = 0;  // 1..parts; both 0: undivided, or for a cell of version 1.0
+    std::uint16_t part = 0;  // 1..parts; both 0: undivided
     std::uint16_t parts = 0;
 };
 // Lengths are rounded to the nearest 0.01 mm (the tool's diameter to 0.001 mm). Throws InputError (use) naming the

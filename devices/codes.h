@@ -11,12 +11,10 @@
 namespace qchopper {
 
 constexpr std::uint16_t cell_magic = 0x5143;  // first register of STATUS, IDENTITY and COMMAND
-// Versions of the map as major.minor: one with the same major number is served. 1.1 added IDENTITY, QUERY_FILE and PART
-// of PARTS; a cell of 1.0 has none of them (exception 2, UNKNOWN_CMD, TICKET_FIELD unless both are 0).
-constexpr std::uint16_t map_version_1_0 = 0x0100;
-constexpr std::uint16_t map_version = 0x0101;
-constexpr std::uint16_t command_version = map_version_1_0;  // COMMAND has not changed since: every cell takes it
-constexpr std::uint16_t any_cell_id = 0xFFFF;               // CELL_ID of a simulated cell that was given none
+// Versions as major.minor: a block of the same major number and of this or a later minor one is taken.
+constexpr std::uint16_t map_version = 0x0101;      // of STATUS and IDENTITY
+constexpr std::uint16_t command_version = 0x0100;  // the form of COMMAND
+constexpr std::uint16_t any_cell_id = 0xFFFF;      // CELL_ID of a simulated cell that was given none
 
 enum class UnitMode : std::uint16_t { production = 1, maintenance = 2, manual = 3, rehearsal = 4 };
 
@@ -65,11 +63,6 @@ constexpr std::uint16_t store_full = 1U << 12;
 constexpr std::uint16_t block_loaded = 1U << 13;
 constexpr std::uint16_t rehearsal_running = 1U << 14;
 }  // namespace flag
-
-// The cell has IDENTITY, QUERY_FILE and the fields PART and PARTS. `version` is that of its STATUS.
-constexpr bool has_identity(std::uint16_t version) {
-    return version >= 0x0101;
-}
 
 // ACK_RESULT, XFER_RESULT, BAD_REASON. From 0x100 on: refused, no effect.
 enum class AckResult : std::uint16_t {

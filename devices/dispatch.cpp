@@ -297,8 +297,8 @@ JobOutcome dispatch_job(RegisterBus& bus, const JobTicket& ticket, const Bytes& 
     order.rehearse = options.rehearse;
     order.transfer = options.drop_folder.empty() ? Transfer::chunks : Transfer::drop_folder;
     order.on_link_loss = options.on_link_loss;
-    order.part = options.has_parts ? ticket.about.part : std::uint16_t{0};
-    order.parts = options.has_parts ? ticket.about.parts : std::uint16_t{0};
+    order.part = ticket.about.part;
+    order.parts = ticket.about.parts;
     check_file(ticket, file);
     const HandOffPlan plan = plan_of(wire_ticket(ticket, order), options);
     JournalEvent created;

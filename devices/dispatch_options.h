@@ -62,7 +62,6 @@ struct DispatchOptions {
     std::uint32_t takeover_code = 0;  // given at the cell's panel: ends the lease of another dispatcher
     std::string address;              // HOST:PORT for the commands that the operator is told to run; may be empty
     std::uint32_t owner_held = 0;     // OWNER_HELD of the first STATUS, if that was read before
-    bool has_parts = true;            // the cell knows PART and PARTS (map 1.1); else both are sent as 0
     std::optional<Uuid> job_id;       // empty: a new random one
     HandOffPast past;
     HandOffClock clock;  // for tests that count time instead of waiting for it

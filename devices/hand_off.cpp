@@ -399,17 +399,17 @@ HandOffAction next_action(StepContext& context) {
         if (was_lost) {
             h.lost_since_s = -1;
             h.claim_reason = "the link to the cell was lost";
-            if (h.step != HandOffStep::release) return ask_identity(context);
+            if (h.step != HandOffStep::release) return plain(Kind::read_identity);
         }
         if (context.in.status->boot_count != boots && h.step != HandOffStep::release) {
             h.claim_reason = "the cell was restarted";
-            return ask_identity(context);
+            return plain(Kind::read_identity);
         }
     }
     if (context.in.status && was_lost) {
         h.lost_since_s = -1;
         if (!context.is_leaving()) h.waits_for_ack = false;  // lost during CLAIM: claim with a higher number
-        if (h.step == HandOffStep::claim && !context.is_leaving()) return ask_identity(context);
+        if (h.step == HandOffStep::claim && !context.is_leaving()) return plain(Kind::read_identity);
     }
     if (context.in.request != CellCommand::none) {
         if (const std::optional<HandOffAction> action = take_request(context)) return *action;

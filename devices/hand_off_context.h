@@ -102,9 +102,7 @@ std::optional<HandOffAction> claim_past_stale_number(StepContext& context);
 HandOffAction claim_refused(StepContext& context, AckResult result, const std::string& answer);
 
 // hand_off_identity.cpp
-// Reads IDENTITY, or compares the counters of STATUS with a cell of map 1.0; then continues with the step, or claims
-// the cell again if context.h.claim_reason is set.
-HandOffAction ask_identity(StepContext& context);
+// IDENTITY has come: continues with the step, or claims the cell again if context.h.claim_reason is set.
 HandOffAction on_identity(StepContext& context);
 // IDENTITY came damaged, several times: the end, if that was so most_bad_identities times in a row.
 std::optional<HandOffAction> on_bad_identity(StepContext& context);

@@ -37,11 +37,6 @@ HandOffAction compare(StepContext& context, const SeenStore& now) {
 
 }  // namespace
 
-HandOffAction ask_identity(StepContext& context) {
-    if (has_identity(context.status().version)) return plain(Kind::read_identity);
-    return compare(context, seen_store(context.status(), {}));
-}
-
 std::optional<HandOffAction> on_bad_identity(StepContext& context) {
     HandOff& h = context.h;
     if (++h.bad_identities < most_bad_identities) return std::nullopt;
@@ -91,7 +86,7 @@ std::optional<HandOffAction> compare_grant(StepContext& context) {
         return end_with_lost_store(context, now, "it does not know the last CLAIM of this PC that it granted");
     }
     const bool has_forgotten = h.is_started && context.in.result->state == JobState::none;
-    if (has_forgotten && has_identity(context.status().version)) {
+    if (has_forgotten) {
         const SeenStore now = seen_store(context.status(), h.store ? h.store->store_id : Uuid{});
         return end_with_lost_store(context, now, "the job has started, and the cell no longer has a record of it");
     }

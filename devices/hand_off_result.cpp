@@ -62,14 +62,7 @@ HandOffAction report_end(StepContext& context) {
 // epoch of that START was found already; one from between the two shows by a restart, if at all.
 std::string how_it_may_have_forgotten(const StepContext& context) {
     const HandOff& h = context.h;
-    const Status& status = context.status();
-    if (!h.start_sent) return {};
-    if (!has_identity(status.version)) {
-        return context.in.result->state == JobState::none
-                   ? "the cell has no record of the job, and a cell of map 1.0 cannot show whether it lost it"
-                   : "";
-    }
-    if (h.checks_store || status.boot_count == h.start_boots) return {};
+    if (!h.start_sent || h.checks_store || context.status().boot_count == h.start_boots) return {};
     return "the cell was restarted after START was sent, and it cannot find out whether its store is an older copy";
 }
 

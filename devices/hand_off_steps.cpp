@@ -53,7 +53,7 @@ HandOffAction send_step(StepContext& context, const StepRow& row) {
     switch (row.step) {
         case ask_before:
         case ask_after:
-            h.command.arg0 = has_identity(context.status().version) ? h.grant : 0;
+            h.command.arg0 = h.grant;
             break;
         case ask_file:
             h.command.file_sha256 = context.plan.ticket.file_sha256;
@@ -131,9 +131,6 @@ HandOffAction enter(StepContext& context, HandOffStep step) {
         case stage_file:
             if (context.plan.ticket.transfer == Transfer::chunks || context.plan.adopts) return enter(context, claim);
             return plain(Kind::stage_file);
-        case ask_file:
-            if (!has_identity(context.status().version)) return enter(context, make_ready);
-            return send_step(context, *row_of(ask_file));
         case claim:
             return send_claim(context);
         case make_ready:
@@ -178,11 +175,7 @@ HandOffAction check_identity(StepContext& context) {
     }
     context.report("cell " + std::to_string(status.cell_id) + (status.has(flag::simulated) ? " (SIMULATED)" : "") +
                    " is in " + name(status.state));
-    if (!has_identity(status.version)) {
-        context.report(
-            "it follows map 1.0: a cell of 1.0 cannot show that it lost its memory, nor that it carved a file before");
-    }
-    return ask_identity(context);
+    return plain(Kind::read_identity);
 }
 
 HandOffAction make_idle(StepContext& context) {
@@ -285,7 +278,7 @@ HandOffAction acknowledged(StepContext& context) {
         case claim:
             h.is_owner = true;
             h.heartbeat_s = context.now_s;
-            h.new_grant = has_identity(context.status().version) ? context.status().ack_detail : 0;
+            h.new_grant = context.status().ack_detail;
             break;
         case ask_before:
         case ask_file:

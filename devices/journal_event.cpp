@@ -161,8 +161,7 @@ std::string of_store(const JournalEvent& event) {
     const std::string counters = "BOOT_COUNT " + std::to_string(store.boot_count) + ", EPOCH_HELD " +
                                  std::to_string(store.epoch_held) + ", STARTS_TOTAL " +
                                  std::to_string(store.starts_total);
-    return store.store_id == Uuid{} ? "no STORE_ID (map 1.0), " + counters
-                                    : "STORE_ID " + to_text(store.store_id) + ", " + counters;
+    return "STORE_ID " + to_text(store.store_id) + ", " + counters;
 }
 
 }  // namespace

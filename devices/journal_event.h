@@ -41,7 +41,7 @@ enum class JournalKind : std::uint8_t {
 };
 constexpr std::size_t journal_kinds = 16;
 
-// What the cell shows of its memory. `store_id` of zeros: a cell of map 1.0, which has none.
+// What the cell shows of its memory.
 struct SeenStore {
     Uuid store_id{};
     std::uint16_t version = 0;  // of its map

@@ -56,7 +56,7 @@ enum class CellCommand : std::uint16_t {
     clear_result = 107,
     rehearse = 108,
     set_mode = 109,
-    query_file = 110  // since 1.1
+    query_file = 110
 };
 
 // All but `none`, in the order of docs/registers.md.

@@ -153,7 +153,7 @@ constexpr LayoutRow<WireTicket> ticket_rows[] = {
     bound<&WireTicket::created_ms>({183, 4, u64, "CREATED", "unix ms"}),
     bound<&WireTicket::on_link_loss>({187, 1, u16, "ON_LINK_LOSS", "0 continue, 1 hold"}),
     bound<&WireTicket::requirements>({188, 1, u16, "REQUIREMENTS", "b0 rehearsal required"}),
-    bound<&WireTicket::part>({189, 1, u16, "PART", "1..PARTS; 0: undivided, and to a cell of 1.0"}),
+    bound<&WireTicket::part>({189, 1, u16, "PART", "1..PARTS; 0: undivided"}),
     bound<&WireTicket::parts>({190, 1, u16, "PARTS", "parts of the piece; 0 with PART"}),
     reserved<WireTicket>({191, 2, words, "reserved", "0"}),
     bound<&WireTicket::cell_id>({193, 1, u16, "CELL_ID", "of the cell it is made for"}),
@@ -219,8 +219,7 @@ static_assert(chunk_fields.back().address == chunk_fields.front().address + chun
 constexpr Block status_block{"STATUS", Side::input, 0, 100, false, status_fields, "what the cell says of itself"};
 constexpr Block result_block{
     "RESULT", Side::input, 200, 60, false, result_fields, "the answer to QUERY and QUERY_FILE"};
-constexpr Block identity_block{
-    "IDENTITY", Side::input, 300, 24, false, identity_fields, "which memory the cell has; since 1.1"};
+constexpr Block identity_block{"IDENTITY", Side::input, 300, 24, false, identity_fields, "which memory the cell has"};
 constexpr Block command_block{"COMMAND", Side::holding, 0, 60, true, command_fields, "one command"};
 constexpr Block ticket_block{"TICKET", Side::holding, 100, 100, true, ticket_fields, "the job in numbers"};
 constexpr Block signature_block{"SIGNATURE", Side::holding, 200, 32, true, signature_fields, "of the ticket"};

@@ -1,13 +1,12 @@
 // The register map of a cell, version 1.1: every block and every field, as tables.
 //
-// Addresses are 0-based, as in the PDU; the encoding is that of register_writer.h. Every block fits one request. The
-// file docs/registers.md is what print_registers() returns (tests/devices/registers_test.cpp).
+// Addresses are 0-based, as in the PDU; the encoding is that of register_writer.h. Every block fits one request.
+// docs/registers.md is printed from these tables (tests/devices/registers_test.cpp).
 
 #pragma once
 
 #include <cstdint>
 #include <span>
-#include <string>
 
 #include "devices/codes.h"
 #include "devices/field.h"
@@ -20,7 +19,7 @@ constexpr std::uint16_t chunk_head = 5;  // registers of CHUNK before the data
 
 extern const Block status_block;
 extern const Block result_block;
-extern const Block identity_block;  // since 1.1
+extern const Block identity_block;
 extern const Block command_block;
 extern const Block ticket_block;
 extern const Block signature_block;
@@ -32,8 +31,5 @@ std::span<const Block* const> all_blocks();
 const Field* field_named(const Block& block, const char* field_name);
 // Precondition: the block has that field.
 std::uint16_t address_of(const Block& block, const char* field_name);
-
-// The text of docs/registers.md.
-std::string print_registers();
 
 }  // namespace qchopper

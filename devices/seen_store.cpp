@@ -18,7 +18,6 @@ std::string loss_between(const SeenStore& before, const SeenStore& now) {
     const auto fell = [](const char* counter, std::uint32_t from, std::uint32_t to) {
         return std::string(counter) + " went back from " + std::to_string(from) + " to " + std::to_string(to);
     };
-    if (before.store_id != Uuid{} && now.store_id == Uuid{}) return "it shows no STORE_ID any more";
     if (before.store_id != Uuid{} && before.store_id != now.store_id) {
         return "its STORE_ID is " + to_text(now.store_id) + " and was " + to_text(before.store_id);
     }
@@ -28,8 +27,7 @@ std::string loss_between(const SeenStore& before, const SeenStore& now) {
     return {};
 }
 
-std::optional<SeenStore> read_store(RegisterBus& bus, const Status& status) {
-    if (!has_identity(status.version)) return seen_store(status, {});
+std::optional<SeenStore> read_store(RegisterBus& bus) {
     const HandOffInput input = read_identity_block(bus);
     if (!input.identity) return std::nullopt;
     return seen_store(*input.identity);

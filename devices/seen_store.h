@@ -15,10 +15,10 @@ SeenStore seen_store(const Status& status, const Uuid& store_id);
 SeenStore seen_store(const Identity& identity);
 
 // What shows that `now` is not the memory that showed `before`, or "" if nothing does: another STORE_ID, or a counter
-// that went back. A cell of map 1.0 has the counters only.
+// that went back.
 std::string loss_between(const SeenStore& before, const SeenStore& now);
 
-// Reads IDENTITY, or takes the counters of `status` from a cell of map 1.0. Nothing if it cannot be read.
-std::optional<SeenStore> read_store(RegisterBus& bus, const Status& status);
+// Reads IDENTITY. Nothing if it cannot be read.
+std::optional<SeenStore> read_store(RegisterBus& bus);
 
 }  // namespace qchopper

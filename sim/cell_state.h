@@ -30,7 +30,6 @@ struct CellTool {
 // What this cell is and can do. The defaults of reach and stock are far above any bone.
 struct CellLimits {
     std::uint16_t cell_id = any_cell_id;
-    std::uint16_t version = map_version;  // of the register map that it serves; map_version_1_0: a cell of before
     Consent consent = Consent::automatic;
     double speed = 1;  // simulated seconds of a job per second
     Box reach{{-5000, -5000, -5000}, {5000, 5000, 5000}};
@@ -77,12 +76,12 @@ struct CellTime {
 
 // What outlives a power cut.
 struct CellMemory {
-    Uuid store_id{};  // drawn when the memory was made; 0 in that of a cell of version 1.0
+    Uuid store_id{};  // drawn when the memory was made
     std::uint64_t store_created_ms = 0;
     std::uint32_t boot_count = 0;
     std::uint32_t epoch_held = 0;
     std::uint32_t starts_total = 0;
-    std::uint64_t mark = 0;                         // random, another one at each write; 0 in that of version 1.0
+    std::uint64_t mark = 0;                         // random, another one at each write
     std::map<std::uint32_t, std::uint32_t> grants;  // of every CLAIM ever granted: its random number, its epoch
     std::map<Uuid, JobRecord> jobs;                 // every id ever started or cancelled
     bool operator==(const CellMemory&) const = default;

@@ -31,8 +31,7 @@ void log(CellState& cell, const CellHooks& hooks, const std::string& line) {
 bool save(CellState& cell, CellMemory& memory, const CellHooks& hooks) {
     count_step(cell);  // cut before the write
     if (cell.power.lost || take(cell.faults, Fault::disk_full)) return false;
-    const bool has_mark = has_identity(cell.limits.version);
-    memory.mark = has_mark ? next_random(cell.random) | 1U : 0;
+    memory.mark = next_random(cell.random) | 1U;
     if (cell.checks_store && !hooks.write_marks({cell.saved_mark, memory.mark})) return false;
     if (hooks.save && !hooks.save(memory)) return false;
     cell.saved_mark = memory.mark;
@@ -81,9 +80,9 @@ CellState boot(const CellLimits& limits, CellMemory memory, std::uint64_t seed, 
     cell.random = seed;
     cell.booted = now;
     cell.state_since_ms = now.steady_ms;
-    cell.checks_store = has_identity(limits.version) && hooks.read_marks && hooks.write_marks;
+    cell.checks_store = hooks.read_marks && hooks.write_marks;
     cell.saved_mark = cell.memory.mark;
-    const bool is_new = cell.memory.store_id == Uuid{} && has_identity(limits.version);
+    const bool is_new = cell.memory.store_id == Uuid{};
     const bool is_older = !is_new && cell.checks_store && !is_last_written(cell.memory, hooks.read_marks());
     if (is_older) cell::log(cell, hooks, "the store is not the one that was written last: it gets another STORE_ID");
     if (is_new || is_older) draw_store_id(cell, now);
@@ -203,7 +202,6 @@ std::uint16_t heartbeat_of(const CellState& cell, CellTime now) {
 
 Status status_of(const CellState& cell, CellTime now) {
     Status s;
-    s.version = cell.limits.version;
     s.snapshot = static_cast<std::uint16_t>(now.steady_ms);
     s.heartbeat = cell.frozen_heartbeat.value_or(heartbeat_of(cell, now));
     s.boot_count = cell.memory.boot_count;
@@ -237,7 +235,7 @@ Status status_of(const CellState& cell, CellTime now) {
 
 Identity identity_of(const CellState& cell) {
     const CellMemory& memory = cell.memory;
-    return {cell.limits.version,
+    return {map_version,
             memory.store_id,
             memory.boot_count,
             memory.epoch_held,

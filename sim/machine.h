@@ -15,8 +15,8 @@
 namespace qchopper {
 
 // The state after power on. A job that is running in `memory` was interrupted by a power cut: it becomes aborted, and
-// the machine is in Aborted; otherwise it is in Stopped. Nothing starts by itself. A memory without store id gets one,
-// unless the cell is of version 1.0; one whose mark is neither of those that the hooks read gets another. `seed` is for
+// the machine is in Aborted; otherwise it is in Stopped. Nothing starts by itself. A memory without store id gets one;
+// one whose mark is neither of those that the hooks read gets another. `seed` is for
 // tokens, receipts and that id.
 CellState boot(const CellLimits& limits, CellMemory memory, std::uint64_t seed, CellTime now, const CellHooks& hooks);
 

@@ -38,8 +38,7 @@ AckResult reason_of(BlockFault fault) {
     return fault == BlockFault::version ? AckResult::bad_version : AckResult::bad_crc;
 }
 
-bool is_known(CellCommand command, std::uint16_t version) {
-    if (command == CellCommand::query_file && !has_identity(version)) return false;
+bool is_known(CellCommand command) {
     return std::find(all_commands.begin(), all_commands.end(), command) != all_commands.end();
 }
 
@@ -100,8 +99,8 @@ Answer claim(CellState& cell, const Command& command, CellTime now, const CellHo
     }
     CellMemory next = cell.memory;
     next.epoch_held = command.epoch;
-    const std::uint32_t grant = has_identity(cell.limits.version) ? random_number(cell) : 0;
-    if (grant != 0) next.grants[grant] = command.epoch;
+    const std::uint32_t grant = random_number(cell);
+    next.grants[grant] = command.epoch;
     if (!save(cell, next, hooks)) return {AckResult::store_io, 0};
     cell.memory = std::move(next);
     drop_preparation(cell, AckResult::stale_epoch);
@@ -385,7 +384,7 @@ Answer job_command(CellState& cell, const Command& command, CellTime now, const 
 
 Answer execute(CellState& cell, const Command& command, CellTime now, const CellHooks& hooks) {
     if (command.owner == 0) return {AckResult::not_owner, 0};
-    if (!is_known(command.command, cell.limits.version)) return {AckResult::unknown_cmd, 0};
+    if (!is_known(command.command)) return {AckResult::unknown_cmd, 0};
     if (command.command == CellCommand::claim) return claim(cell, command, now, hooks);
     if (needs_lease(command.command)) {
         if (command.epoch < cell.memory.epoch_held) return {AckResult::stale_epoch, cell.memory.epoch_held};

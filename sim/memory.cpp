@@ -16,9 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// A memory without a store id, of a cell of version 1.0, has schema 2 and neither mark nor grants.
 constexpr int schema = 4;
-constexpr int schema_without_id = 2;
 
 // Throws std::invalid_argument, caught below.
 template <std::size_t N>
@@ -77,16 +75,13 @@ JobRecord record_from(const Json& json) {
 
 CellMemory from_text(std::string_view text) {
     const Json json = Json::parse(text);
-    const auto given = whole<std::uint16_t>(json, "schema");
-    if (given != schema && given != schema_without_id) throw std::invalid_argument("another schema");
+    if (whole<std::uint16_t>(json, "schema") != schema) throw std::invalid_argument("another schema");
     CellMemory memory;
-    if (given == schema) {
-        memory.store_id = id_from<16>(json.at("store_id").get<std::string>());
-        memory.store_created_ms = whole<std::uint64_t>(json, "store_created_ms");
-        memory.mark = whole<std::uint64_t>(json, "mark");
-        for (const auto& [number, epoch] : json.at("grants").items()) {
-            memory.grants[number_from(number)] = epoch.get<std::uint32_t>();
-        }
+    memory.store_id = id_from<16>(json.at("store_id").get<std::string>());
+    memory.store_created_ms = whole<std::uint64_t>(json, "store_created_ms");
+    memory.mark = whole<std::uint64_t>(json, "mark");
+    for (const auto& [number, epoch] : json.at("grants").items()) {
+        memory.grants[number_from(number)] = epoch.get<std::uint32_t>();
     }
     memory.boot_count = whole<std::uint32_t>(json, "boot_count");
     memory.epoch_held = whole<std::uint32_t>(json, "epoch_held");
@@ -102,19 +97,17 @@ CellMemory from_text(std::string_view text) {
 std::string to_json(const CellMemory& memory) {
     Json jobs = Json::object();
     for (const auto& [id, record] : memory.jobs) jobs[to_hex(id)] = to_json(record);
-    const bool has_id = memory.store_id != Uuid{};
-    Json all = {{"schema", has_id ? schema : schema_without_id},
+    Json grants = Json::object();
+    for (const auto& [number, epoch] : memory.grants) grants[std::to_string(number)] = epoch;
+    Json all = {{"schema", schema},
+                {"store_id", to_hex(memory.store_id)},
+                {"store_created_ms", memory.store_created_ms},
+                {"mark", memory.mark},
+                {"grants", std::move(grants)},
                 {"boot_count", memory.boot_count},
                 {"epoch_held", memory.epoch_held},
                 {"starts_total", memory.starts_total},
                 {"jobs", std::move(jobs)}};
-    if (has_id) {
-        all["store_id"] = to_hex(memory.store_id);
-        all["store_created_ms"] = memory.store_created_ms;
-        all["mark"] = memory.mark;
-        all["grants"] = Json::object();
-        for (const auto& [number, epoch] : memory.grants) all["grants"][std::to_string(number)] = epoch;
-    }
     const std::string text = all.dump(1);
     all["sha256"] = to_hex(sha256({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
     return all.dump(1) + "\n";

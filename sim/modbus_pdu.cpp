@@ -25,10 +25,14 @@ std::uint16_t u16_at(std::span<const std::uint8_t> bytes, std::size_t at) {
     return static_cast<std::uint16_t>((bytes[at] << 8U) | bytes[at + 1]);
 }
 
+// Two bytes: the function code with its high bit set, and the exception code.
+Bytes exception_pdu(std::uint8_t function, std::uint8_t code) {
+    return {static_cast<std::uint8_t>(function | 0x80U), code};
+}
+
 // Nothing if the cell has no such block.
-const Block* block_around(const CellState& cell, Side side, std::uint32_t address, std::uint32_t count) {
+const Block* block_around(Side side, std::uint32_t address, std::uint32_t count) {
     for (const Block* block : all_blocks()) {
-        if (block == &identity_block && !has_identity(cell.limits.version)) continue;
         if (block->side == side && block->contains(address, count)) return block;
     }
     return nullptr;
@@ -52,7 +56,7 @@ Bytes answer_read(Side side, std::span<const std::uint8_t> pdu, CellState& cell,
     const std::uint16_t address = u16_at(pdu, 1);
     const std::uint16_t count = u16_at(pdu, 3);
     if (count < 1 || count > most_read) return exception_pdu(pdu[0], illegal_value);
-    const Block* block = block_around(cell, side, address, count);
+    const Block* block = block_around(side, address, count);
     if (block == nullptr) return exception_pdu(pdu[0], illegal_address);
     pass_time(cell, now, hooks);
     const Registers registers = read_block(*block, cell, now);
@@ -98,7 +102,7 @@ Bytes answer_write(std::span<const std::uint8_t> pdu, CellState& cell, CellTime 
     const std::uint16_t count = u16_at(pdu, 3);
     const bool fits = count >= 1 && count <= most_written && pdu[5] == 2 * count && pdu.size() == 6U + 2U * count;
     if (!fits) return exception_pdu(pdu[0], illegal_value);
-    const Block* block = block_around(cell, Side::holding, address, count);
+    const Block* block = block_around(Side::holding, address, count);
     if (block == nullptr || address != block->base) return exception_pdu(pdu[0], illegal_address);
     const bool is_whole = block == &chunk_block ? count > chunk_head : count == block->count;
     if (!is_whole) return exception_pdu(pdu[0], illegal_address);
@@ -112,10 +116,6 @@ Bytes answer_write(std::span<const std::uint8_t> pdu, CellState& cell, CellTime 
 }
 
 }  // namespace
-
-Bytes exception_pdu(std::uint8_t function, std::uint8_t code) {
-    return {static_cast<std::uint8_t>(function | 0x80U), code};
-}
 
 Bytes answer_pdu(std::uint8_t unit, std::span<const std::uint8_t> pdu, CellState& cell, CellTime now,
                  const CellHooks& hooks) {

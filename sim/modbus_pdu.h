@@ -18,7 +18,4 @@ namespace qchopper {
 Bytes answer_pdu(std::uint8_t unit, std::span<const std::uint8_t> pdu, CellState& cell, CellTime now,
                  const CellHooks& hooks);
 
-// Two bytes: the function code with its high bit set, and the exception code.
-Bytes exception_pdu(std::uint8_t function, std::uint8_t code);
-
 }  // namespace qchopper

@@ -192,14 +192,4 @@ std::string to_text(const ScriptLine& line) {
     }
 }
 
-std::string print_faults() {
-    std::string out = "| fault | number | usual | what happens |\n|---|---|---|---|\n";
-    for (const NamedFault& row : all_faults()) {
-        const bool has_number = row.argument[0] != '\0';
-        out += std::string("| `") + row.name + "` | " + (has_number ? row.argument : "-") + " | " +
-               (has_number ? std::to_string(row.usual) : "-") + " | " + row.meaning + " |\n";
-    }
-    return out;
-}
-
 }  // namespace qchopper

@@ -59,7 +59,4 @@ std::optional<ScriptLine> parse_script_line(std::string_view text, std::size_t l
 std::vector<ScriptLine> parse_script(std::string_view text, const std::string& name);
 std::string to_text(const ScriptLine& line);
 
-// Rows of a Markdown table: the faults with the meaning of their numbers.
-std::string print_faults();
-
 }  // namespace qchopper

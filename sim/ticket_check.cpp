@@ -72,7 +72,7 @@ std::optional<TicketFault> wrong_field(const WireTicket& t, std::span<const std:
     if (t.piece_no < 1 || t.piece_no > t.piece_count) return fault_in("PIECE_NO");
     if (t.on_link_loss != LinkLoss::go_on && t.on_link_loss != LinkLoss::hold) return fault_in("ON_LINK_LOSS");
     if (t.requirements > 1) return fault_in("REQUIREMENTS");
-    const bool is_divided = has_identity(limits.version) && (t.part != 0 || t.parts != 0);
+    const bool is_divided = t.part != 0 || t.parts != 0;
     if (is_divided && (t.part < 1 || t.part > t.parts)) return fault_in("PART");
     if (!is_divided && t.part != 0) return fault_in("PART");
     if (!is_divided && t.parts != 0) return fault_in("PARTS");

@@ -171,7 +171,6 @@ struct CellSimArguments {
     std::optional<std::filesystem::path> store;
     std::optional<std::filesystem::path> cell;
     double speed = 1;
-    std::string map = "1.1";  // version of the register map
     std::optional<std::filesystem::path> script;
     bool list_faults = false;
 };

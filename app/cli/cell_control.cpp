@@ -113,7 +113,7 @@ int show_status(Reached& reached, Terminal& terminal) {
     CellStatusReport report;
     report.endpoint = reached.endpoint;
     report.status = reached.status;
-    report.store = read_store(reached.bus, reached.status);
+    report.store = read_store(reached.bus);
     std::error_code error;
     report.has_journal = std::filesystem::exists(reached.folder / "journal.sqlite", error);
     if (report.has_journal) {
@@ -127,7 +127,7 @@ int show_status(Reached& reached, Terminal& terminal) {
 
 // What was open is settled with it: what became of these jobs only the operator knows.
 int accept_store(const CellControlArguments& arguments, Reached& reached, Terminal& terminal) {
-    const std::optional<SeenStore> now = read_store(reached.bus, reached.status);
+    const std::optional<SeenStore> now = read_store(reached.bus);
     if (!now) throw DeviceError(DeviceFault::protocol, "the IDENTITY of the cell cannot be read", "Try again.");
     Journal journal(reached.folder, reached.cell);
     const JournalHistory history = history_of(journal.content().rows);

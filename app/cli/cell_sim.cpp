@@ -35,7 +35,6 @@ CellSimOptions options_of(const CellSimArguments& arguments, const TcpAddress& a
     options.drop_folder = arguments.drop;
     if (arguments.store) options.store_folder = *arguments.store;
     options.limits.speed = arguments.speed;
-    options.limits.version = arguments.map == "1.0" ? map_version_1_0 : map_version;
     options.limits.consent = arguments.consent == "auto"  ? Consent::automatic
                              : arguments.consent == "ask" ? Consent::ask
                                                           : Consent::never;

@@ -92,8 +92,8 @@ int run(const CellsReachArguments& arguments, Terminal& terminal) {
     const Cell cell = read_cell(arguments.file);
     if (!cell.machine) {
         throw InputError(InputFault::use,
-                         arguments.file.string() + " describes no machine (version 1), so what it holds is not known",
-                         "describe it as docs/cell-file.md says, or ask a cell of version 2: qchopper cells list");
+                         arguments.file.string() + " describes no machine, so what it holds is not known",
+                         "describe it as docs/cell-file.md says, or ask a cell that has one: qchopper cells list");
     }
     const Vec3 block = arguments.block ? *lengths_from(*arguments.block) : largest_stock_size(cell);
     const double tilt = arguments.tilt_deg * std::numbers::pi / 180;

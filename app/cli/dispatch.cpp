@@ -105,7 +105,6 @@ DispatchOptions options_of(const DispatchArguments& arguments, const Cell& cell,
     options.again = arguments.again;
     options.rehearse = arguments.rehearse;
     options.takeover_code = arguments.takeover_code.value_or(0);
-    options.has_parts = has_identity(status.version);
     options.owner_held = status.owner_held;
     return options;
 }

@@ -268,8 +268,6 @@ struct Parser {
             ->check(number_between(1e-3, 1e9, "a factor above 0"));
         c->add_option("--script", cell_sim.script, "perform the commands of this file; standard input takes the same");
         c->add_flag("--list-faults", cell_sim.list_faults, "list the faults that a script can order, and end");
-        c->add_option("--map", cell_sim.map, "version of the register map: 1.1, or 1.0 as older cells (1.1)")
-            ->check(one_of({"1.0", "1.1"}));
         add_common(c, common, [this] { common.command = cell_sim; });
     }
 

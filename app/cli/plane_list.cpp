@@ -9,7 +9,9 @@
 #include "base/file.h"
 
 namespace qchopper {
+namespace {
 
+// `name` stands for the file.
 std::vector<Plane> plane_list(std::string_view text, const std::string& name) {
     std::vector<Plane> planes;
     for (std::size_t line = 1; !text.empty(); ++line) {
@@ -35,6 +37,8 @@ std::vector<Plane> plane_list(std::string_view text, const std::string& name) {
     }
     return planes;
 }
+
+}  // namespace
 
 std::vector<Plane> planes_of_file(const std::filesystem::path& file) {
     const Bytes bytes = read_file(file, settings_limit);

@@ -108,12 +108,11 @@ bool take_up_open_jobs(const std::vector<PieceJob>& jobs, RegisterBus& bus, cons
     return true;
 }
 
-// By the journal the file was started before, or may have been, and the cell does not know: its memory is younger, or
-// its map is 1.0.
+// By the journal the file was started before, or may have been, and the cell does not know: its memory is younger.
 std::optional<JobOutcome> carved_before(const JournalHistory& history, const PieceJob& job,
                                         const DispatchOptions& options) {
     const JournalJob* before = history.last_start_of(job.ticket.file_sha256);
-    if (before == nullptr || options.again || (options.has_parts && !before->is_forgotten)) return std::nullopt;
+    if (before == nullptr || options.again || !before->is_forgotten) return std::nullopt;
     JobOutcome outcome;
     outcome.verdict = StartVerdict::not_started;
     if (!before->is_started) {

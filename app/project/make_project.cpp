@@ -35,7 +35,7 @@ std::optional<Vec3> room_in_largest_block(const Cell& cell) {
     std::optional<Vec3> largest;
     const auto volume = [](Vec3 v) { return v.x * v.y * v.z; };
     for (const Stock& stock : cell.stock) {
-        const Vec3 room = stock.size - cell.stock_margin * Vec3{2, 2, 1};
+        const Vec3 room = stock.size - cell.stock_margin() * Vec3{2, 2, 1};
         if (!(room.x > 0 && room.y > 0 && room.z > 0)) continue;
         if (!largest || volume(room) > volume(*largest)) largest = room;
     }

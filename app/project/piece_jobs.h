@@ -19,8 +19,8 @@
 
 namespace qchopper {
 
-// The share of a piece's surface that may stay out of reach: the operator's, or else the cell's. A cell of version 1
-// sets no limit: 1.
+// The share of a piece's surface that may stay out of reach: the operator's, or else the cell's. A cell without a
+// machine sets no limit: 1.
 double most_unreachable(const Project& project, const Cell& cell);
 
 // The result of prepare for one piece.

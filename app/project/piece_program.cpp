@@ -183,7 +183,7 @@ void add_proof(ProgramInput& input, const JobProof& proof, const TriangleMesh& m
 }  // namespace
 
 std::string no_programs_for(const Cell& cell) {
-    if (!cell.machine) return "the cell file is of version 1 and describes no machine";
+    if (!cell.machine) return "the cell file describes no machine";
     const Dialect dialect = cell.machine->program.dialect;
     if (dialect == Dialect::krl) return {};
     return std::string("programs in the dialect ") + to_word(dialect) + " are not written yet";

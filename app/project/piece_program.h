@@ -28,7 +28,7 @@ struct PiecePrograms {
     std::vector<DrawnCap> caps;        // of the piece, with who drills each hole (decide_holes())
 };
 
-// Empty for a cell for whose jobs programs can be made, else why not: version 1, or a dialect that cannot be written.
+// Empty for a cell for whose jobs programs can be made, else why not: no machine, or a dialect that cannot be written.
 std::string no_programs_for(const Cell& cell);
 
 // The caps are those of the piece (caps_of()): of their holes those that the robot can drill are drilled after

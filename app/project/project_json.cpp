@@ -68,7 +68,7 @@ ScanSource scan_from(const Json& json) {
     scan.faces = json.at("faces").get<std::size_t>();
     scan.volume_mm3 = json.at("volume_mm3").get<double>();
     scan.warnings = json.at("warnings").get<std::vector<std::string>>();
-    if (json.contains("repair")) scan.repair = repair_from(json.at("repair"));  // older projects have none
+    scan.repair = repair_from(json.at("repair"));
     return scan;
 }
 
@@ -108,7 +108,7 @@ std::vector<WrittenJob> jobs_from(const Json& json) {
     std::vector<WrittenJob> jobs;
     for (const Json& j : json) {
         jobs.push_back({j.at("piece").get<std::string>(), sha256_from(j.at("sha256")),
-                        j.at("project_id").get<std::string>(), j.value("part", std::uint16_t{1})});
+                        j.at("project_id").get<std::string>(), j.at("part").get<std::uint16_t>()});
     }
     return jobs;
 }
@@ -267,7 +267,7 @@ SetupVerdict verdict_from(const Json& json) {
     SetupVerdict verdict;
     for (const Json& cut : json.at("cuts")) verdict.cuts.push_back(cut_verdict_from(cut));
     verdict.is_done = json.at("done").get<bool>();
-    verdict.are_cuts_asked = json.value("cuts_are_asked", verdict.is_done);
+    verdict.are_cuts_asked = json.at("cuts_are_asked").get<bool>();
     return verdict;
 }
 
@@ -290,7 +290,7 @@ Project from_json(const Json& json) {
     project.history = history_from(json.at("history"));
     project.cuts = committed_cuts(project.history);
     project.discards = committed_discards(project.history);
-    if (json.contains("discarded")) project.discarded = solids_from(json.at("discarded"));
+    project.discarded = solids_from(json.at("discarded"));
     if (project.discarded.size() != project.discards.size()) {
         throw InputError(InputFault::config, "its list of discarded pieces is not that of its decisions");
     }
@@ -299,7 +299,7 @@ Project from_json(const Json& json) {
     project.pieces = solids_from(json.at("pieces"));
     project.fragment_list = solids_from(json.at("fragments"));
     project.warnings = json.at("warnings").get<std::vector<std::string>>();
-    project.has_programs = json.value("programs", true);
+    project.has_programs = json.at("programs").get<bool>();
     project.tools = json.value("tools", std::vector<std::uint16_t>());
     project.jobs = jobs_from(json.at("jobs"));
     return project;

@@ -51,8 +51,8 @@ class Setups {
     const Carving& of(const Piece& piece);
 
     // The setups that jobs are made of: with the place of the block, and another base or other directions where the
-    // machine does not hold every pose of the best one (held_setup.h). The same as compute() and of() in a cell of
-    // version 1.
+    // machine does not hold every pose of the best one (held_setup.h). The same as compute() and of() in a cell
+    // without a machine.
     void compute_held(std::span<const Piece> pieces, const Context& context);
     const Carving& held(const Piece& piece);
 
@@ -65,7 +65,7 @@ class Setups {
     // For the stop rules as well, by held(): whether the machine holds every pose of the setup, and the block is no
     // higher than the longest tool, or hardly any more of the surface is out of reach than of a tool without holder
     // that tilts in all directions. A piece that is shorter than that tool always is, because cutting it further is no
-    // cure. True in a cell of version 1.
+    // cure. True in a cell without a machine.
     bool is_carvable(const Piece& piece);
     UnreachableSurface unreachable(const Piece& piece);
     // By the setup that its job is made of, held().

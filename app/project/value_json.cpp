@@ -44,6 +44,16 @@ CarvedSurface carved_surface_from(const Json& json) {
     return {json.at("unreachable_mm2").get<double>(), json.at("area_mm2").get<double>()};
 }
 
+Terms terms_from(const Json& json) {
+    Terms t;
+    for (std::size_t i = 0; i < all_objectives.size(); ++i) {
+        const ObjectiveField& field = all_objectives[i];
+        t.*field.value = i < always_named ? json.at(field.key).get<double>() : json.value(field.key, 0.0);
+    }
+    t.total = json.at("total").get<double>();
+    return t;
+}
+
 }  // namespace
 
 Json json_of(Vec3 v) {
@@ -80,16 +90,6 @@ Json json_of(const Terms& t) {
     }
     json["total"] = t.total;
     return json;
-}
-
-Terms terms_from(const Json& json) {
-    Terms t;
-    for (std::size_t i = 0; i < all_objectives.size(); ++i) {
-        const ObjectiveField& field = all_objectives[i];
-        t.*field.value = i < always_named ? json.at(field.key).get<double>() : json.value(field.key, 0.0);
-    }
-    t.total = json.at("total").get<double>();
-    return t;
 }
 
 Json json_of(const SolidRecord& solid) {

@@ -29,7 +29,6 @@ void add_scan(nlohmann::ordered_json& document, const Project& project);
 
 Vec3 vec3_from(const nlohmann::ordered_json& json);
 Weights weights_from(const nlohmann::ordered_json& json);
-Terms terms_from(const nlohmann::ordered_json& json);
 SolidRecord solid_from(const nlohmann::ordered_json& json);
 SearchSettings settings_from(const nlohmann::ordered_json& json);
 Cut cut_from(const nlohmann::ordered_json& json);

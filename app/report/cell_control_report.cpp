@@ -37,7 +37,6 @@ std::string job_text(const Status& status) {
 
 std::string store_text(const CellStatusReport& report) {
     if (!report.store) return "its IDENTITY cannot be read";
-    if (report.store->store_id == Uuid{}) return "not shown (map 1.0)";
     return to_text(report.store->store_id);
 }
 
@@ -48,7 +47,7 @@ std::string memory_text(const CellStatusReport& report) {
 
 Json store_json(const CellStatusReport& report) {
     if (!report.store) return {};
-    return {{"store_id", report.store->store_id == Uuid{} ? Json() : Json(to_text(report.store->store_id))},
+    return {{"store_id", to_text(report.store->store_id)},
             {"boot_count", report.store->boot_count},
             {"epoch_held", report.store->epoch_held},
             {"starts_total", report.store->starts_total}};

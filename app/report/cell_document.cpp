@@ -13,6 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr int version = 2;  // of all cell files that are read
+
 double degrees(double radians) {
     return radians * 180 / std::numbers::pi;
 }
@@ -103,39 +105,42 @@ Json start_json(const CellMachine& machine) {
     return {{"joints_deg", joints}};
 }
 
-Json machine_json(const CellMachine& machine) {
-    return {
-        {"robot", machine.robot ? robot_json(*machine.robot) : Json()},
-        {"rotary_table", machine.rotary_table ? rotary_table_json(*machine.rotary_table) : Json()},
-        {"spindle", spindle_json(machine.spindle)},
-        {"tools", list_json(machine.tools, tool_json)},
-        {"max_tilt_deg", degrees(machine.max_tilt)},
-        {"max_unreachable", machine.max_unreachable},
-        {"margin", {{"sides", machine.margins.sides}, {"top", machine.margins.top}, {"spoil", machine.margins.spoil}}},
-        {"holding",
-         {{"cutting_force_n", machine.holding.cutting_force},
-          {"strength", machine.holding.strength},
-          {"max_slenderness", machine.holding.max_slenderness}}},
-        {"obstacles", list_json(machine.obstacles,
-                                [](const Obstacle& obstacle) {
-                                    Json json{{"name", obstacle.name}};
-                                    json.update(box_json(obstacle.box));
-                                    return json;
-                                })},
-        {"start", start_json(machine)},
-        {"program",
-         {{"dialect", to_word(machine.program.dialect)},
-          {"memory_bytes", machine.program.memory_bytes},
-          {"lines_per_chunk", machine.program.lines_per_chunk},
-          {"link_feed_mm_per_s", machine.program.link_feed_mm_per_s},
-          {"acceleration_mm_per_s2", machine.program.acceleration},
-          {"turn_speed_deg_per_s", degrees(machine.program.turn_speed)},
-          {"joint_move_percent", 100 * machine.program.joint_share},
-          {"scallop", machine.program.scallop}}},
-        {"load_tolerance",
-         {{"mass_kg", machine.load_tolerance.mass_kg},
-          {"centre_mm", machine.load_tolerance.centre_mm},
-          {"inertia_kg_m2", machine.load_tolerance.inertia_kg_m2}}}};
+Json margins_json(const Margins& margins) {
+    return {{"sides", margins.sides}, {"top", margins.top}, {"spoil", margins.spoil}};
+}
+
+Json machine_json(const CellMachine& machine, const Margins& margins) {
+    return {{"robot", machine.robot ? robot_json(*machine.robot) : Json()},
+            {"rotary_table", machine.rotary_table ? rotary_table_json(*machine.rotary_table) : Json()},
+            {"spindle", spindle_json(machine.spindle)},
+            {"tools", list_json(machine.tools, tool_json)},
+            {"max_tilt_deg", degrees(machine.max_tilt)},
+            {"max_unreachable", machine.max_unreachable},
+            {"margin", margins_json(margins)},
+            {"holding",
+             {{"cutting_force_n", machine.holding.cutting_force},
+              {"strength", machine.holding.strength},
+              {"max_slenderness", machine.holding.max_slenderness}}},
+            {"obstacles", list_json(machine.obstacles,
+                                    [](const Obstacle& obstacle) {
+                                        Json json{{"name", obstacle.name}};
+                                        json.update(box_json(obstacle.box));
+                                        return json;
+                                    })},
+            {"start", start_json(machine)},
+            {"program",
+             {{"dialect", to_word(machine.program.dialect)},
+              {"memory_bytes", machine.program.memory_bytes},
+              {"lines_per_chunk", machine.program.lines_per_chunk},
+              {"link_feed_mm_per_s", machine.program.link_feed_mm_per_s},
+              {"acceleration_mm_per_s2", machine.program.acceleration},
+              {"turn_speed_deg_per_s", degrees(machine.program.turn_speed)},
+              {"joint_move_percent", 100 * machine.program.joint_share},
+              {"scallop", machine.program.scallop}}},
+            {"load_tolerance",
+             {{"mass_kg", machine.load_tolerance.mass_kg},
+              {"centre_mm", machine.load_tolerance.centre_mm},
+              {"inertia_kg_m2", machine.load_tolerance.inertia_kg_m2}}}};
 }
 
 Json stock_json(const Stock& stock) {
@@ -151,15 +156,11 @@ Json origin_json(const ValueOrigin& value) {
     return {{"table", value.table}, {"key", value.key}, {"origin", to_word(value.origin)}};
 }
 
-int version_of(const Cell& cell) {
-    return cell.machine ? 2 : 1;
-}
-
 Json listed_json(const ListedCell& row) {
     if (!row.cell) return {{"file", row.file}, {"error", row.error}};
     Json robot;
     if (row.cell->machine && row.cell->machine->robot) robot = row.cell->machine->robot->name;
-    return {{"file", row.file},       {"version", version_of(*row.cell)},
+    return {{"file", row.file},       {"version", version},
             {"name", row.cell->name}, {"id", row.cell->id},
             {"robot", robot},         {"may_be_dispatched", check_cell(*row.cell).may_be_dispatched()}};
 }
@@ -174,7 +175,7 @@ std::string document(const ShownCell& shown) {
     const Cell& cell = shown.cell;
     Json json = {{"schema", "qchopper-cell-1"},
                  {"file", shown.file},
-                 {"version", version_of(cell)},
+                 {"version", version},
                  {"name", cell.name},
                  {"id", cell.id},
                  {"reach", box_json(cell.reach)},
@@ -183,10 +184,11 @@ std::string document(const ShownCell& shown) {
                    {"size", {cell.table.size_x, cell.table.size_y}},
                    {"height", cell.table.height}}},
                  {"clearance", cell.clearance},
-                 {"stock_margin", cell.stock_margin},
+                 {"stock_margin", cell.stock_margin()},
                  {"stock", list_json(cell.stock, stock_json)},
                  {"tool", {{"number", cell.tool.number}, {"name", cell.tool.name}, {"diameter", cell.tool.diameter}}},
-                 {"machine", cell.machine ? machine_json(*cell.machine) : Json()}};
+                 {"machine", cell.machine ? machine_json(*cell.machine, cell.margins) : Json()}};
+    if (!cell.machine) json["margin"] = margins_json(cell.margins);
     if (shown.picture) json["picture"] = shown.picture->file;
     return text_of(json);
 }
@@ -211,7 +213,7 @@ std::string document(const PlacesInCell& places) {
 std::string document(const CheckedCell& checked) {
     return text_of({{"schema", "qchopper-cell-check-1"},
                     {"file", checked.file},
-                    {"version", version_of(checked.cell)},
+                    {"version", version},
                     {"uncertain", list_json(checked.check.uncertain, origin_json)},
                     {"missing", checked.check.missing},
                     {"against_dispatch", checked.check.against_dispatch},

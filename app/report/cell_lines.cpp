@@ -32,10 +32,6 @@ std::string machine_of(const Cell& cell) {
     return cell.machine->robot ? cell.machine->robot->name : "gantry of three axes";
 }
 
-std::string version_of(const Cell& cell) {
-    return cell.machine ? "2" : "1";
-}
-
 void add_robot(std::vector<std::string>& text, const Robot& robot) {
     text.push_back("robot      " + robot.name + ", payload " + number(robot.payload_kg) + " kg, base at " +
                    in_brackets(robot.base_in_cell.shift, 1));
@@ -102,13 +98,16 @@ void add_stock(std::vector<std::string>& text, const Cell& cell) {
     append(text, columns(rows));
 }
 
+std::string margins_line(const Margins& margins) {
+    return "margins    " + number(margins.sides) + " at the sides, " + number(margins.top) + " above, spoil layer " +
+           number(margins.spoil);
+}
+
 void add_limits(std::vector<std::string>& text, const CellMachine& machine) {
     if (machine.robot) {
         text.push_back("tilt       up to " + degrees(machine.max_tilt) + " degrees from the vertical");
     }
     text.push_back("surface    up to " + number(100 * machine.max_unreachable) + " % of a piece's may be unreachable");
-    text.push_back("margins    " + number(machine.margins.sides) + " at the sides, " + number(machine.margins.top) +
-                   " above, spoil layer " + number(machine.margins.spoil));
     text.push_back("holding    by tape or glue of " + number(machine.holding.strength) +
                    " N/mm2, against a cutting force of " + number(machine.holding.cutting_force) + " N; pieces up to " +
                    number(machine.holding.max_slenderness) + " times as high as wide");
@@ -159,13 +158,13 @@ std::vector<std::string> origin_lines(const std::vector<ValueOrigin>& values) {
 }  // namespace
 
 std::vector<std::string> lines(const std::vector<ListedCell>& cells) {
-    Rows rows{{"file", "version", "name", "robot", "dispatch"}};
+    Rows rows{{"file", "name", "robot", "dispatch"}};
     for (const ListedCell& row : cells) {
         if (!row.cell) {
             rows.push_back({row.file, "wrong: " + row.error});
             continue;
         }
-        rows.push_back({row.file, version_of(*row.cell), row.cell->name, machine_of(*row.cell),
+        rows.push_back({row.file, row.cell->name, machine_of(*row.cell),
                         check_cell(*row.cell).may_be_dispatched() ? "yes" : "no"});
     }
     return columns(rows);
@@ -174,7 +173,7 @@ std::vector<std::string> lines(const std::vector<ListedCell>& cells) {
 std::vector<std::string> lines(const ShownCell& shown) {
     const Cell& cell = shown.cell;
     std::vector<std::string> text{shown.file + ": \"" + cell.name + "\", cell " + std::to_string(cell.id) +
-                                  ", version " + version_of(cell) + "; lengths in mm"};
+                                  "; lengths in mm"};
     if (!cell.machine) text.emplace_back("robot      not described: the arm is not checked");
     if (cell.machine && !cell.machine->robot) text.emplace_back("robot      none: a gantry of three axes");
     if (cell.machine && cell.machine->robot) add_robot(text, *cell.machine->robot);
@@ -183,7 +182,7 @@ std::vector<std::string> lines(const ShownCell& shown) {
     text.push_back(table_line(cell));
     if (cell.machine) add_spindle(text, *cell.machine);
     if (cell.machine) add_limits(text, *cell.machine);
-    if (!cell.machine) text.push_back("margin     " + number(cell.stock_margin) + " at the sides and above");
+    text.push_back(margins_line(cell.margins));
     text.push_back("clearance  " + number(cell.clearance) + " above the block");
     add_tools(text, cell);
     add_stock(text, cell);
@@ -194,8 +193,7 @@ std::vector<std::string> lines(const ShownCell& shown) {
 }
 
 std::vector<std::string> lines(const CheckedCell& checked) {
-    std::vector<std::string> text{checked.file + ": version " + version_of(checked.cell) + ", " +
-                                  machine_of(checked.cell)};
+    std::vector<std::string> text{checked.file + ": " + machine_of(checked.cell)};
     append(text, origin_lines(checked.check.uncertain));
     for (const std::string& sentence : checked.check.missing) text.push_back("missing      " + sentence);
     for (const std::string& sentence : checked.check.against_dispatch) text.push_back("no dispatch  " + sentence);

@@ -151,7 +151,7 @@ std::string share_word(double share) {
 
 std::string arm_note(const Cell& cell) {
     if (cell.machine) return {};
-    return "Arm not checked: the cell file describes none (version 1); a tilt of up to 60 degrees is taken for "
+    return "Arm not checked: the cell file describes none; a tilt of up to 60 degrees is taken for "
            "possible.";
 }
 

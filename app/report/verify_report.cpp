@@ -20,6 +20,13 @@ std::string figure_word(const ProofFigure& figure) {
     return figure.name + " " + fixed(figure.value, figure.decimals) + (figure.unit.empty() ? "" : " " + figure.unit);
 }
 
+// The figures that people look at first: "gouge 0.08 mm, 99.81 % within tolerance, 96.2 % reachable".
+std::string figures_word(const JobVerdict& verdict) {
+    std::string words;
+    for (const ProofFigure& figure : verdict.figures) words += (words.empty() ? "" : ", ") + figure_word(figure);
+    return words;
+}
+
 Json json_of_job(const VerifiedJob& job) {
     const JobVerdict& v = job.verdict;
     Json figures = Json::object();
@@ -53,12 +60,6 @@ void add_findings(const JobVerdict& verdict, std::vector<std::string>& text) {
 
 bool is_all_positive(const VerifyAnswer& answer) {
     return std::all_of(answer.begin(), answer.end(), [](const VerifiedJob& job) { return job.verdict.is_positive; });
-}
-
-std::string figures_word(const JobVerdict& verdict) {
-    std::string words;
-    for (const ProofFigure& figure : verdict.figures) words += (words.empty() ? "" : ", ") + figure_word(figure);
-    return words;
 }
 
 std::vector<std::string> lines(const VerifyAnswer& answer) {

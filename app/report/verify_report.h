@@ -11,9 +11,6 @@ namespace qchopper {
 
 bool is_all_positive(const VerifyAnswer& answer);
 
-// The figures that people look at first: "gouge 0.08 mm, 99.81 % within tolerance, 96.2 % reachable".
-std::string figures_word(const JobVerdict& verdict);
-
 std::vector<std::string> lines(const VerifyAnswer& answer);
 // The document qchopper-verify-1 (tests/app/cli/verify_test.cpp).
 std::string document(const VerifyAnswer& answer);

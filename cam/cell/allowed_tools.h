@@ -12,7 +12,7 @@
 
 namespace qchopper {
 
-// The cell without its other tools; `numbers` empty: as it is. Throws InputError (use) if the cell is of version 1, has
+// The cell without its other tools; `numbers` empty: as it is. Throws InputError (use) if the cell has no machine, has
 // no tool of a number, or if none of the tools is ball-ended, because others do not finish. O(tools).
 Cell with_tools(const Cell& cell, const std::vector<std::uint16_t>& numbers);
 

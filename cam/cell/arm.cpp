@@ -268,25 +268,6 @@ bool is_within(const JointRanges& ranges, double margin, const Joints& joints) {
     return true;
 }
 
-std::vector<Joints> turns_within(const JointRanges& ranges, double margin, const Joints& joints) {
-    std::vector<Joints> found{joints};
-    for (std::size_t axis = 0; axis < axes_of_arm; ++axis) {
-        const double min = ranges[axis].min + margin;
-        const double max = ranges[axis].max - margin;
-        const std::optional<double> lowest = nearest_turn(joints[axis], min, max, min);
-        if (!lowest || !std::isfinite(min) || !std::isfinite(max)) return {};
-        std::vector<Joints> turned;
-        for (const Joints& before : found) {
-            for (int turns = 0; *lowest + turns * full_turn <= max; ++turns) {
-                turned.push_back(before);
-                turned.back()[axis] = *lowest + turns * full_turn;
-            }
-        }
-        found = std::move(turned);
-    }
-    return found;
-}
-
 ArmSingularity singularity(const ArmGeometry& arm, const Joints& joints) {
     const ArmFrames frames = frames_of(arm, joints);
     const Vec3 from_axis_2 = frames.wrist_centre - frames.axis_2;
@@ -320,22 +301,6 @@ Jacobian jacobian(const ArmGeometry& arm, const Joints& joints) {
         }
     }
     return rows;
-}
-
-std::optional<Joints> joint_speeds(const ArmGeometry& arm, const Joints& joints, Vec3 tip_in_flange,
-                                   const CartesianVelocity& tip) {
-    if (!is_finite(joints) || !is_finite(tip_in_flange) || !is_finite(tip.linear) || !is_finite(tip.angular)) {
-        return std::nullopt;
-    }
-    const Vec3 from_flange = rotate(forward(arm, joints), tip_in_flange);
-    const Vec3 linear = tip.linear - cross(tip.angular, from_flange);
-    const double scale = 1 / (arm.c2 + Forearm(arm).length);
-    Jacobian rows = jacobian(arm, joints);
-    for (std::size_t row = 0; row < 3; ++row) {
-        for (double& value : rows[row]) value *= scale;
-    }
-    return solved(rows,
-                  {scale * linear.x, scale * linear.y, scale * linear.z, tip.angular.x, tip.angular.y, tip.angular.z});
 }
 
 std::optional<Joints> largest_joint_speeds(const ArmGeometry& arm, const Joints& joints) {

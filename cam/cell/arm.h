@@ -4,8 +4,8 @@
 // After M. Brandstötter, A. Angerer and M. Hofbaur, "An analytical solution of the inverse kinematics problem of
 // industrial serial manipulators with an ortho-parallel basis and a spherical wrist" (2014). mm, radians, seconds. A
 // pose is that of the flange in the frame of the robot's base: z up, x forward at zero; the flange's z points out of
-// it. Pure functions, for any number of threads; only turns_within() allocates. forward() of every answer of inverse()
-// is the pose that was asked for, to 1e-6 mm and 1e-9 rad (tests/cam/cell/arm_test.cpp).
+// it. Pure functions that allocate nothing, for any number of threads. forward() of every answer of inverse() is the
+// pose that was asked for, to 1e-6 mm and 1e-9 rad (tests/cam/cell/arm_test.cpp).
 //
 // An angle is a rotation in the convention of the paper, a joint is what the controller shows. Preconditions of all
 // functions: c2 > 0, a2 and c3 are not both 0, each sign is 1 or -1.
@@ -16,7 +16,6 @@
 #include <cassert>
 #include <cstddef>
 #include <optional>
-#include <vector>
 
 #include "base/pose.h"
 
@@ -105,17 +104,12 @@ class ArmAnswers {
 ArmAnswers inverse(const ArmGeometry& arm, const Pose& flange, const Joints& neighbour = {});
 
 // The answers of inverse() of which each joint, by whole turns, can lie in its range less `margin` (radians) at both
-// ends. Of the turns that lie there the one nearest to the neighbour's joint is given; turns_within() lists all.
+// ends. Of the turns that lie there the one nearest to the neighbour's joint is given.
 ArmAnswers inverse_within(const ArmGeometry& arm, const JointRanges& ranges, double margin, const Pose& flange,
                           const Joints& neighbour = {});
 
 // Whether each joint lies in its range less `margin` (radians) at both ends.
 bool is_within(const JointRanges& ranges, double margin, const Joints& joints);
-
-// All joints that differ from the given ones by whole turns of axes and lie in the ranges less `margin` (radians), in
-// ascending order of joint 1, then of joint 2 and so on. None if a joint or a range is not finite. Their number is the
-// product of the numbers of turns of the six axes.
-std::vector<Joints> turns_within(const JointRanges& ranges, double margin, const Joints& joints);
 
 // How near joints are to a singularity, where the arm cannot move in some direction. 0 is singular in each.
 struct ArmSingularity {
@@ -134,21 +128,10 @@ using Jacobian = std::array<std::array<double, axes_of_arm>, 6>;
 // The geometric Jacobian: velocity of the flange = jacobian * speeds of the joints.
 Jacobian jacobian(const ArmGeometry& arm, const Joints& joints);
 
-// Along x, y, z of the base.
-struct CartesianVelocity {
-    Vec3 linear;   // mm/s
-    Vec3 angular;  // rad/s
-};
-
-// Speeds of the joints (radians/s) at which the tool tip has a velocity; tip_in_flange is the tool tip in the frame of
-// the flange (mm). Nothing at a singularity, or if an argument is not finite: singular is a pivot of at most 1e-9 when
-// lengths are divided by that of the stretched arm.
-std::optional<Joints> joint_speeds(const ArmGeometry& arm, const Joints& joints, Vec3 tip_in_flange,
-                                   const CartesianVelocity& tip);
-
 // Of each joint the largest speed, per mm/s of the tool tip (radians/mm), over all directions in which the tip may move
 // while its orientation stays: the norm of the first three columns in its row of the inverse Jacobian. Where the tip
-// lies in the flange has no influence. Nothing as for joint_speeds().
+// lies in the flange has no influence. Nothing at a singularity, or if a joint is not finite: singular is a
+// pivot of at most 1e-9 when lengths are divided by that of the stretched arm.
 std::optional<Joints> largest_joint_speeds(const ArmGeometry& arm, const Joints& joints);
 
 }  // namespace qchopper

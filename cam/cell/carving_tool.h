@@ -1,4 +1,4 @@
-// A tool of a cell file of version 2, with its shape, its holder and what it may do. Lengths in mm.
+// A tool of a cell file, with its shape, its holder and what it may do. Lengths in mm.
 //
 // In what read_cell returns, the diameter is above zero, 0 < flute_length <= stick_out, no step of the holder is
 // narrower than the tool, and both windows have their least value below the largest.

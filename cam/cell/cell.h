@@ -6,6 +6,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <numbers>
@@ -121,7 +122,7 @@ struct LoadTolerance {
     bool operator==(const LoadTolerance&) const = default;
 };
 
-// What only version 2 tells.
+// What carves in the cell.
 struct CellMachine {
     std::optional<Robot> robot;  // nothing: a gantry of three axes, whose travel is Cell::reach
     Spindle spindle;
@@ -130,13 +131,11 @@ struct CellMachine {
     std::optional<RotaryTable> rotary_table;  // nothing: the table is fixed
     double max_tilt = 0;                      // of the tool axis from the vertical, radians
     double max_unreachable = 0.02;            // share of a piece's area without its base, 0..1
-    Margins margins;
     Holding holding;
     std::vector<Obstacle> obstacles;
     StartPose start;
     ProgramSettings program;
     LoadTolerance load_tolerance;
-    std::vector<ValueOrigin> origins;  // in the order of the tables; of keys that are given or have a default
     bool operator==(const CellMachine&) const = default;
 };
 
@@ -146,14 +145,18 @@ struct Cell {
     Box reach;             // what the tool tip reaches
     Table table;
     std::vector<Stock> stock;
-    double stock_margin = 0;  // foam kept around the piece: four sides and above; version 2: the larger of both margins
-    double clearance = 20;    // height above the block in which the tool travels
-    Tool tool;                // version 2: the first one
+    Margins margins;
+    double clearance = 20;  // height above the block in which the tool travels
+    Tool tool;              // the first one
     Link link;
     std::vector<DowelSize> dowels = default_dowels();  // largest first; empty: pieces are joined without dowels
     double dowel_play = default_dowel_play;
-    std::optional<CellMachine> machine;  // version 2; nothing: version 1, boxes only
+    std::optional<CellMachine> machine;  // nothing: boxes only
+    std::vector<ValueOrigin> origins;    // in the order of the tables; of keys that are given or have a default
     bool operator==(const Cell&) const = default;
+
+    // Foam kept around the piece: four sides and above.
+    double stock_margin() const { return std::max(margins.sides, margins.top); }
 };
 
 double bending_strength(const Stock& stock);  // N/mm2

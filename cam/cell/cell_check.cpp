@@ -52,7 +52,9 @@ bool is_uncertain(const ValueOrigin& value) {
     return value.origin != Origin::data_sheet && value.origin != Origin::measured;
 }
 
-std::vector<std::string> missing_of(const Cell& cell, const CellMachine& machine) {
+std::vector<std::string> missing_of(const Cell& cell) {
+    if (!cell.machine) return {"spindle: no machine is described, so no arm is checked and no program is made"};
+    const CellMachine& machine = *cell.machine;
     const Spindle& spindle = machine.spindle;
     const bool has_words = machine.program.dialect == Dialect::ngc;  // M3, M5 and S in place of signals
     const std::pair<bool, const char*> rows[] = {
@@ -78,22 +80,18 @@ std::vector<std::string> missing_of(const Cell& cell, const CellMachine& machine
 
 CellCheck check_cell(const Cell& cell) {
     CellCheck check;
-    if (!cell.machine) {
-        check.missing = {"robot: the file is of version 1, which describes none, so the arm is not checked",
-                         "source: version 1 does not tell where its values come from"};
-        return check;
-    }
-    const CellMachine& machine = *cell.machine;
-    for (const ValueOrigin& value : machine.origins) {
+    const bool has_robot = cell.machine && cell.machine->robot;
+    for (const ValueOrigin& value : cell.origins) {
         if (!is_uncertain(value)) continue;
         check.uncertain.push_back(value);
-        const Decisive* const row = decisive_of(value, machine.robot.has_value());
+        const Decisive* const row = decisive_of(value, has_robot);
         if (row == nullptr) continue;
         const std::string how = value.origin == Origin::assumed ? "assumed" : "given without its origin";
         check.against_dispatch.push_back(value.table + "." + value.key + " is " + how + ": " + std::string(row->what));
     }
-    check.missing = missing_of(cell, machine);
-    for (const CarvingTool& tool : machine.tools) {
+    check.missing = missing_of(cell);
+    if (!cell.machine) return check;
+    for (const CarvingTool& tool : cell.machine->tools) {
         if (tool.is_length_measured) continue;
         check.against_dispatch.push_back("tool " + std::to_string(tool.number) + ": its length is not measured");
     }

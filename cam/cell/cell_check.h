@@ -10,11 +10,11 @@
 namespace qchopper {
 
 struct CellCheck {
-    std::vector<ValueOrigin> uncertain;  // assumed, unstated or by default, in the order of CellMachine::origins
+    std::vector<ValueOrigin> uncertain;  // assumed, unstated or by default, in the order of Cell::origins
     std::vector<std::string> missing;    // what the file does not describe, one sentence each
     // Why no job may be handed to a real controller, one sentence each: a frame, a length of the arm, a joint limit or
-    // an axis' travel that is assumed or of unstated origin, or a tool whose length is not measured. Planning and
-    // simulation are allowed all the same. Always empty for version 1, which states no origins.
+    // an axis' travel that is assumed or of unstated origin, or a tool of a machine whose length is not measured.
+    // Planning and simulation are allowed all the same.
     std::vector<std::string> against_dispatch;
     bool may_be_dispatched() const { return against_dispatch.empty(); }
     bool operator==(const CellCheck&) const = default;

@@ -23,22 +23,6 @@ struct TableKeys {
     }
 };
 
-namespace keys_1 {
-
-inline constexpr auto root = std::to_array<std::string_view>(
-    {"name", "id", "reach", "table", "stock", "stock_margin", "clearance", "tool", "link", "version"});
-inline constexpr auto reach = std::to_array<std::string_view>({"min", "max"});
-inline constexpr auto table = std::to_array<std::string_view>({"centre", "size", "height"});
-inline constexpr auto stock = std::to_array<std::string_view>({"name", "size", "material"});
-inline constexpr auto tool = std::to_array<std::string_view>(
-    {"number", "name", "diameter", "spindle_max_rpm", "feed_max_mm_per_min", "removal_mm3_per_s"});
-inline constexpr auto link = std::to_array<std::string_view>({"to", "drop"});
-
-inline constexpr auto all = std::to_array<TableKeys>(
-    {{"", root}, {"reach", reach}, {"table", table}, {"stock", stock}, {"tool", tool}, {"link", link}});
-
-}  // namespace keys_1
-
 namespace keys_2 {
 
 inline constexpr auto root_keys = std::to_array<std::string_view>(
@@ -95,7 +79,7 @@ inline constexpr auto program_keys = std::to_array<std::string_view>(
     {"memory_bytes", "lines_per_chunk", "source", "sources", "dialect", "link_feed", "tool_change", "acceleration",
      "turn_speed_deg_per_s", "joint_move_percent", "scallop"});
 inline constexpr auto load_tolerance_keys = std::to_array<std::string_view>({"mass_kg", "centre_mm", "inertia_kg_m2"});
-
+inline constexpr auto link_keys = std::to_array<std::string_view>({"to", "drop"});
 inline constexpr auto dowel_keys = std::to_array<std::string_view>({"diameter", "depth", "wall"});
 
 inline constexpr TableKeys root{"", root_keys};
@@ -122,7 +106,7 @@ inline constexpr TableKeys holding{"holding", holding_keys};
 inline constexpr TableKeys start{"start", start_keys};
 inline constexpr TableKeys program{"program", program_keys};
 inline constexpr TableKeys load_tolerance{"load_tolerance", load_tolerance_keys};
-inline constexpr TableKeys link{"link", keys_1::link};
+inline constexpr TableKeys link{"link", link_keys};
 inline constexpr TableKeys dowel{"dowel", dowel_keys};
 
 inline constexpr auto all = std::to_array<TableKeys>(
@@ -130,6 +114,11 @@ inline constexpr auto all = std::to_array<TableKeys>(
      spindle, spindle_on, spindle_speed, spindle_at_speed, spindle_off, extraction, extraction_on,  extraction_off,
      tool,    stock,      obstacle,      margin,           start,       program,    load_tolerance, link,
      dowel,   holding});
+
+// Of a file that describes neither robot nor spindle these have no meaning.
+inline constexpr auto of_machines =
+    std::to_array<std::string_view>({"max_tilt_deg", "max_unreachable", "rotary_table", "extraction", "obstacle",
+                                     "start", "program", "load_tolerance", "holding"});
 
 }  // namespace keys_2
 }  // namespace qchopper

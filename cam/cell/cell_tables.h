@@ -1,4 +1,4 @@
-// Reads the tables of a cell file of version 2; read_cell.cpp puts them together.
+// Reads the tables of a cell file; read_cell.cpp puts them together.
 //
 // Every reader throws InputError (config) for an impossible value: file, line, key, why. Readers of tables with origins
 // add one row per value to `origins`.
@@ -19,7 +19,7 @@ namespace qchopper {
 using Origins = std::vector<ValueOrigin>;
 
 constexpr double smallest = 0.001;    // mm; lengths on the wire and in files are rounded to 0.001 to 0.01 mm
-constexpr double farthest_2 = 5'000;  // mm; a coordinate of version 2 that is larger is in a wrong unit
+constexpr double farthest_2 = 5'000;  // mm; a coordinate that is larger is in a wrong unit
 constexpr double degree = std::numbers::pi / 180;
 
 // Adds a row for each value that the table gives. `name` is the table's name in the rows.

@@ -60,7 +60,7 @@ struct TiltReach {
 
 struct ReachMap {
     ReachSection section;
-    std::vector<TiltReach> tilts;  // none if the cell describes no machine (version 1)
+    std::vector<TiltReach> tilts;  // none if the cell describes no machine
 };
 
 // The section holds the table, the reach box and the base of the robot, and of the rest what is reached on the table's

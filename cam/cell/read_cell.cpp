@@ -18,14 +18,13 @@
 namespace qchopper {
 namespace {
 
-constexpr double farthest = 100'000;  // mm; a coordinate of version 1 that is larger is in a wrong unit
 constexpr std::size_t most_blocks = 1000;
 constexpr std::size_t most_obstacles = 1000;
 constexpr std::size_t most_dowels = 12;
 
 // `name` is the table's, for messages.
-Box read_box(const TomlReader& reader, const std::string& name, double most) {
-    const Box box{reader.vector("min", -most, most), reader.vector("max", -most, most)};
+Box read_box(const TomlReader& reader, const std::string& name) {
+    const Box box{reader.vector("min", -farthest_2, farthest_2), reader.vector("max", -farthest_2, farthest_2)};
     constexpr std::array<const char*, 3> axes{"x", "y", "z"};
     for (int axis = 0; axis < 3; ++axis) {
         if (box.min[axis] < box.max[axis]) continue;
@@ -45,31 +44,40 @@ void check_table(const TomlReader& reader, const Table& table, const Box& reach,
     }
 }
 
-Table read_table(const TomlReader& reader, const Box& reach, double most) {
-    const std::vector<double> centre = reader.numbers("centre", 2, -most, most);
-    const std::vector<double> size = reader.numbers("size", 2, smallest, most);
-    const Table table{centre[0], centre[1], size[0], size[1], reader.number("height", -most, most)};
+Table read_table(const TomlReader& reader, const Box& reach) {
+    const std::vector<double> centre = reader.numbers("centre", 2, -farthest_2, farthest_2);
+    const std::vector<double> size = reader.numbers("size", 2, smallest, farthest_2);
+    const Table table{centre[0], centre[1], size[0], size[1], reader.number("height", -farthest_2, farthest_2)};
     check_table(reader, table, reach, "height", "centre");
     return table;
 }
 
-Stock read_block(const TomlReader& reader, double most) {
+Stock read_block(const TomlReader& reader, Origins& origins) {
     Stock stock;
     stock.name = reader.text("name");
-    stock.size = reader.vector("size", smallest, most);
-    if (!reader.has("material")) return stock;
-    const std::optional<Material> material = material_of(reader.text("material"));
-    if (!material) reader.refuse("material", "unknown material", "use pu_foam, eps, xps, other or unspecified");
-    stock.material = *material;
+    stock.size = reader.vector("size", smallest, farthest_2);
+    if (reader.has("material")) {
+        const std::optional<Material> material = material_of(reader.text("material"));
+        if (!material) reader.refuse("material", "unknown material", "use pu_foam, eps, xps, other or unspecified");
+        stock.material = *material;
+    }
+    stock.is_sawn = reader.has("sawn") && reader.boolean("sawn");
+    if (stock.is_sawn) {
+        stock.kerf = reader.number("kerf", 0, 50);
+    } else if (reader.has("kerf")) {
+        reader.refuse("kerf", "has no meaning for a block that is not sawn", "add sawn = true, or leave it out");
+    }
+    if (reader.has("bending_strength")) stock.bending_strength = reader.number("bending_strength", 0.001, 1'000);
+    const std::string name = "stock " + stock.name;
+    add_origins(reader, keys_2::stock, name, origins);
+    add_defaults(reader, std::to_array<std::string_view>({"bending_strength"}), name, origins);
     return stock;
 }
 
-// `read` reads one block.
-template <typename Read>
-std::vector<Stock> read_stock(const TomlReader& reader, Keys known, Read read) {
+std::vector<Stock> read_stock(const TomlReader& reader, Origins& origins) {
     std::vector<Stock> stock;
-    for (const TomlReader& row : reader.tables("stock", known)) {
-        const Stock block = read(row);
+    for (const TomlReader& row : reader.tables("stock", keys_2::stock.keys)) {
+        const Stock block = read_block(row, origins);
         const bool twice =
             std::any_of(stock.begin(), stock.end(), [&](const Stock& other) { return other.name == block.name; });
         if (twice) row.refuse("name", "a second block named " + block.name, "give each block a name of its own");
@@ -78,17 +86,6 @@ std::vector<Stock> read_stock(const TomlReader& reader, Keys known, Read read) {
     }
     if (stock.empty()) reader.refuse("stock", "no block to carve from", "add at least one [[stock]]");
     return stock;
-}
-
-Tool read_tool(const TomlReader& reader) {
-    Tool tool;
-    tool.number = static_cast<std::uint16_t>(reader.whole("number", 0, 65535));
-    tool.name = reader.text("name");
-    tool.diameter = reader.number("diameter", smallest, 1000);
-    tool.spindle_max_rpm = static_cast<std::uint16_t>(reader.whole("spindle_max_rpm", 1, 65535));
-    tool.feed_max_mm_per_min = reader.whole("feed_max_mm_per_min", 1, 1'000'000);
-    tool.removal_mm3_per_s = reader.number("removal_mm3_per_s", smallest, 1e9);
-    return tool;
 }
 
 // HOST:PORT, with an IPv6 address in brackets because it contains colons.
@@ -120,35 +117,6 @@ Link read_link(const TomlReader& reader, const std::filesystem::path& path) {
     return link;
 }
 
-Cell read_version_1(const TomlReader& reader, const std::filesystem::path& path) {
-    Cell cell;
-    cell.name = reader.text("name");
-    cell.id = static_cast<std::uint16_t>(reader.whole("id", 1, 65535));
-    cell.reach = read_box(reader.table("reach", keys_1::reach), "reach", farthest);
-    cell.table = read_table(reader.table("table", keys_1::table), cell.reach, farthest);
-    cell.stock = read_stock(reader, keys_1::stock, [](const TomlReader& row) { return read_block(row, farthest); });
-    cell.stock_margin = reader.number("stock_margin", 0, 10'000);
-    if (reader.has("clearance")) cell.clearance = reader.number("clearance", 0, 10'000);
-    cell.tool = read_tool(reader.table("tool", keys_1::tool));
-    if (reader.has("link")) cell.link = read_link(reader.table("link", keys_1::link), path);
-    return cell;
-}
-
-Stock read_block_2(const TomlReader& reader, Origins& origins) {
-    Stock stock = read_block(reader, farthest_2);
-    stock.is_sawn = reader.has("sawn") && reader.boolean("sawn");
-    if (stock.is_sawn) {
-        stock.kerf = reader.number("kerf", 0, 50);
-    } else if (reader.has("kerf")) {
-        reader.refuse("kerf", "has no meaning for a block that is not sawn", "add sawn = true, or leave it out");
-    }
-    if (reader.has("bending_strength")) stock.bending_strength = reader.number("bending_strength", 0.001, 1'000);
-    const std::string name = "stock " + stock.name;
-    add_origins(reader, keys_2::stock, name, origins);
-    add_defaults(reader, std::to_array<std::string_view>({"bending_strength"}), name, origins);
-    return stock;
-}
-
 RotaryTable read_rotary_table(const TomlReader& reader) {
     RotaryTable table;
     table.table_in_cell = read_pose(reader);
@@ -162,16 +130,24 @@ RotaryTable read_rotary_table(const TomlReader& reader) {
     return table;
 }
 
+void read_reach(const TomlReader& root, Cell& cell) {
+    const TomlReader reach = root.table("reach", keys_2::reach.keys);
+    cell.reach = read_box(reach, "reach");
+    add_origins(reach, keys_2::reach, "reach", cell.origins);
+}
+
+void read_fixed_table(const TomlReader& root, Cell& cell) {
+    const TomlReader reader = root.table("table", keys_2::table.keys);
+    cell.table = read_table(reader, cell.reach);
+    add_origins(reader, keys_2::table, "table", cell.origins);
+}
+
 // The table as blocks see it: of a rotary one the square inside of its rim.
 void read_tables(const TomlReader& root, Cell& cell, CellMachine& machine) {
     if (root.has("table") && root.has("rotary_table")) {
         root.refuse("rotary_table", "a cell has one table", "leave out [table] or [rotary_table]");
     }
-    if (!root.has("rotary_table")) {
-        const TomlReader reader = root.table("table", keys_2::table.keys);
-        cell.table = read_table(reader, cell.reach, farthest_2);
-        return add_origins(reader, keys_2::table, "table", machine.origins);
-    }
+    if (!root.has("rotary_table")) return read_fixed_table(root, cell);
     if (!machine.robot) root.refuse("rotary_table", "a gantry has three axes", "describe a fixed [table]");
     const TomlReader reader = root.table("rotary_table", keys_2::rotary_table.keys);
     machine.rotary_table = read_rotary_table(reader);
@@ -179,7 +155,7 @@ void read_tables(const TomlReader& root, Cell& cell, CellMachine& machine) {
     const double side = std::numbers::sqrt2 * machine.rotary_table->radius;
     cell.table = {centre.x, centre.y, side, side, centre.z};
     check_table(reader, cell.table, cell.reach, "position", "position");
-    add_origins(reader, keys_2::rotary_table, "rotary_table", machine.origins);
+    add_origins(reader, keys_2::rotary_table, "rotary_table", cell.origins);
 }
 
 std::vector<Obstacle> read_obstacles(const TomlReader& root, Origins& origins) {
@@ -187,7 +163,7 @@ std::vector<Obstacle> read_obstacles(const TomlReader& root, Origins& origins) {
     if (!root.has("obstacle")) return obstacles;
     for (const TomlReader& row : root.tables("obstacle", keys_2::obstacle.keys)) {
         if (obstacles.size() == most_obstacles) root.refuse("obstacle", "more than a thousand obstacles");
-        obstacles.push_back({row.text("name"), read_box(row, "obstacle", farthest_2)});
+        obstacles.push_back({row.text("name"), read_box(row, "obstacle")});
         add_origins(row, keys_2::obstacle, "obstacle " + obstacles.back().name, origins);
     }
     return obstacles;
@@ -226,19 +202,23 @@ Holding read_holding(const TomlReader& root, Origins& origins) {
     return holding;
 }
 
-void read_limits(const TomlReader& root, Cell& cell, CellMachine& machine) {
-    machine.margins = read_margins(root, machine.origins);
-    machine.holding = read_holding(root, machine.origins);
-    cell.stock_margin = std::max(machine.margins.sides, machine.margins.top);
+// What holds of every piece: foam around it, and the height in which the tool travels.
+void read_room(const TomlReader& root, Cell& cell) {
+    cell.margins = read_margins(root, cell.origins);
     if (root.has("clearance")) cell.clearance = root.number("clearance", 0, 1'000);
+    add_defaults(root, std::to_array<std::string_view>({"clearance"}), "", cell.origins);
+}
+
+void read_limits(const TomlReader& root, CellMachine& machine, Origins& origins) {
+    machine.holding = read_holding(root, origins);
     if (root.has("max_unreachable")) machine.max_unreachable = root.number("max_unreachable", 0, 1);
-    add_defaults(root, std::to_array<std::string_view>({"clearance", "max_unreachable"}), "", machine.origins);
+    add_defaults(root, std::to_array<std::string_view>({"max_unreachable"}), "", origins);
     if (!machine.robot) {
         if (root.has("max_tilt_deg")) root.refuse("max_tilt_deg", "a gantry does not tilt its tool", "leave it out");
         return;
     }
     machine.max_tilt = (root.has("max_tilt_deg") ? root.number("max_tilt_deg", 0, 90) : 60) * degree;
-    add_defaults(root, std::to_array<std::string_view>({"max_tilt_deg"}), "", machine.origins);
+    add_defaults(root, std::to_array<std::string_view>({"max_tilt_deg"}), "", origins);
 }
 
 std::vector<DowelSize> read_dowels(const TomlReader& root) {
@@ -256,32 +236,67 @@ std::vector<DowelSize> read_dowels(const TomlReader& root) {
     return dowels;
 }
 
-Cell read_version_2(const TomlReader& root, const std::filesystem::path& path) {
-    Cell cell;
+// Robot or gantry. In this order values have their origins listed.
+void read_machine(const TomlReader& root, Cell& cell) {
     CellMachine machine;
+    Origins& origins = cell.origins;
+    if (root.has("robot")) machine.robot = read_robot(root, origins);
+    read_reach(root, cell);
+    read_tables(root, cell, machine);
+    machine.program = read_program(root, machine.robot.has_value(), origins);
+    machine.load_tolerance = read_load_tolerance(root);
+    machine.tools = read_tools(root, origins);
+    cell.tool = job_tool(machine.tools.front());
+    machine.spindle = read_spindle(root, machine.robot, machine.tools, machine.program.dialect, origins);
+    machine.extraction = read_extraction(root, machine.program.dialect);
+    cell.stock = read_stock(root, origins);
+    machine.obstacles = read_obstacles(root, origins);
+    machine.start = read_start(root, machine.robot, cell.reach);
+    read_room(root, cell);
+    read_limits(root, machine, origins);
+    cell.machine = std::move(machine);
+}
+
+// Of a cell of which no machine is described.
+void read_boxes(const TomlReader& root, Cell& cell) {
+    for (const std::string_view key : keys_2::of_machines) {
+        if (root.has(key)) {
+            root.refuse(key, "has no meaning in a file that describes no machine",
+                        "describe it by [spindle], and a robot by [robot], or leave this out");
+        }
+    }
+    read_reach(root, cell);
+    read_fixed_table(root, cell);
+    const std::vector<CarvingTool> tools = read_tools(root, cell.origins);
+    if (tools.size() > 1) {
+        root.refuse("tool", "a cell of which no machine is described has one tool, the one that its jobs name",
+                    "keep the first [[tool]], or describe the machine by [spindle]");
+    }
+    cell.tool = job_tool(tools.front());
+    cell.stock = read_stock(root, cell.origins);
+    read_room(root, cell);
+}
+
+Cell read_file_2(const TomlReader& root, const std::filesystem::path& path) {
+    Cell cell;
     cell.name = root.text("name");
     cell.id = static_cast<std::uint16_t>(root.whole("id", 1, 65535));
-    if (root.has("robot")) machine.robot = read_robot(root, machine.origins);
-    const TomlReader reach = root.table("reach", keys_2::reach.keys);
-    cell.reach = read_box(reach, "reach", farthest_2);
-    add_origins(reach, keys_2::reach, "reach", machine.origins);
-    read_tables(root, cell, machine);
-    machine.program = read_program(root, machine.robot.has_value(), machine.origins);
-    machine.load_tolerance = read_load_tolerance(root);
-    machine.tools = read_tools(root, machine.origins);
-    cell.tool = job_tool(machine.tools.front());
-    machine.spindle = read_spindle(root, machine.robot, machine.tools, machine.program.dialect, machine.origins);
-    machine.extraction = read_extraction(root, machine.program.dialect);
-    cell.stock =
-        read_stock(root, keys_2::stock.keys, [&](const TomlReader& row) { return read_block_2(row, machine.origins); });
-    machine.obstacles = read_obstacles(root, machine.origins);
-    machine.start = read_start(root, machine.robot, cell.reach);
+    if (root.has("robot") || root.has("spindle")) {
+        read_machine(root, cell);
+    } else {
+        read_boxes(root, cell);
+    }
     cell.dowels = read_dowels(root);
     if (root.has("dowel_play")) cell.dowel_play = root.number("dowel_play", 0, 5);
-    read_limits(root, cell, machine);
     if (root.has("link")) cell.link = read_link(root.table("link", keys_2::link.keys), path);
-    cell.machine = std::move(machine);
     return cell;
+}
+
+void refuse_version_1(const TomlReader& root) {
+    if (root.has("version") && root.whole("version", 1, 2) == 2) return;
+    root.refuse("version", "cell files of version 1 are not read any more",
+                "write version = 2, its margins as [margin], its tool as [[tool]] with shape, lengths and holder: "
+                "cells/foam-1.toml is such a file without a robot, docs/cell-file.md explains every key");
 }
 
 }  // namespace
@@ -292,9 +307,8 @@ double bending_strength(const Stock& stock) {
 
 Cell parse_cell(std::string_view text, const std::filesystem::path& path) {
     const TomlReader root = TomlReader::parse(text, path.string());
-    const std::uint32_t version = root.has("version") ? root.whole("version", 1, 2) : 1;
-    if (version == 1) return read_version_1(root.with_keys(keys_1::root), path);
-    return read_version_2(root.with_keys(keys_2::root.keys), path);
+    refuse_version_1(root);
+    return read_file_2(root.with_keys(keys_2::root.keys), path);
 }
 
 Cell read_cell(const std::filesystem::path& path) {

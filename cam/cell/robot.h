@@ -1,4 +1,4 @@
-// What a cell file of version 2 tells of the robot, its spindle and the rotary table.
+// What a cell file tells of the robot, its spindle and the rotary table.
 //
 // mm, radians, seconds, kg. A pose is a_in_b (base/pose.h). In what read_cell returns, lengths of links are not
 // negative, min is below max for every axis, speeds, accelerations and radii are above zero, and the payload is at

@@ -34,25 +34,18 @@ Json from_joint(const CapJoint& joint) {
     return {{"neighbour", joint.neighbour}, {"area_mm2", joint.area_mm2}, {"note", joint.note}, {"holes", holes}};
 }
 
-// Who drills it. Until schema 5 the word told what the robot could do, and no program drilled.
-void read_driller(const Json& json, std::uint32_t schema, JobHole& hole) {
+void read_driller(const Json& json, JobHole& hole) {
     const std::string by = text(json, "drilled_by");
     if (by != "robot" && by != "hand") throw wrong("drilled_by", "is neither robot nor hand");
-    if (schema < schema_of_drilling) {
-        hole.by_hand = "the job is of schema " + std::to_string(schema) + ", whose programs drill nothing";
-        return;
-    }
     hole.by_robot = by == "robot";
     hole.by_hand = text(json, "by_hand_because");
     if (hole.by_robot != hole.by_hand.empty()) throw wrong("by_hand_because", "contradicts drilled_by");
 }
 
-JobHole to_hole(const Json& json, const Pose& cap_in_setup, std::uint32_t schema, std::size_t number) {
+JobHole to_hole(const Json& json, const Pose& cap_in_setup, std::size_t number) {
     JobHole hole;
     hole.number = number;
-    if (schema >= schema_of_drilling && whole<std::uint64_t>(json, "number") != number) {
-        throw wrong("number", "does not count the holes from 1");
-    }
+    if (whole<std::uint64_t>(json, "number") != number) throw wrong("number", "does not count the holes from 1");
     hole.diameter = real_within(json, "diameter", 1e-3, most);
     hole.depth = real_within(json, "depth", 1e-3, most);
     const Json& on_cap = items(json, "on_cap");
@@ -62,27 +55,27 @@ JobHole to_hole(const Json& json, const Pose& cap_in_setup, std::uint32_t schema
     hole.on_cap = {on_cap[0].get<double>(), on_cap[1].get<double>()};
     hole.point = vector(json, "point");
     hole.axis = vector(json, "axis");
-    read_driller(json, schema, hole);
+    read_driller(json, hole);
     const Vec3 point = apply(cap_in_setup, {hole.on_cap.x, hole.on_cap.y, 0});
     if (!(norm(point - hole.point) <= 1e-6)) throw wrong("point", "is not that of on_cap");
     if (!(norm(rotate(cap_in_setup, {0, 0, -1}) - hole.axis) <= 1e-6)) throw wrong("axis", "is not that of the cap");
     return hole;
 }
 
-CapJoint to_joint(const Json& json, const Pose& cap_in_setup, std::uint32_t schema, std::size_t& holes) {
+CapJoint to_joint(const Json& json, const Pose& cap_in_setup, std::size_t& holes) {
     CapJoint joint{text(json, "neighbour"), real_within(json, "area_mm2", 0, most), text(json, "note"), {}};
     for (const Json& hole : items(json, "holes")) {
-        joint.holes.push_back(to_hole(hole, cap_in_setup, schema, ++holes));
+        joint.holes.push_back(to_hole(hole, cap_in_setup, ++holes));
     }
     return joint;
 }
 
-JobCap to_cap(const Json& json, const Pose& piece_in_setup, std::uint32_t schema, std::size_t& holes) {
+JobCap to_cap(const Json& json, const Pose& piece_in_setup, std::size_t& holes) {
     JobCap cap;
     cap.cut = static_cast<std::int32_t>(whole_up_to(json, "cut", std::numeric_limits<std::int32_t>::max()));
     cap.cap_in_piece = to_pose(member(json, "cap_in_piece"), "cap_in_piece");
     for (const Json& joint : items(json, "joints")) {
-        cap.joints.push_back(to_joint(joint, piece_in_setup * cap.cap_in_piece, schema, holes));
+        cap.joints.push_back(to_joint(joint, piece_in_setup * cap.cap_in_piece, holes));
     }
     return cap;
 }
@@ -111,12 +104,12 @@ std::vector<JobHole> holes_of(const std::vector<JobCap>& caps) {
     return holes;
 }
 
-std::vector<JobCap> to_caps(const Json& json, const Pose& piece_in_setup, std::uint32_t schema) {
+std::vector<JobCap> to_caps(const Json& json, const Pose& piece_in_setup) {
     if (!json.is_array()) throw wrong("caps", "is not a list");
     std::vector<JobCap> caps;
     std::size_t holes = 0;
     for (const Json& cap : json) {
-        caps.push_back(to_cap(cap, piece_in_setup, schema, holes));
+        caps.push_back(to_cap(cap, piece_in_setup, holes));
         if (caps.size() > 1 && caps[caps.size() - 2].cut >= caps.back().cut) throw wrong("caps", "are not in order");
     }
     return caps;

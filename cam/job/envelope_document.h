@@ -14,7 +14,7 @@
 
 namespace qchopper {
 
-// JSON text. Of a cell of version 1 it says that the arm was not checked, and has no checks.
+// JSON text. Of a cell without a machine it says that the arm was not checked, and has no checks.
 std::string envelope_document(const JobInput& input);
 
 // What a reader compares with the manifest.

@@ -13,6 +13,7 @@
 #include "cam/cell/reach_map.h"
 #include "cam/job/solid_shapes.h"
 #include "cam/setup/block_placement.h"
+#include "segment/picture/colour.h"
 #include "segment/picture/picture.h"
 
 namespace qchopper {
@@ -24,6 +25,7 @@ constexpr Rgb tool_colour{60, 65, 75};
 constexpr Rgb block_colour{105, 110, 120};
 constexpr Rgb table_colour{185, 190, 195};
 constexpr Rgb obstacle_colour{150, 165, 190};
+constexpr Rgb tight_colour{200, 45, 20};  // of the bodies that the margin lies between
 
 struct Body {
     std::string name;  // as describe_pair() names it

@@ -8,14 +8,11 @@
 
 #include "base/file.h"
 #include "cam/job/job.h"
-#include "segment/picture/colour.h"
 
 namespace qchopper {
 
 constexpr int envelope_picture_width = 1000;
 constexpr int envelope_picture_height = 750;
-
-constexpr Rgb tight_colour{200, 45, 20};  // of the bodies that the margin lies between
 
 // PNG. `lying` is the piece in setup coordinates. Precondition: input.work_envelope.is_arm_checked.
 Bytes envelope_picture(const JobInput& input, const TriangleMesh& lying);

@@ -8,7 +8,7 @@
 
 namespace qchopper {
 
-// HTML. Of a cell of version 1: that the arm was not checked.
+// HTML. Of a cell without a machine: that the arm was not checked.
 std::string envelope_section(const JobInput& input);
 
 }  // namespace qchopper

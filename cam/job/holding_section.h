@@ -8,7 +8,7 @@
 
 namespace qchopper {
 
-// HTML. Of a cell of version 1 without the check.
+// HTML. Of a cell without a machine without the check.
 std::string holding_section(const Setup& setup);
 
 // What the signs of the formulas mean, for the details.

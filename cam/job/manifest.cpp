@@ -145,7 +145,7 @@ Json from_stock(const JobInput& input) {
             {"sawn", input.setup.block.is_sawn},
             {"offcuts", offcuts},
             {"holds", input.setup.block.holds},
-            {"margin", input.cell.stock_margin}};
+            {"margin", input.cell.stock_margin()}};
 }
 
 double not_negative(const Json& object, const std::string& key) {
@@ -245,7 +245,7 @@ std::vector<std::uint16_t> to_tools(const Json& json) {
     return tools;
 }
 
-Setup to_setup(const Json& json, const Json& stock, std::uint32_t schema) {
+Setup to_setup(const Json& json, const Json& stock) {
     Setup setup;
     setup.base_number = base_number(json);
     if (!member(json, "base").is_null()) setup.base = cut_number(json, "base");
@@ -254,15 +254,14 @@ Setup to_setup(const Json& json, const Json& stock, std::uint32_t schema) {
     setup.piece_in_setup = to_pose(member(json, "piece_in_setup"), "piece_in_setup");
     setup.box = box(json, "box");
     setup.spoil = not_negative(json, "spoil");
-    if (schema >= schema_of_left_out) setup.tools = to_tools(member(json, "tools"));
+    setup.tools = to_tools(member(json, "tools"));
     setup.placement = to_placement(member(json, "placement"));
     setup.undercut = real(json, "undercut");
     setup.undercut_by_count = real(json, "undercut_by_count");
     setup.base_mm2 = real(json, "base_mm2");
     setup.projected_area_mm2 = real(json, "projected_area_mm2");
-    if (json.contains("workholding") && !json["workholding"].is_null()) {
-        setup.workholding = to_workholding(json["workholding"]);
-    }
+    const Json& workholding = member(json, "workholding");
+    if (!workholding.is_null()) setup.workholding = to_workholding(workholding);
     setup.reach = to_reach(member(json, "reach"));
     setup.warnings = texts(json, "warnings");
     setup.block.stock = whole<std::uint16_t>(stock, "number");
@@ -305,9 +304,9 @@ std::vector<JobEntry> to_entries(const Json& json) {
 ReadJob to_job(const Json& json) {
     if (text(json, "format") != format_name) throw wrong("format", "is not a qchopper job");
     const auto schema = whole<std::uint32_t>(json, "schema");
-    if (schema < oldest_job_schema || schema > job_schema_version) {
-        throw wrong("schema", std::to_string(schema) + " is not one of those that this program reads, " +
-                                  std::to_string(oldest_job_schema) + " to " + std::to_string(job_schema_version));
+    if (schema != job_schema_version) {
+        throw wrong("schema", std::to_string(schema) + " is not " + std::to_string(job_schema_version) +
+                                  ", the one that this program reads");
     }
     ReadJob job;
     const Json& piece = member(json, "piece");
@@ -323,8 +322,8 @@ ReadJob to_job(const Json& json) {
     job.cell_id = whole<std::uint16_t>(member(json, "cell"), "id");
     if (job.cell_id == 0) throw wrong("id", "is the number of no cell");
     job.half_spaces = to_half_spaces(json);
-    job.setup = to_setup(member(json, "setup"), member(json, "stock"), schema);
-    job.caps = to_caps(member(json, "caps"), job.setup.piece_in_setup, schema);
+    job.setup = to_setup(member(json, "setup"), member(json, "stock"));
+    job.caps = to_caps(member(json, "caps"), job.setup.piece_in_setup);
     job.setup_in_cell = to_frames(member(json, "setup"), job.setup);
     job.alternatives = to_alternatives(json);
     job.max_unreachable = real_within(json, "max_unreachable", 0, 1);
@@ -336,7 +335,7 @@ ReadJob to_job(const Json& json) {
     const Json& poses = member(json, "work_envelope");
     job.is_arm_checked = truth(poses, "arm_checked");
     job.holds_poses = truth(poses, "holds");
-    job.program = to_program(member(json, "programs"), schema);
+    job.program = to_program(member(json, "programs"));
     const std::string fault = fault_of_holes(job.program, job.caps);
     if (!fault.empty()) throw wrong("holes", fault);
     const std::string of_tools = fault_of_tools(job.program, job.setup.tools);

@@ -118,7 +118,7 @@ void read_drilling(const Json& json, JobProgram& program) {
     }
 }
 
-JobProgram to_single(const Json& json, std::uint32_t schema) {
+JobProgram to_single(const Json& json) {
     JobProgram program;
     program.dialect = to_dialect(text(json, "dialect"));
     program.entry = text(json, "entry");
@@ -136,13 +136,11 @@ JobProgram to_single(const Json& json, std::uint32_t schema) {
     }
     if (program.chunks.empty()) throw wrong("chunks", "is empty");
     program.part = to_part(member(json, "part"));
-    if (schema >= schema_of_drilling) read_drilling(json, program);
+    read_drilling(json, program);
     program.scallop_mm = real_within(json, "scallop_mm", 0, most);
     program.time_s = real_within(json, "time_s", 0, most);
-    if (schema >= schema_of_left_out) {
-        program.left_out = to_left_out(items(json, "left_out"));
-        program.moves_left_out = to_moves_left_out(member(json, "moves_left_out"));
-    }
+    program.left_out = to_left_out(items(json, "left_out"));
+    program.moves_left_out = to_moves_left_out(member(json, "moves_left_out"));
     return program;
 }
 
@@ -176,10 +174,10 @@ Json from_program(const std::optional<JobProgram>& program) {
               {"chunks", chunks}}});
 }
 
-std::optional<JobProgram> to_program(const Json& json, std::uint32_t schema) {
+std::optional<JobProgram> to_program(const Json& json) {
     if (!json.is_array() || json.size() > 1) throw wrong("programs", "is not a list of at most one program");
     if (json.empty()) return std::nullopt;
-    return to_single(json.front(), schema);
+    return to_single(json.front());
 }
 
 std::string fault_of_holes(const std::optional<JobProgram>& program, const std::vector<JobCap>& caps) {

@@ -16,14 +16,11 @@
 
 namespace qchopper {
 
-// Of the manifest: since when it says what the program leaves out.
-constexpr std::uint32_t schema_of_left_out = 7;
-
 // A list of one program, or of none. Precondition: all numbers are finite.
 nlohmann::ordered_json from_program(const std::optional<JobProgram>& program);
 
 // The inverse. Throws std::runtime_error that names the key and the reason.
-std::optional<JobProgram> to_program(const nlohmann::ordered_json& json, std::uint32_t schema);
+std::optional<JobProgram> to_program(const nlohmann::ordered_json& json);
 
 // Why the files of a job do not belong to its program: a file that is missing, or a program file that the program does
 // not name. Empty: they do.

@@ -95,8 +95,8 @@ double depth_under_the_base(const CarvingTool& tool) {
 }  // namespace
 
 Margins margins_of(const Cell& cell) {
-    if (!cell.machine) return {cell.stock_margin, cell.stock_margin, 0};
-    Margins margins = cell.machine->margins;
+    Margins margins = cell.margins;
+    if (!cell.machine) return margins;
     for (const CarvingTool& tool : cell.machine->tools) {
         margins.spoil = std::max(margins.spoil, depth_under_the_base(tool) + above_the_table);
     }

@@ -12,7 +12,7 @@
 
 namespace qchopper {
 
-// Foam around a piece; version 1 has one margin for the sides and above, and no spoil layer.
+// Foam around a piece: that of the cell file, with a spoil layer that the tools of the machine do not cut through.
 Margins margins_of(const Cell& cell);
 
 struct CarvingBlock {

@@ -61,8 +61,8 @@ bool fits_cell(const Piece& piece, const Cell& cell);
 
 // Whether in addition, for one of these ways, the machine holds the extreme poses of carving straight from above, along
 // which every setup is carved, without a collision: the stop rule where the arm is known. Further directions are not
-// chosen yet when it is asked; held_directions() asks the arm for each of them. The same as fits_cell() in a cell of
-// version 1. Throws as height_map() does.
+// chosen yet when it is asked; held_directions() asks the arm for each of them. The same as fits_cell() in a cell
+// without a machine. Throws as height_map() does.
 bool fits_cell_and_machine(const Piece& piece, const Cell& cell);
 
 }  // namespace qchopper

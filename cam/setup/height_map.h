@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include "base/pose.h"
@@ -51,11 +50,5 @@ HeightMap closed_by_ball(const HeightMap& map, double radius);
 // The same surface on cells `factor` times as wide, each as high as the highest of those whose middles lie in it.
 // Precondition: factor >= 1.
 HeightMap coarser(const HeightMap& map, double factor);
-
-// Volume (mm3) of the points of a box that lie below the surface in every map: what no tool of these directions
-// removes, the piece included. The points form a grid of the given step about the middle of the box, each standing for
-// an equal share of it. The box reaches from the origin of its frame to `box_size`. Preconditions: at least one map,
-// all of the same piece, step > 0. O(points * maps).
-double remaining_volume(std::span<const HeightMap> maps, Vec3 box_size, const Pose& box_in_piece, double step);
 
 }  // namespace qchopper

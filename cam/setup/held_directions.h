@@ -24,7 +24,7 @@ Pose setup_in_cell(const Cell& cell, double spoil);
 // Per direction (unit, in setup coordinates, the way the tool comes out): 1 if it can be held, else 0. `box` is the
 // piece's, in setup coordinates. A rotary table is tried every 15 degrees and with the tool leaning straight away from
 // the robot's base and straight towards it. A gantry holds straight up alone, wherever its reach box lies; a cell
-// without a machine (version 1) holds all, because nothing is known of its arm. O(directions x angles x points) answers
+// without a machine holds all, because nothing is known of its arm. O(directions x angles x points) answers
 // of the inverse kinematics at most.
 std::vector<std::uint8_t> held_directions(const Cell& cell, const Box& box, double spoil,
                                           std::span<const Vec3> directions);

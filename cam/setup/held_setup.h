@@ -28,7 +28,8 @@ struct HeldOptions {
 // and directions that are held, of each base in the same order: those that are not held are left out and others chosen
 // in their place, twice, then left out without others. Where nothing helps, the best setup is handed back with what
 // refuses its first direction.
-// A cell of version 1 is not checked, nor a piece whose block does not fit into the cell: the choice is handed back.
+// A cell without a machine is not checked, nor a piece whose block does not fit into the cell: the choice is handed
+// back.
 //
 // Precondition: `choice` is choose_setup() of the same piece, cell and options. Throws what place_block() throws.
 HeldSetup held_setup(const Piece& piece, SetupChoice choice, const Cell& cell, const HeldOptions& options = {},

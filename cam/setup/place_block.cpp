@@ -249,13 +249,6 @@ WorkEnvelope place_block(const Setup& setup, const std::vector<DirectionPoses>& 
     return envelope;
 }
 
-bool holds_at_placement(const Setup& setup, const std::vector<DirectionPoses>& directions, const Cell& cell) {
-    if (!cell.machine) return true;
-    if (inside_table(cell, setup.block.size, setup.placement) < -rounding) return false;
-    const Context context;
-    return PlaceSearch(setup, cell, directions, context).fixed({true, 0, {}, 0}).score >= -rounding;
-}
-
 std::optional<BlockPlacement> first_place(const Setup& setup, const std::vector<DirectionPoses>& directions,
                                           const Cell& cell, const BlockPlacement& first, const Context& context) {
     assert(cell.machine && !directions.empty());

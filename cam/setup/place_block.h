@@ -25,18 +25,14 @@ struct PlacementOptions {
     bool has_other_base = true;  // whether a refused piece may be laid otherwise, for WorkEnvelope::cure
 };
 
-// Preconditions: the mesh is that of the piece, with area; setup.reach.directions is not empty. A cell of version 1 is
-// not checked. Throws InputError (use) as height_map() does, and Cancelled.
+// Preconditions: the mesh is that of the piece, with area; setup.reach.directions is not empty. A cell without a
+// machine is not checked. Throws InputError (use) as height_map() does, and Cancelled.
 WorkEnvelope place_block(const Setup& setup, const TriangleMesh& mesh, const Cell& cell,
                          const PlacementOptions& options = {}, const Context& context = {});
 
 // The same for given poses, at least one direction of them, in the order of the setup's directions.
 WorkEnvelope place_block(const Setup& setup, const std::vector<DirectionPoses>& directions, const Cell& cell,
                          const PlacementOptions& options = {}, const Context& context = {});
-
-// Whether all poses are held where the block stands, Setup::placement: quicker than a report, because it ends at the
-// first pose that is not.
-bool holds_at_placement(const Setup& setup, const std::vector<DirectionPoses>& directions, const Cell& cell);
 
 // The first place of a coarse grid (100 mm, 30 degrees) at which all poses are held, `first` being tried before them:
 // far quicker than place_block() where none is. Nothing: there is none in that grid. Precondition: the cell has a
@@ -47,7 +43,7 @@ std::optional<BlockPlacement> first_place(const Setup& setup, const std::vector<
 
 // Whether the machine holds the extreme poses of a setup at some place: the stop rule --fits-cell beyond boxes. Asks
 // for the corners of the block and the outermost tips of each direction alone, and ends at the first place that holds
-// them. True for a cell of version 1.
+// them. True for a cell without a machine.
 bool fits_machine(const Setup& setup, const TriangleMesh& mesh, const Cell& cell);
 
 }  // namespace qchopper

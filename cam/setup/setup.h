@@ -35,11 +35,11 @@ struct Setup {
     // Numbers of the tools that may be used, by order of the operator; empty: all of the cell.
     std::vector<std::uint16_t> tools;
 
-    double spoil = 0;  // thickness of the layer under the piece that stays on the table; 0 in a cell of version 1
+    double spoil = 0;  // thickness of the layer under the piece that stays on the table
     CarvingBlock block;
     BlockPlacement placement;  // of the block on the table
 
-    std::optional<Workholding> workholding;  // nothing: not checked, in a cell of version 1
+    std::optional<Workholding> workholding;  // nothing: not checked, in a cell without a machine
     SurfaceReach reach;                      // what the tool reaches
     double undercut = 0;                     // share of the projected area that faces down, base left out
     double undercut_by_count = 0;            // share of the triangles that face down, base left out

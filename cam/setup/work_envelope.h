@@ -121,7 +121,7 @@ enum class EnvelopeCure : std::uint8_t { none, tool_turn, branch, table_turn, bl
 const char* to_words(EnvelopeCure cure);
 
 struct WorkEnvelope {
-    bool is_arm_checked = false;          // false: a cell of version 1, boxes only; all else is empty then
+    bool is_arm_checked = false;          // false: a cell without a machine; all else is empty then
     BlockPlacement placement;             // best of those searched, also where none holds
     std::vector<EnvelopeMargin> margins;  // one per check that was made, in the order of PoseCheck
     std::vector<HeldRegion> regions;      // by direction; none for a gantry
@@ -139,7 +139,7 @@ struct WorkEnvelope {
 };
 
 // "piece B can be carved, tightest: axis 5 and its upper limit 4.2 deg (...)" or "piece B cannot be carved: link 3 and
-// the block 12 mm too near at ...; try another base"; "arm not checked" for version 1.
+// the block 12 mm too near at ...; try another base"; "arm not checked" without a machine.
 std::string describe_work_envelope(const std::string& piece, const WorkEnvelope& envelope);
 
 }  // namespace qchopper

@@ -375,8 +375,8 @@ Toolpath make_toolpath(const Setup& setup, const TriangleMesh& mesh, const Cell&
                        const Context& context, InProcessStock* left) {
     assert(!setup.reach.directions.empty());
     if (!cell.machine) {
-        throw InputError(InputFault::config, "the cell file tells no tools: it is of version 1",
-                         "give a cell file of version 2");
+        throw InputError(InputFault::config, "the cell file describes no machine",
+                         "give a cell file with spindle and tools, docs/cell-file.md");
     }
     ToolpathMaker maker(setup, mesh, cell, settings, context);
     Toolpath toolpath = maker.make();

@@ -25,7 +25,7 @@ double retract_height(const Setup& setup, Vec3 out, double clearance);
 
 // At least one operation. `left`, if given, becomes the foam that stands afterwards. Reports operations done; can be
 // cancelled. Preconditions: the mesh is that of the piece, and setup.reach.directions is not empty. Throws InputError:
-// config if the cell has no machine (version 1) or no tool for it, use if a setting is not valid, if maps would have
+// config if the cell has no machine or no tool for it, use if a setting is not valid, if maps would have
 // too many cells, or if no operation has anything to cut.
 Toolpath make_toolpath(const Setup& setup, const TriangleMesh& mesh, const Cell& cell,
                        const ToolpathSettings& settings = {}, const Context& context = {},

@@ -290,10 +290,4 @@ std::vector<std::vector<AssemblyKey>> assembly_keys(const Assembly& assembly, st
     return keys;
 }
 
-std::string names_of(std::span<const std::size_t> indices, std::span<const Piece> pieces) {
-    std::string names;
-    for (const std::size_t i : indices) names += (names.empty() ? "" : ", ") + pieces[i].name;
-    return names;
-}
-
 }  // namespace qchopper

@@ -48,7 +48,4 @@ struct AssemblyKey {
 // moves. The last key of a piece is its place.
 std::vector<std::vector<AssemblyKey>> assembly_keys(const Assembly& assembly, std::size_t pieces);
 
-// "B, C", of indices of pieces.
-std::string names_of(std::span<const std::size_t> indices, std::span<const Piece> pieces);
-
 }  // namespace qchopper

@@ -125,11 +125,6 @@ class CapDrill {
 
 }  // namespace
 
-double hole_volume_mm3(const DowelSize& size) {
-    const double side_angle = 2 * std::numbers::pi / static_cast<double>(hole_sides);
-    return size.depth * 0.5 * static_cast<double>(hole_sides) * size.radius() * size.radius() * std::sin(side_angle);
-}
-
 TriangleMesh drilled(const Piece& piece, std::size_t index, std::span<const PieceJoint> joints) {
     TriangleMesh mesh = *piece.mesh;
     for (const HalfSpace& half_space : piece.half_spaces) {

@@ -15,9 +15,6 @@ namespace qchopper {
 
 constexpr std::size_t hole_sides = 32;
 
-// The volume of one hole.
-double hole_volume_mm3(const DowelSize& size);
-
 // The piece with number `index`, with the holes of all its joints. Precondition: `joints` are those of the pieces.
 // O(triangles + c log c) for c corners of caps.
 TriangleMesh drilled(const Piece& piece, std::size_t index, std::span<const PieceJoint> joints);

@@ -1,7 +1,7 @@
 // Checks the link of every point of a mesh: which edges are open or non-manifold, and where surfaces only touch.
 //
-// The results equal those of edges.h and of manifold.h, which are the reference, at a fraction of their time and
-// memory, because no twin of a manifold edge is stored (tests/segment/mesh/links_test.cpp). O(triangles + points) while
+// The results equal those of edges.h and manifold.h at a fraction of their time and memory, because no twin of a
+// manifold edge is stored (tests/segment/mesh/links_test.cpp). O(triangles + points) while
 // each point has few triangles; 4 bytes per corner.
 
 #pragma once

@@ -51,22 +51,6 @@ void for_each_fan(const TriangleMesh& mesh, const Edges& edges, const OnFan& on_
 
 }  // namespace
 
-std::size_t count_non_manifold_vertices(const TriangleMesh& mesh, const Edges& edges) {
-    std::vector<bool> is_non_manifold(mesh.points.size());
-    for (const std::uint32_t h : unpaired(mesh, edges).non_manifold) {
-        is_non_manifold[start_of(mesh, h)] = true;
-        is_non_manifold[end_of(mesh, h)] = true;
-    }
-    std::vector<bool> has_fan(mesh.points.size());
-    std::size_t copies = 0;
-    for_each_fan(mesh, edges, [&](const std::vector<std::uint32_t>& fan) {
-        const std::uint32_t point = start_of(mesh, fan.front());
-        if (!is_non_manifold[point]) copies += has_fan[point];
-        has_fan[point] = true;
-    });
-    return copies;
-}
-
 std::size_t split_non_manifold_vertices(TriangleMesh& mesh, const Edges& edges) {
     std::vector<bool> has_fan(mesh.points.size());
     const std::size_t before = mesh.points.size();

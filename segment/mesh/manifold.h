@@ -18,10 +18,6 @@
 
 namespace qchopper {
 
-// Counts the copies that split_non_manifold_vertices would make, leaving out points at non-manifold or inconsistent
-// edges: their fans are not defined. The reference for links.h.
-std::size_t count_non_manifold_vertices(const TriangleMesh& mesh, const Edges& edges);
-
 // The fan of the first triangle keeps the point, every other fan gets a copy of it at the end of the points.
 // Triangles keep their order. Returns the number of copies.
 std::size_t split_non_manifold_vertices(TriangleMesh& mesh, const Edges& edges);

@@ -167,25 +167,6 @@ class BinarySweep {
 
 }  // namespace
 
-double binary_fragility(const Piece& piece, const Plane& plane, double distance) {
-    const TriangleMesh& mesh = *piece.mesh;
-    const std::vector<std::uint32_t> around = turns(mesh, plane.normal);
-    std::vector<RayQuery> rays;
-    std::vector<double> off;
-    for (const NormalAt& v : normals_along(cap_points(piece), vertex_normals(mesh), plane.normal)) {
-        const double h = height(plane.normal, mesh.points[v.point]);
-        const bool above = v.along > 0;
-        if (!may_count(v, around) || above != (h >= plane.offset) || std::abs(h - plane.offset) > distance) continue;
-        off.push_back(std::abs(h - plane.offset));
-        rays.push_back({mesh.points[v.point], !above, distance});
-    }
-    const std::vector<double> free_lengths = ray_distances(mesh, plane.normal, rays);
-    for (std::size_t i = 0; i < off.size(); ++i) {
-        if (free_lengths[i] >= off[i]) return 1;
-    }
-    return 0;
-}
-
 std::vector<double> sweep_binary_fragility(const PreparedPiece& prepared, Vec3 normal, std::span<const double> offsets,
                                            double distance) {
     const TriangleMesh& mesh = *prepared.piece->mesh;

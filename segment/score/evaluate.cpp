@@ -3,10 +3,14 @@
 
 #include "segment/score/evaluate.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <mutex>
+#include <set>
 
 #include "base/parallel.h"
+#include "segment/mesh/measure.h"
 #include "segment/score/sweep.h"
 
 namespace qchopper {
@@ -27,6 +31,24 @@ std::vector<Group> groups_of(std::span<const Candidate> candidates) {
         groups.back().last = i + 1;
     }
     return groups;
+}
+
+// The caps that the piece owns, ascending.
+std::vector<BaseShare> bases_of(const TriangleMesh& mesh) {
+    std::set<std::int32_t> cuts;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (cap_of(mesh, t) != no_cap) cuts.insert(cap_of(mesh, t));
+    }
+    std::vector<BaseShare> bases(cuts.size());
+    std::transform(cuts.begin(), cuts.end(), bases.begin(), [](std::int32_t cut) { return BaseShare{.cut = cut}; });
+    return bases;
+}
+
+// The half-space that a cut has left; nullptr: none.
+const HalfSpace* half_space_of(const Piece& piece, std::int32_t cut) {
+    const auto found = std::find_if(piece.half_spaces.begin(), piece.half_spaces.end(),
+                                    [&](const HalfSpace& h) { return h.cut == cut; });
+    return found == piece.half_spaces.end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -52,6 +74,35 @@ std::vector<std::optional<CutEvaluation>> evaluate_all(const Piece& piece, std::
         context.progress("planes evaluated", done += last - first, candidates.size());
     });
     return evaluations;
+}
+
+SolidEvaluation measure(const Piece& piece) {
+    const TriangleMesh& mesh = *piece.mesh;
+    SolidEvaluation solid;
+    solid.faces = mesh.triangles.size();
+    solid.bases = bases_of(mesh);
+    const Vec3 origin = mesh.points.empty() ? Vec3{} : mesh.points.front();
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const Triangle& v = mesh.triangles[t];
+        solid.volume_mm3 +=
+            dot(mesh.points[v[0]] - origin, cross(mesh.points[v[1]] - origin, mesh.points[v[2]] - origin)) / 6;
+        const std::int32_t cap = cap_of(mesh, t);
+        const HalfSpace* own = half_space_of(piece, cap);
+        const Vec3 area = area_vector(mesh, t);
+        const Vec3 normal = own != nullptr ? -own->up() : normalized(area);
+        for (BaseShare& share : solid.bases) {
+            if (cap == share.cut) continue;
+            const HalfSpace* base = half_space_of(piece, share.cut);
+            assert(base != nullptr);
+            const double by_area = dot(area, base->up());
+            const double by_count = dot(normal, base->up());
+            share.all_mm2 += std::abs(by_area);
+            share.all_count += std::abs(by_count);
+            if (by_area < 0) share.down_mm2 -= by_area;
+            if (by_count < 0) share.down_count -= by_count;
+        }
+    }
+    return solid;
 }
 
 }  // namespace qchopper

@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "base/context.h"
+#include "segment/cut/piece.h"
 #include "segment/score/candidates.h"
-#include "segment/score/reference.h"
+#include "segment/score/cut_evaluation.h"
+#include "segment/score/objectives.h"
 
 namespace qchopper {
 
@@ -22,5 +24,8 @@ namespace qchopper {
 std::vector<std::optional<CutEvaluation>> evaluate_all(const Piece& piece, std::span<const Candidate> candidates,
                                                        const Objectives& objectives, const Context& context,
                                                        const std::array<Vec3, 3>* box_axes = nullptr);
+
+// The values of a piece that is not cut (tests/segment/score/reference_test.cpp). O(triangles * caps).
+SolidEvaluation measure(const Piece& piece);
 
 }  // namespace qchopper

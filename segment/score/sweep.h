@@ -1,8 +1,8 @@
 // Evaluates all planes of one normal at once, without cutting.
 //
-// Equal to evaluate_by_cutting (reference.h) on every closed mesh: pieces, face counts and bases exactly, sums to 1e-9
-// (tests/segment/score/sweep_test.cpp, touching_test.cpp). mm. Linear in the mesh and in the crossings of triangles and
-// planes, if the offsets are about evenly spaced; docs/decisions/0011.
+// Equal to evaluate_by_cutting (tests/reference) on every closed mesh: pieces, face counts and bases exactly, sums to
+// 1e-9 (tests/segment/score/sweep_test.cpp, touching_test.cpp). mm. Linear in the mesh and in the crossings of
+// triangles and planes, if the offsets are about evenly spaced; docs/decisions/0011.
 
 #pragma once
 

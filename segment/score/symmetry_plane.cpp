@@ -164,24 +164,6 @@ Plane reflected(const Plane& plane, const Plane& mirror) {
     return canonical({normal, dot(normal, reflected(plane.offset * plane.normal, mirror))});
 }
 
-double symmetry_score(std::span<const Vec3> points, const Plane& plane) {
-    std::vector<double> distances;
-    for (const Vec3& p : points) {
-        const bool is_above = height(plane.normal, p) > plane.offset;
-        double least = infinite;
-        for (const Vec3& q : points) {
-            if ((height(plane.normal, q) > plane.offset) == is_above) continue;
-            least = std::min(least, norm(q - reflected(p, plane)));
-        }
-        distances.push_back(least);
-    }
-    if (distances.empty()) return infinite;
-    std::sort(distances.begin(), distances.end());
-    const std::size_t kept = share_of(distances.size(), scored_share);
-    return std::accumulate(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(kept), 0.0) /
-           static_cast<double>(kept);
-}
-
 std::optional<SymmetryPlane> symmetry_plane(const TriangleMesh& scan, const SymmetryOptions& options) {
     const SurfaceSamples samples = symmetry_samples(scan, options.points, options.least_solid_area);
     std::vector<Vec3> points;

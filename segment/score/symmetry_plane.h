@@ -10,7 +10,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
 
 #include "segment/mesh/plane.h"
 #include "segment/mesh/triangle_mesh.h"
@@ -41,10 +40,6 @@ struct SymmetryOptions {
 // Of the surface of a scan. Nothing if there is no area. Some hundredths of a second for the points of 1.9 million
 // triangles, and some tenths for the search, whatever the size of the scan.
 std::optional<SymmetryPlane> symmetry_plane(const TriangleMesh& scan, const SymmetryOptions& options = {});
-
-// The score of one plane, on both sides of points that are spread evenly over a surface; infinite where all lie on one
-// side. The reference that the search is tested against: O(points squared).
-double symmetry_score(std::span<const Vec3> points, const Plane& plane);
 
 // The mirror image of a point, and that of a plane, which is canonical.
 Vec3 reflected(Vec3 point, const Plane& mirror);

@@ -1,6 +1,6 @@
 // Clips one face at a plane: the part of it from which fragility is measured.
 //
-// mm. Shared by the plain sum (fragility.h) and the sweep (fragility_sweep.h), so that both get the same bits. The
+// mm. Shared by the sweep (fragility_sweep.h) and the plain sum in tests/reference, so that both get the same bits. The
 // point of a crossed edge is computed here from the corner that comes first in the face; edge_crossing
 // (plane_section.h) starts at the upper end and gives the same bits only where that is the first corner. Sharing it
 // would change the last bits of thinness, and with them recorded terms and ties; nothing needs it, because parts are

@@ -86,7 +86,7 @@ class EvaluationCache {
 
     // References stay valid until keep_only() removes the piece.
     const OrientedBox& box(const Piece& piece);
-    const SolidEvaluation& solid_evaluation(const Piece& piece);  // of the piece as it is: measure() in reference.h
+    const SolidEvaluation& solid_evaluation(const Piece& piece);  // of the piece as it is: measure() in evaluate.h
 
     // What no tool reaches of a piece that has samples, with a largest tilt of the tool; 0 of one that has none.
     double unreachable_mm2(const Piece& piece, double tilt_deg);

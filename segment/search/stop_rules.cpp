@@ -8,7 +8,6 @@
 
 #include "base/text.h"
 #include "segment/mesh/boxes_needed.h"
-#include "segment/mesh/oriented_box.h"
 
 namespace qchopper {
 namespace {
@@ -175,12 +174,6 @@ NextPiece StopJudge::next(const Segmentation& segmentation, const std::vector<st
         next.waiting.resize(std::min(next.waiting.size(), missing));
     }
     return next;
-}
-
-NextPiece next_piece(const Segmentation& segmentation, const StopRules& rules, const PieceChecks& checks,
-                     const std::vector<std::string>& passed_over) {
-    const auto size = [](const Piece& p) { return oriented_box(p.mesh->points).size(); };
-    return StopJudge(rules, checks, size).next(segmentation, passed_over);
 }
 
 }  // namespace qchopper

@@ -130,10 +130,6 @@ class StopJudge {
     std::map<const TriangleMesh*, Verdict> verdicts_;
 };
 
-// The same for a single call.
-NextPiece next_piece(const Segmentation& segmentation, const StopRules& rules, const PieceChecks& checks,
-                     const std::vector<std::string>& passed_over);
-
 // Whether a box of one size fits in a box of another, in some order of its axes.
 bool fits_in(Vec3 size, Vec3 limit);
 

@@ -110,10 +110,6 @@ class Sections {
 
 }  // namespace
 
-double cube_section(Vec3 normal, double distance) {
-    return section_of(widths(normal), distance);
-}
-
 StressedPart stressed_part(std::shared_ptr<const StressedModel> model, const TriangleMesh& mesh) {
     StressedPart part;
     std::vector<std::uint32_t> numbers;

@@ -17,10 +17,6 @@
 
 namespace qchopper {
 
-// The area in which a plane at a distance from the centre of a cube of side 1 crosses it. The normal is a unit vector;
-// components below 1e-4 count as 0. A plane in a face crosses half of it: the other half is that of the cube beyond.
-double cube_section(Vec3 normal, double distance);
-
 struct SectionStress {
     double value = 0;              // the term of the plane
     std::uint32_t sections = 0;    // that it has

@@ -65,6 +65,20 @@ std::vector<Layers> layers_of_parts(const VoxelModel& m) {
     return layers;
 }
 
+// The voxels joined by faces: per voxel of the list the number of its part; parts are numbered by their first voxel.
+std::vector<std::uint32_t> parts_joined_by_faces(const std::vector<VoxelNeighbours>& neighbours) {
+    DisjointSets sets(neighbours.size());
+    for (std::uint32_t i = 0; i < neighbours.size(); ++i) {
+        for (const std::uint32_t n : neighbours[i]) {
+            if (n != no_voxel) sets.unite(i, n);
+        }
+    }
+    std::vector<std::uint32_t> part(neighbours.size());
+    std::uint32_t parts = 0;
+    for (std::uint32_t i = 0; i < part.size(); ++i) part[i] = sets.root(i) == i ? parts++ : part[sets.root(i)];
+    return part;
+}
+
 VoxelModel model_of(const TriangleMesh& mesh, const VoxelGrid& grid) {
     VoxelModel m;
     m.grid = grid;
@@ -220,19 +234,6 @@ std::vector<FloatingSolid> floating_solids(const VoxelModel& m) {
 }
 
 }  // namespace
-
-std::vector<std::uint32_t> parts_joined_by_faces(const std::vector<VoxelNeighbours>& neighbours) {
-    DisjointSets sets(neighbours.size());
-    for (std::uint32_t i = 0; i < neighbours.size(); ++i) {
-        for (const std::uint32_t n : neighbours[i]) {
-            if (n != no_voxel) sets.unite(i, n);
-        }
-    }
-    std::vector<std::uint32_t> part(neighbours.size());
-    std::uint32_t parts = 0;
-    for (std::uint32_t i = 0; i < part.size(); ++i) part[i] = sets.root(i) == i ? parts++ : part[sets.root(i)];
-    return part;
-}
 
 StressedModel stress_of(const TriangleMesh& mesh, const StructureOptions& options, const Context& context) {
     check(options);

@@ -84,7 +84,4 @@ constexpr double structure_residual = 1e-6;
 // or the solution does not converge; Cancelled. Precondition: the mesh is closed (edges.h).
 StressedModel stress_of(const TriangleMesh& mesh, const StructureOptions& options, const Context& context);
 
-// The voxels joined by faces: per voxel of the list the number of its part; parts are numbered by their first voxel.
-std::vector<std::uint32_t> parts_joined_by_faces(const std::vector<VoxelNeighbours>& neighbours);
-
 }  // namespace qchopper

@@ -53,6 +53,16 @@ class DeepWay {
     double mm2_ = 0;
 };
 
+// The lowest point of a tool whose tip and axis are given, in the frame of both.
+double lowest_of_tool(const CarvingTool& tool, Vec3 tip, Vec3 out) {
+    const Cutter cutter = cutter_of(tool);
+    const double sine = std::sqrt(std::max(0.0, 1 - out.z * out.z));
+    if (cutter.sin_half > 0) {
+        return tip.z + std::min(0.0, profile_height(cutter, cutter.radius) * out.z - cutter.radius * sine);
+    }
+    return tip.z + cutter.corner * out.z - cutter.corner - (cutter.radius - cutter.corner) * sine;
+}
+
 class FoamCarver {
  public:
     FoamCarver(Foam& foam, const ReplayScene& scene, FindingLog& log)
@@ -263,15 +273,6 @@ const TipLine* neighbour(const ToolPath& path, std::size_t index, bool is_next) 
 }
 
 }  // namespace
-
-double lowest_of_tool(const CarvingTool& tool, Vec3 tip, Vec3 out) {
-    const Cutter cutter = cutter_of(tool);
-    const double sine = std::sqrt(std::max(0.0, 1 - out.z * out.z));
-    if (cutter.sin_half > 0) {
-        return tip.z + std::min(0.0, profile_height(cutter, cutter.radius) * out.z - cutter.radius * sine);
-    }
-    return tip.z + cutter.corner * out.z - cutter.corner - (cutter.radius - cutter.corner) * sine;
-}
 
 std::vector<Vec3> rounded_way(const TipLine* before, const TipLine& line, const TipLine* after) {
     std::vector<Vec3> way;

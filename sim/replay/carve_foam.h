@@ -29,9 +29,6 @@ struct CarveFigures {
 CarveFigures carve_foam(Foam& foam, const ToolPath& path, const ReplayScene& scene, bool is_worst, FindingLog& log,
                         const Context& context);
 
-// The lowest point of a tool whose tip and axis are given, in the frame of both.
-double lowest_of_tool(const CarvingTool& tool, Vec3 tip, Vec3 out);
-
 // The way of a line with the corner at its end: from where it leaves the corner before to where the next line takes
 // over. `before` and `after` are its neighbours or nullptr.
 std::vector<Vec3> rounded_way(const TipLine* before, const TipLine& line, const TipLine* after);

@@ -278,18 +278,20 @@ TEST(Codec, ANewerMinorVersionIsTaken) {
     EXPECT_TRUE(decode_status(encode(status)).is_ok());
 }
 
-TEST(Codec, ACellOfTheFirstVersionIsServed) {
+TEST(Codec, AnOlderMinorVersionIsRefused) {
     Status status = a_status();
-    status.version = map_version_1_0;
-    const Decoded<Status> back = decode_status(encode(status));
-    ASSERT_TRUE(back.is_ok());
-    EXPECT_FALSE(has_identity(back.value.version));
-    EXPECT_TRUE(has_identity(map_version));
-    EXPECT_EQ(encode(a_command())[1], map_version_1_0) << "COMMAND is the same in both";
+    status.version = 0x0100;
+    EXPECT_EQ(decode_status(encode(status)).fault, BlockFault::version);
+    EXPECT_EQ(decode_identity(encode(Identity{0x0100, {4}, 1, 2, 3, 5, 1})).fault, BlockFault::version);
+    EXPECT_EQ(encode(a_command())[1], 0x0100) << "COMMAND has a version of its own";
+    EXPECT_TRUE(decode_command(encode(a_command())).is_ok());
+}
+
+TEST(Codec, AnUndividedJobHasZerosForItsPart) {
     TicketOrder order = an_order();
     order.part = order.parts = 0;
     const Registers ticket = encode(wire_ticket(a_ticket(), order));
-    EXPECT_TRUE(is_all_zero(std::span(ticket).subspan(89, 4))) << "reserved in version 1.0";
+    EXPECT_TRUE(is_all_zero(std::span(ticket).subspan(89, 4)));
 }
 
 TEST(Codec, RandomRegistersNeverThrowAndNeverPass) {

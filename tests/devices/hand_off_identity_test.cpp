@@ -1,4 +1,4 @@
-// A cell that lost its memory, a file that was carved before, and a cell of map 1.0, which shows neither.
+// A cell that lost its memory, and a file that was carved before.
 
 #include "devices/hand_off.h"
 
@@ -189,41 +189,7 @@ TEST(Fault, F24_ACellEmptiedWhileTheJobRunsIsStillStarted) {
     EXPECT_TRUE(cell.written.empty());
 }
 
-TEST(HandOffIdentity, ACellOfMap10IsServedAndTheReportNamesWhatCannotBeSeen) {
-    ScriptedCell cell;
-    cell.status.version = map_version_1_0;
-    cell.refuse = [](const HandOffAction& action) { return action.kind == Kind::read_identity ? 2 : 0; };
-    end_the_job(cell);
-    EXPECT_EQ(cell.state.verdict, StartVerdict::started);
-    EXPECT_EQ(cell.count(CellCommand::query_file), 0);
-    for (const Command& command : cell.commands) {
-        const bool is_query = command.command == CellCommand::query;
-        EXPECT_TRUE(!is_query || command.arg0 == 0) << "it does not know grants";
-    }
-    const auto said = [&](const char* words) {
-        return std::any_of(cell.lines.begin(), cell.lines.end(),
-                           [&](const std::string& line) { return line.find(words) != std::string::npos; });
-    };
-    EXPECT_TRUE(said("map 1.0"));
-    EXPECT_EQ(cell.events.front().kind, JournalKind::identity);
-    EXPECT_EQ(cell.events.front().store.store_id, Uuid{});
-}
-
-TEST(HandOffIdentity, ACellOfMap10ThatNoLongerKnowsAJobIsUnknown) {
-    ScriptedCell cell;
-    cell.status.version = map_version_1_0;
-    lose_first_start(cell, [&](const Command&) {
-        cell.status.job_id = {};  // it has forgotten
-        cell.status.job_state = JobState::none;
-        cell.result = {};
-    });
-    cell.run();
-    EXPECT_EQ(cell.state.verdict, StartVerdict::unknown) << cell.state.why;
-    EXPECT_NE(cell.state.why.find("1.0"), std::string::npos);
-    EXPECT_EQ(cell.count(CellCommand::start), 0);
-}
-
-TEST(HandOffIdentity, ACellOfMap11ThatRefusesItsIdentityGetsNoCommand) {
+TEST(HandOffIdentity, ACellThatRefusesItsIdentityGetsNoCommand) {
     ScriptedCell cell;
     cell.refuse = [](const HandOffAction& action) { return action.kind == Kind::read_identity ? 2 : 0; };
     cell.run();

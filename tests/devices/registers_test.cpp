@@ -8,6 +8,8 @@
 #include <set>
 #include <sstream>
 
+#include "tests/devices/print_registers.h"
+
 namespace qchopper {
 namespace {
 

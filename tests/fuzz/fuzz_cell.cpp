@@ -39,7 +39,7 @@ void demand_possible(const Cell& cell) {
         for (int axis = 0; axis < 3; ++axis) demand(block.size[axis] > 0 && std::isfinite(block.size[axis]));
         demand(!block.name.empty());
     }
-    demand(cell.stock_margin >= 0 && cell.clearance >= 0);
+    demand(cell.stock_margin() >= 0 && cell.margins.spoil >= 0 && cell.clearance >= 0);
     demand(cell.tool.diameter > 0 && cell.tool.removal_mm3_per_s > 0);
     demand(cell.tool.spindle_max_rpm > 0 && cell.tool.feed_max_mm_per_min > 0);
     demand(!cell.link.to || cell.link.to->find(':') != std::string::npos);

@@ -37,7 +37,7 @@ JobInput some_job() {
     DrawnCap cap;
     cap.cap.cut = 4;
     cap.cap.cap_in_piece.row = {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, -1}};
-    cap.cap.joints = {{"C", 200, "", {{6, 16, {1, 2}, {1, -2, 0}, {0, 0, 1}, false}}}};
+    cap.cap.joints = {{"C", 200, "", {{1, 6, 16, {1, 2}, {1, -2, 0}, {0, 0, 1}, false, "no drill"}}}};
     cap.outline = {{{-10, -5}, {10, -5}, {10, 5}, {-10, 5}}};
     cap.names_at = {{0, 0}};
     cap.size = {20, 10};
@@ -69,11 +69,14 @@ std::vector<Encoded> job_seeds() {
     texts.insert(texts.end(), files["envelope.json"].begin(), files["envelope.json"].end());
     const auto cell = [](const std::string& name) { return read_file(QCHOPPER_SOURCE_DIR "/cells/" + name + ".toml"); };
     std::string small =
-        "name = \"test\"\nid = 7\nstock_margin = 10\n[reach]\nmin = [-1200, -1200, 0]\nmax = [1200, 1200, 1400]\n"
+        "version = 2\nname = \"test\"\nid = 7\n[margin]\nspoil = 0\n"
+        "[reach]\nmin = [-1200, -1200, 0]\nmax = [1200, 1200, 1400]\n"
         "[table]\ncentre = [0, 50]\nsize = [2200, 1600]\nheight = 150\n"
         "[[stock]]\nname = \"small\"\nsize = [300, 200, 100]\nmaterial = \"eps\"\n"
-        "[tool]\nnumber = 3\nname = \"ball 20\"\ndiameter = 20\nspindle_max_rpm = 18000\nfeed_max_mm_per_min = 9000\n"
-        "removal_mm3_per_s = 24000\n[link]\nto = \"[::1]:15020\"\ndrop = \"drop\"\n";
+        "[[tool]]\nnumber = 3\nname = \"ball 20\"\nshape = \"ball\"\ndiameter = 20\nflute_length = 100\n"
+        "stick_out = 150\nholder = [[40, 50]]\nfeed_mm_per_s = [20, 150]\nrpm = [6000, 18000]\nmass_kg = "
+        "1\nremoval_mm3_per_s = 24000\n"
+        "length_measured = true\n[link]\nto = \"[::1]:15020\"\ndrop = \"drop\"\n";
     parse_cell(small, "small");
     return {{"job", "packed", whole},
             {"job", "texts", texts},

@@ -257,7 +257,7 @@ class Pc {
         VirtualLink link(world_);
         HandOffInput input = read_status_block(link);
         if (!input.status) return;
-        const std::optional<SeenStore> now = read_store(link, *input.status);
+        const std::optional<SeenStore> now = read_store(link);
         if (!now) return;
         JournalEvent event;
         event.kind = JournalKind::store_accepted;

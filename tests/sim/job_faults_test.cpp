@@ -330,26 +330,7 @@ TEST(Fault, F63_AnAcknowledgementThatWasOvertakenIsRepeatedAndActsOnce) {
     EXPECT_EQ(bench.cell.memory.starts_total, 1U);
 }
 
-TEST(OldCell, HasNoIdentityNoQueryByFileAndNoParts) {
-    CellLimits limits;
-    limits.version = map_version_1_0;
-    Bench bench(limits);
-    EXPECT_EQ(answer_pdu(1, rig::read_request(4, 300, 24), bench.cell, bench.now, bench.hooks), (Bytes{0x84, 2}));
-    EXPECT_EQ(bench.status().version, map_version_1_0);
-    EXPECT_EQ(bench.cell.memory.store_id, Uuid{});
-    bench.to_idle();
-    EXPECT_EQ(bench.send(CellCommand::query_file), AckResult::unknown_cmd);
-    WireTicket ticket = good_ticket();
-    ticket.part = 1;
-    ticket.parts = 2;
-    bench.write_ticket(ticket);
-    EXPECT_EQ(bench.send(CellCommand::store, job_a), AckResult::ticket_field);
-    EXPECT_EQ(bench.cell.ack.detail, 189U);
-    bench.write_ticket(good_ticket());
-    EXPECT_EQ(bench.send(CellCommand::store, job_a), AckResult::ok);
-}
-
-TEST(OldCell, OfTheNewVersionTakesPartsThatFitEachOther) {
+TEST(Parts, ThatFitEachOtherAreTaken) {
     const auto stored = [](std::uint16_t part, std::uint16_t parts) {
         Bench bench;
         bench.to_idle();

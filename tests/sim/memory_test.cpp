@@ -44,16 +44,6 @@ TEST(Memory, LoadingGivesBackWhatWasSaved) {
     EXPECT_EQ(load_memory(file), CellMemory{});
 }
 
-TEST(Memory, ThatOfACellOfTheFirstVersionHasNoStoreId) {
-    CellMemory memory = a_memory();
-    memory.store_id = {};
-    memory.store_created_ms = memory.mark = 0;
-    memory.grants.clear();
-    const std::string text = to_json(memory);
-    EXPECT_EQ(text.find("store_"), std::string::npos);
-    EXPECT_EQ(memory_from_json(text, "m"), memory);
-}
-
 TEST(Memory, AFileThatIsNotThereIsANewCell) {
     const rig::Folder folder;
     EXPECT_EQ(load_memory(folder.path / "memory.json"), CellMemory{});

@@ -52,6 +52,17 @@ TEST(Script, AWrongLineIsRefusedWithItsNumber) {
     }
 }
 
+// Rows of a Markdown table: the faults with the meaning of their numbers.
+std::string print_faults() {
+    std::string out = "| fault | number | usual | what happens |\n|---|---|---|---|\n";
+    for (const NamedFault& row : all_faults()) {
+        const bool has_number = row.argument[0] != '\0';
+        out += std::string("| `") + row.name + "` | " + (has_number ? row.argument : "-") + " | " +
+               (has_number ? std::to_string(row.usual) : "-") + " | " + row.meaning + " |\n";
+    }
+    return out;
+}
+
 TEST(Script, ThePageListsEveryFaultAndEveryWord) {
     std::ifstream file(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "docs" / "cell-sim.md");
     std::stringstream text;

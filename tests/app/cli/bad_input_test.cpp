@@ -219,12 +219,12 @@ std::vector<Case> cells() {
         {"UnknownKeyInTheCellFile",
          exit_config,
          prepare_for("cell.toml"),
-         {"cell.toml", ":7:", "clearence", "clearance?"},
+         {"cell.toml", ":8:", "clearence", "clearance?"},
          cell_with(key, "clearence = 20.0")},
         {"CellFileThatIsNoToml",
          exit_config,
          prepare_for("cell.toml"),
-         {"cell.toml:7:", "not TOML"},
+         {"cell.toml:8:", "not TOML"},
          cell_with(key, "<xml>")},
     };
 }

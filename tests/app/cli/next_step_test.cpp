@@ -106,7 +106,7 @@ struct NextStep : ::testing::Test {
 };
 
 // Six tools, one job with a program of several.
-TEST_F(NextStep, LeadsFromPrepareToTheEndOfEveryJobForACellOfVersion2) {
+TEST_F(NextStep, LeadsFromPrepareToTheEndOfEveryJobForACellWithAMachine) {
     const fs::path file = fs::path(QCHOPPER_SOURCE_DIR) / "cells" / "kr60-ha.toml";
     start_cell(file);
     write_file(folder.path / "cap.ply", to_ply(ball_cap()));
@@ -119,7 +119,7 @@ TEST_F(NextStep, LeadsFromPrepareToTheEndOfEveryJobForACellOfVersion2) {
     EXPECT_NE(cell->err().find("STARTED"), std::string::npos) << "the cell has carved: " << cell->err();
 }
 
-TEST_F(NextStep, LeadsFromPrepareToTheEndOfEveryJobForACellOfVersion1) {
+TEST_F(NextStep, LeadsFromPrepareToTheEndOfEveryJobForACellWithoutAMachine) {
     start_cell(program::foam_cell());
     write_file(folder.path / "cap.ply", to_ply(ball_cap()));
     const Ended made =

@@ -74,7 +74,7 @@ TEST_F(WorkEnvelopeCommand, APieceThatTheMachineCannotCarveGetsNoJob) {
     EXPECT_TRUE(json::parse(std::ifstream(folder.path / "p.qch" / "project.json"))["jobs"].empty());
 }
 
-TEST_F(WorkEnvelopeCommand, ACellOfVersion1IsNotChecked) {
+TEST_F(WorkEnvelopeCommand, ACellWithoutAMachineIsNotChecked) {
     const json project = json::parse(std::ifstream(program::prepared() / "scan.qch" / "project.json"));
     const std::string piece = project["jobs"][0]["piece"];
     const ReadJob job = parse_job(read_job(program::prepared() / "scan.qch" / "jobs" / (piece + ".qjob")), "job");

@@ -9,6 +9,8 @@
 
 #include "cam/cell/kuka_angles.h"
 #include "tests/cam/cell/arms.h"
+#include "tests/reference/cam/cell/joint_speeds.h"
+#include "tests/reference/cam/cell/turns_within.h"
 
 namespace qchopper {
 namespace {
@@ -240,6 +242,7 @@ TEST(Arm, ValuesThatAreNotFiniteHaveNoAnswer) {
             EXPECT_TRUE(turns_within(arm.ranges, 0, broken).empty());
             EXPECT_FALSE(is_within(arm.ranges, 0, broken));
             EXPECT_FALSE(joint_speeds(arm.geometry, broken, {}, {{1, 0, 0}, {}}));
+            EXPECT_FALSE(largest_joint_speeds(arm.geometry, broken));
         }
         EXPECT_TRUE(inverse_within(arm.geometry, arm.ranges, std::abs(bad), flange).empty());
         EXPECT_TRUE(turns_within(arm.ranges, -std::abs(bad), joints).empty());
@@ -295,6 +298,7 @@ TEST(Arm, ShoulderAtItsSingularityFollowsTheNeighbour) {
         EXPECT_LT(norm(forward(arm, answer.joints).shift - flange.shift), 1e-6);
         EXPECT_LT(singularity(arm, answer.joints).shoulder, 1e-6);
         EXPECT_FALSE(joint_speeds(arm, answer.joints, {0, 0, 300}, {{0, 10, 0}, {}}));
+        EXPECT_FALSE(largest_joint_speeds(arm, answer.joints));
     }
 }
 
@@ -488,9 +492,12 @@ TEST(Arm, NoJointSpeedsAtASingularity) {
         const ArmGeometry& g = arm.geometry;
         EXPECT_FALSE(joint_speeds(g, radians({10, -70, 60, 30, 0, 20}), {}, {{1, 2, 3}, {}})) << arm.name;
         EXPECT_TRUE(joint_speeds(g, radians({10, -70, 60, 30, 0.01, 20}), {}, {{1, 2, 3}, {}})) << arm.name;
+        EXPECT_FALSE(largest_joint_speeds(g, radians({10, -70, 60, 30, 0, 20}))) << arm.name;
+        EXPECT_TRUE(largest_joint_speeds(g, radians({10, -70, 60, 30, 0.01, 20}))) << arm.name;
         const double stretched = g.c2 + std::hypot(g.a2, g.c3);
         for (const ArmAnswer& answer : inverse(g, {Pose{}.row, {g.a1 + stretched + 1e-8, 0, g.c1 + g.c4}})) {
             EXPECT_FALSE(joint_speeds(g, answer.joints, {}, {{1, 2, 3}, {}})) << arm.name;
+            EXPECT_FALSE(largest_joint_speeds(g, answer.joints)) << arm.name;
         }
     }
 }
@@ -500,6 +507,7 @@ TEST(Arm, JointSpeedsDoNotDependOnTheDirectionsOfTheAxes) {
     const NamedArm arm = kr_120_r2500_pro();
     const auto speeds = joint_speeds(arm.geometry, radians({0, -90, 90, 0, 90, 0}), {}, {{0, 135, 0}, {0, 0, 0.1}});
     ASSERT_TRUE(speeds);
+    EXPECT_TRUE(largest_joint_speeds(arm.geometry, radians({0, -90, 90, 0, 90, 0})));
     // The flange at x = 1350 mm turns about axis 1, whose joint counts the other way.
     for (std::size_t axis = 0; axis < axes_of_arm; ++axis) EXPECT_NEAR((*speeds)[axis], axis == 0 ? -0.1 : 0, 1e-12);
 }

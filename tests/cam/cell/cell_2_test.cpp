@@ -99,7 +99,7 @@ TEST(CellVersion2, ARobotIsReadAsItIsWritten) {
     EXPECT_EQ(machine.extraction->off, (Signal{SignalKind::output, "2", 1}));
     EXPECT_EQ(machine.max_tilt, 60 * degree);
     EXPECT_EQ(machine.max_unreachable, 0.02);
-    EXPECT_EQ(machine.margins, (Margins{5, 3, 10}));
+    EXPECT_EQ(cell.margins, (Margins{5, 3, 10}));
     EXPECT_EQ(machine.holding, (Holding{20, 0.1, 4}));
     ASSERT_EQ(machine.obstacles.size(), 1U);
     EXPECT_EQ(machine.obstacles[0].box, (Box{{-600, 1800, 0}, {600, 2600, 1400}}));
@@ -134,7 +134,7 @@ TEST(CellVersion2, ARobotIsReadAsItIsWritten) {
 TEST(CellVersion2, IsAlsoACellForThoseThatKnowNoRobot) {
     const Cell cell = parse_cell(robot_cell(), "shop/cell.toml");
     EXPECT_EQ(cell.tool, (Tool{1, "ball nose 20 mm", 20, 18000, 9000, 24000}));
-    EXPECT_EQ(cell.stock_margin, 5);
+    EXPECT_EQ(cell.stock_margin(), 5);
     EXPECT_EQ(cell.clearance, 20);
     EXPECT_EQ(cell.table.height, 300);
     // The corners of the square lie on the rim.
@@ -174,10 +174,10 @@ TEST(CellVersion2, DefaultsAreKnownAsSuch) {
     const Cell whole = parse_cell(robot_cell(), "cell.toml");
     EXPECT_EQ(cell.machine->max_tilt, whole.machine->max_tilt);
     EXPECT_EQ(cell.machine->program, whole.machine->program);
-    EXPECT_EQ(cell.machine->margins, whole.machine->margins);
+    EXPECT_EQ(cell.margins, whole.margins);
     EXPECT_EQ(cell.machine->holding, whole.machine->holding);
     EXPECT_EQ(bending_strength(cell.stock[0]), 0.6);
-    const std::vector<ValueOrigin>& origins = cell.machine->origins;
+    const std::vector<ValueOrigin>& origins = cell.origins;
     for (const ValueOrigin& value :
          {ValueOrigin{"", "max_tilt_deg", Origin::by_default}, ValueOrigin{"", "max_unreachable", Origin::by_default},
           ValueOrigin{"program", "lines_per_chunk", Origin::by_default},
@@ -191,7 +191,7 @@ TEST(CellVersion2, DefaultsAreKnownAsSuch) {
 TEST(CellVersion2, OriginsAreThoseOfTheTableUnlessAKeyHasItsOwn) {
     const Cell cell = parse_cell(robot_cell(), "cell.toml");
     const auto origin = [&](const std::string& table, const std::string& key) {
-        for (const ValueOrigin& value : cell.machine->origins) {
+        for (const ValueOrigin& value : cell.origins) {
             if (value.table == table && value.key == key) return std::string(to_word(value.origin));
         }
         return std::string("none");
@@ -387,21 +387,6 @@ TEST(CellVersion2, AnOriginOfAValueThatIsNotGivenIsRefused) {
         << refused(text);
 }
 
-// Version 1 knows nothing of version 2, whether it says its number or not.
-TEST(CellVersion2, Version1IsWhatItWas) {
-    const std::string text = bytes_of(cells / "foam-1.toml");
-    const Cell cell = parse_cell(text, "cells/foam-1.toml");
-    EXPECT_FALSE(cell.machine);
-    EXPECT_EQ(parse_cell("version = 1\n" + text, "cells/foam-1.toml"), cell);
-    EXPECT_NE(refused(text + "source = \"measured\"\n").find("unknown key link.source"), std::string::npos);
-    EXPECT_NE(refused("max_tilt_deg = 60\n" + text).find("unknown key max_tilt_deg"), std::string::npos);
-    EXPECT_NE(refused(replaced(text, "material = \"pu_foam\"", "sawn = true")).find("unknown key stock.sawn"),
-              std::string::npos);
-    EXPECT_NE(refused("version = 2\n" + text).find("unknown key"), std::string::npos);
-    // Lengths up to 100 m, as before.
-    EXPECT_EQ(parse_cell(replaced(text, "1200.0, 1200.0, 1400.0", "99000.0, 1200.0, 1400.0"), "c").reach.max.x, 99000);
-}
-
 TEST(CellCheck, AReadyCellMayNotBeDispatched) {
     const CellCheck check = check_cell(parse_cell(robot_cell(), "cell.toml"));
     EXPECT_FALSE(check.may_be_dispatched());
@@ -442,9 +427,10 @@ TEST(CellCheck, TellsWhatIsNotDescribed) {
     ASSERT_EQ(check.missing.size(), 3U);
     EXPECT_EQ(check.missing[0], "spindle.at_speed: no signal tells that the spindle has its speed");
     EXPECT_EQ(check.missing[1], "extraction.on: no signal switches the extraction on");
-    const CellCheck old = check_cell(read_cell(cells / "foam-1.toml"));
-    EXPECT_TRUE(old.may_be_dispatched());
-    EXPECT_EQ(old.missing.size(), 2U);
+    const CellCheck boxes = check_cell(read_cell(cells / "foam-1.toml"));
+    EXPECT_EQ(boxes.against_dispatch.front(), "reach.min is assumed: the travel of an axis");
+    ASSERT_EQ(boxes.missing.size(), 1U);
+    EXPECT_NE(boxes.missing[0].find("no machine is described"), std::string::npos);
 }
 
 // Whatever the bytes: a possible cell or an InputError.

@@ -242,7 +242,7 @@ TEST(Job, AnyValueOfAnotherKindEndsInOneWay) {
 TEST(Job, ForgedManifestsAreRefusedAndSayWhere) {
     using Json = nlohmann::ordered_json;
     const std::vector<std::pair<std::function<void(Json&)>, std::string>> cases{
-        {[](Json& j) { j["schema"] = 2; }, "schema 2 is not one of those that this program reads, 5 to 7"},
+        {[](Json& j) { j["schema"] = 6; }, "schema 6 is not 7, the one that this program reads"},
         {[](Json& j) { j["format"] = "other"; }, "format"},
         {[](Json& j) { j.erase("piece"); }, "piece is missing"},
         {[](Json& j) { j["piece"]["number"] = 70000; }, "number is not a whole number"},

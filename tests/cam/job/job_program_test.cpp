@@ -141,31 +141,6 @@ TEST(JobProgram, WhatItDrillsIsWhatTheCapsSay) {
     EXPECT_NE(refused([](JobInput& i) { i.program.reset(); }).find("drilled by no program"), std::string::npos);
 }
 
-// As jobs were written before programs drilled.
-TEST(JobProgram, AJobOfSchema5IsReadAndDrillsNothing) {
-    JobInput input = job_that_drills();
-    input.program->program.drilling.clear();
-    std::map<std::string, Bytes> files = unzip(job_file(input), "AB.qjob");
-    const Bytes& bytes = files.at("manifest.json");
-    nlohmann::ordered_json manifest = nlohmann::ordered_json::parse(bytes.begin(), bytes.end());
-    manifest["schema"] = 5;
-    manifest["programs"][0].erase("drilling");
-    manifest["programs"][0].erase("holes");
-    for (auto& hole : manifest["caps"][0]["joints"][0]["holes"]) {
-        hole.erase("number");
-        hole.erase("by_hand_because");
-    }
-    const std::string text = manifest.dump(2) + "\n";
-    files["manifest.json"] = {text.begin(), text.end()};
-    const ReadJob job = parse_job(zip(files), "AB.qjob");
-    EXPECT_TRUE(job.program->holes.empty());
-    const std::vector<JobHole> holes = holes_of(job.caps);
-    ASSERT_EQ(holes.size(), 3U);
-    EXPECT_EQ(holes[2].number, 3U);
-    EXPECT_FALSE(holes[0].by_robot);
-    EXPECT_NE(holes[0].by_hand.find("schema 5"), std::string::npos);
-}
-
 TEST(JobProgram, AJobWithoutOneSaysWhy) {
     JobInput input = tilting_job(3);
     input.no_program_because = "the cell file describes no machine";
@@ -216,7 +191,7 @@ std::string fault_after(const Change& change) {
     nlohmann::ordered_json json = from_program(some_program().program);
     change(json.front());
     try {
-        to_program(json, 6);
+        to_program(json);
     } catch (const std::runtime_error& error) {
         return error.what();
     }

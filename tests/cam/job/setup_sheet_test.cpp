@@ -58,7 +58,7 @@ std::string fault_of(const std::string& html) {
     return open.empty() ? "" : open.back() + " is not closed";
 }
 
-TEST(SetupSheet, SaysWhatToDoInACellOfVersion1) {
+TEST(SetupSheet, SaysWhatToDoInACellWithoutAMachine) {
     const std::string sheet = setup_sheet(some_job(), some_time_s);
     expect_words(sheet, {"<h1>Setup sheet: piece AB (2 of 5)</h1>", "Cell test.",
                          "Take block &quot;small&quot; (eps), 100 x 60 x 50 mm.", "Not sawn.",
@@ -73,7 +73,7 @@ TEST(SetupSheet, SaysWhatToDoInACellOfVersion1) {
     EXPECT_EQ(fault_of(sheet), "");
 }
 
-TEST(SheetDetails, OfACellOfVersion1) {
+TEST(SheetDetails, OfACellWithoutAMachine) {
     const std::string details = sheet_details(some_job());
     expect_words(details, {"<h1>Details: piece AB (2 of 5)</h1>", "Arm not checked", "the cap of cut 4",
                            "<li>scaled by 0.5 on request</li>", "Other bases</h2>\n<p>None.</p>", "in one colour"});
@@ -225,7 +225,7 @@ TEST(SetupSheet, TellsByWhichFormulaThePieceIsHeld) {
                   "To do: leave a stand of uncut foam around its lowest 11 mm, 65 x 65 mm about x = -3, y = 4 of "
                   "the setup, saw it off in the plane of the base (z = 0)"});
     EXPECT_EQ(fault_of(sheet), "");
-    EXPECT_EQ(setup_sheet(some_job(), some_time_s).find("cutting force"), std::string::npos) << "version 1";
+    EXPECT_EQ(setup_sheet(some_job(), some_time_s).find("cutting force"), std::string::npos) << "no machine";
 }
 
 TEST(SetupSheet, SaysHowExactlyTheBlockMustLie) {

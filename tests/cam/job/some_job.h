@@ -51,7 +51,7 @@ inline SurfaceReach some_reach(const JobInput& input) {
     return reach;
 }
 
-// In a cell of version 2, from a block that is sawn, with a spoil layer: 5 % of the surface are out of reach, and the
+// In a cell with a machine, from a block that is sawn, with a spoil layer: 5 % of the surface are out of reach, and the
 // limit is 2 %.
 inline JobInput tilting_job(int rings = 8) {
     JobInput input = some_job(rings);

@@ -17,26 +17,26 @@ double volume(Vec3 size) {
 Cell cell_of(std::vector<Stock> stock) {
     Cell cell;
     cell.stock = std::move(stock);
-    cell.stock_margin = 5;
+    cell.margins = {5, 5, 0};
     return cell;
 }
 
-// Version 2: 4 mm at the sides, 3 above, 10 of spoil layer.
+// With 4 mm at the sides, 3 above, 10 of spoil layer.
 Cell machine_of(std::vector<Stock> stock) {
     Cell cell = cell_of(std::move(stock));
     cell.machine.emplace();
-    cell.machine->margins = {4, 3, 10};
+    cell.margins = {4, 3, 10};
     return cell;
 }
 
-TEST(Block, OfVersion1KeepsOneMarginAtTheSidesAndAbove) {
+TEST(Block, OfACellWithoutAMachineKeepsItsMargins) {
     const Cell cell = cell_of({{"one", {110, 60, 55}, Material::eps}});
     EXPECT_TRUE(choose_block(cell, {100, 50, 50}).holds);
     EXPECT_FALSE(choose_block(cell, {100, 50, 50.1}).holds);
     EXPECT_FALSE(choose_block(cell, {100, 50.1, 50}).holds);
 }
 
-TEST(Block, OfVersion2KeepsSeparateMarginsAndASpoilLayer) {
+TEST(Block, OfACellWithAMachineKeepsSeparateMarginsAndASpoilLayer) {
     const Cell cell = machine_of({{"one", {108, 58, 63}, Material::eps}});
     EXPECT_TRUE(choose_block(cell, {100, 50, 50}).holds);
     EXPECT_FALSE(choose_block(cell, {100, 50, 50.1}).holds);

@@ -9,6 +9,7 @@
 #include "segment/mesh/measure.h"
 #include "segment/mesh/rays.h"
 #include "segment/sample/sample.h"
+#include "tests/reference/cam/setup/remaining_volume.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

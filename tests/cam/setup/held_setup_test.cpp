@@ -9,6 +9,7 @@
 
 #include "cam/setup/place_block.h"
 #include "tests/cam/setup/pieces.h"
+#include "tests/reference/cam/setup/holds_at_placement.h"
 
 namespace qchopper {
 namespace {

@@ -14,6 +14,7 @@
 #include "segment/sample/sample.h"
 #include "tests/cam/setup/ray_areas.h"
 #include "tests/cam/setup/solids.h"
+#include "tests/reference/cam/setup/remaining_volume.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

@@ -73,7 +73,7 @@ inline Cell cell() {
     cell.stock = {{"small", {100, 60, 50}, Material::eps},
                   {"flat", {400, 300, 60}, Material::pu_foam},
                   {"tall", {200, 200, 400}, Material::pu_foam}};
-    cell.stock_margin = 5;
+    cell.margins = {5, 5, 0};
     cell.clearance = 20;
     cell.tool = {1, "ball", 20, 18000, 9000, 24000};
     return cell;

@@ -14,6 +14,7 @@
 #include "cam/setup/holder_limit.h"
 #include "cam/setup/place_score.h"
 #include "tests/cam/setup/random_setups.h"
+#include "tests/reference/cam/setup/holds_at_placement.h"
 
 namespace qchopper {
 namespace {

@@ -14,6 +14,7 @@
 #include "cam/setup/block.h"
 #include "cam/setup/place_block.h"
 #include "cam/setup/setup.h"
+#include "tests/reference/cam/setup/holds_at_placement.h"
 #include "tests/shapes.h"
 
 namespace qchopper::test_setups {

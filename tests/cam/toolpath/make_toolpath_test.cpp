@@ -378,7 +378,7 @@ TEST(MakeToolpath, NamesTheSettingThatIsNotValid) {
     Cell no_ball = cell;
     std::erase_if(no_ball.machine->tools, [](const CarvingTool& t) { return t.shape == ToolShape::ball; });
     refused({}, "ball-ended", no_ball);
-    refused({}, "version 1", ready_cell("foam-1.toml"));
+    refused({}, "no machine", ready_cell("foam-1.toml"));
 }
 
 TEST(MakeToolpath, CanBeCancelled) {

@@ -1,5 +1,4 @@
-// Roughing passes, the order of passes, links, what holder and flute allow, and times: against plain loops and closed
-// forms.
+// Roughing passes, the order of passes, links, and what holder and flute allow: against plain loops and closed forms.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +14,6 @@
 #include "cam/toolpath/links.h"
 #include "cam/toolpath/pass_order.h"
 #include "cam/toolpath/roughing_passes.h"
-#include "cam/toolpath/time_estimate.h"
 #include "cam/toolpath/tip_surface.h"
 #include "tests/cam/toolpath/toolpath_pieces.h"
 
@@ -369,36 +367,6 @@ TEST(HolderLimit, KeepsEveryStepAboveTheFoam) {
     EXPECT_GE(limit.at(100 + 59, 100), 80 - 90) << "the wide step is 50 mm higher";
     EXPECT_LT(limit.at(100 + 59, 100), 80 - 40);
     EXPECT_LT(limit.at(199, 199), 0);
-}
-
-TEST(TimeEstimate, OfAMoveIsATrapezoidOrATriangle) {
-    EXPECT_NEAR(move_seconds(100, 100, 0, 0, 2000), 100 / 100.0 + 100 / 2000.0, 1e-12);
-    EXPECT_NEAR(move_seconds(2, 100, 0, 0, 2000), 2 * std::sqrt(2 / 2000.0), 1e-12) << "the feed is not reached";
-    EXPECT_NEAR(move_seconds(50, 100, 100, 100, 2000), 0.5, 1e-12);
-    EXPECT_EQ(move_seconds(0, 100, 0, 0, 2000), 0);
-}
-
-TEST(TimeEstimate, CountsStopsAtCornersThatAreNotRounded) {
-    Toolpath path;
-    Operation operation;
-    operation.feed = operation.approach_feed = operation.link_feed = 100;
-    operation.rounding = 2;
-    const auto with_corner = [&](bool is_rounded) {
-        Toolpath one;
-        Operation own = operation;
-        own.runs = {{{0, 0, 0}, {{{100, 0, 0}, MoveKind::cut, is_rounded}, {{100, 100, 0}, MoveKind::retract, false}}}};
-        one.operations = {own};
-        TimeSettings settings;
-        settings.direction_s = 0;
-        return time_estimate(one, settings).total_s();
-    };
-    EXPECT_NEAR(with_corner(false), 2 * 1.05, 1e-9);
-    EXPECT_LT(with_corner(true), 2.1 - 0.02);
-    EXPECT_GT(with_corner(true), 2.05) << "the corner is passed below the feed";
-    path.operations = {operation, operation};
-    path.operations[1].tool = 3;
-    TimeSettings settings;
-    EXPECT_EQ(time_estimate(path, settings).total_s(), settings.tool_change_s + 2 * settings.direction_s);
 }
 
 }  // namespace

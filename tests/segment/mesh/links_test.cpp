@@ -7,6 +7,7 @@
 
 #include "segment/mesh/manifold.h"
 #include "segment/repair/weld.h"
+#include "tests/reference/segment/mesh/non_manifold_vertices.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

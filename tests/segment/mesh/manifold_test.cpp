@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "segment/repair/weld.h"
+#include "tests/reference/segment/mesh/non_manifold_vertices.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

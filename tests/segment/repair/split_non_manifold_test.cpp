@@ -7,10 +7,10 @@
 #include <random>
 
 #include "segment/mesh/edges.h"
-#include "segment/mesh/manifold.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/shells.h"
 #include "segment/repair/weld.h"
+#include "tests/reference/segment/mesh/non_manifold_vertices.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

@@ -9,6 +9,7 @@
 #include "segment/cut/nudge.h"
 #include "segment/score/evaluate.h"
 #include "tests/pieces.h"
+#include "tests/reference/segment/score/evaluate_by_cutting.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

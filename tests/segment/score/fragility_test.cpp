@@ -1,4 +1,4 @@
-#include "segment/score/fragility.h"
+#include "tests/reference/segment/score/fragility.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "segment/score/reference.h"
+#include "tests/reference/segment/score/evaluate_by_cutting.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include "segment/cut/cut_piece.h"
 #include "segment/cut/nudge.h"
 #include "segment/mesh/measure.h"
+#include "segment/score/evaluate.h"
 #include "tests/pieces.h"
 #include "tests/shapes.h"
 

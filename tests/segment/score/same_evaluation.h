@@ -13,8 +13,8 @@
 #include "segment/cut/nudge.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/oriented_box.h"
-#include "segment/score/reference.h"
 #include "segment/score/sweep.h"
+#include "tests/reference/segment/score/evaluate_by_cutting.h"
 
 namespace qchopper {
 

@@ -14,6 +14,7 @@
 #include "segment/score/candidates.h"
 #include "segment/score/evaluate.h"
 #include "tests/real_scans.h"
+#include "tests/reference/segment/score/evaluate_by_cutting.h"
 #include "tests/segment/score/same_evaluation.h"
 
 namespace qchopper {

@@ -10,7 +10,6 @@
 #include "segment/cut/nudge.h"
 #include "segment/mesh/measure.h"
 #include "segment/score/candidates.h"
-#include "segment/score/reference.h"
 #include "tests/pieces.h"
 #include "tests/segment/score/same_evaluation.h"
 #include "tests/shapes.h"

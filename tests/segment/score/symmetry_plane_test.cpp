@@ -12,6 +12,7 @@
 #include "segment/mesh/measure.h"
 #include "segment/sample/sample.h"
 #include "segment/score/surface_samples.h"
+#include "tests/reference/segment/score/symmetry_score.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

@@ -9,6 +9,7 @@
 #include "segment/cut/cut.h"
 #include "segment/mesh/edges.h"
 #include "tests/pieces.h"
+#include "tests/reference/segment/score/evaluate_by_cutting.h"
 #include "tests/segment/score/same_evaluation.h"
 #include "tests/shapes.h"
 

@@ -6,6 +6,7 @@
 
 #include "segment/mesh/measure.h"
 #include "tests/segment/search/greedy.h"
+#include "tests/segment/search/next_piece.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "segment/score/evaluate.h"
+#include "tests/segment/search/next_piece.h"
 
 namespace qchopper::greedy {
 namespace {

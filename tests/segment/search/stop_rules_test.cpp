@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "segment/mesh/oriented_box.h"
+#include "tests/segment/search/next_piece.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

@@ -11,7 +11,6 @@
 #include "base/parallel.h"
 #include "segment/cut/cut.h"
 #include "segment/mesh/edges.h"
-#include "segment/mesh/manifold.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/triangle_tree.h"
 #include "segment/repair/self_intersections.h"
@@ -20,6 +19,7 @@
 #include "segment/simplify/collapse_passes.h"
 #include "segment/simplify/sampled_deviation.h"
 #include "segment/simplify/sound_face.h"
+#include "tests/reference/segment/mesh/non_manifold_vertices.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

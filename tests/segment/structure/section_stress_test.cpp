@@ -54,19 +54,38 @@ std::vector<Vec3> normals() {
     return all;
 }
 
+// The sections of one voxel of side 1 around the origin.
+std::vector<SectionStress> cube_sections(Vec3 normal, const std::vector<double>& distances) {
+    StressedModel model;
+    model.grid.corner = {-0.5, -0.5, -0.5};
+    model.grid.count = {1, 1, 1};
+    model.strength_mpa = 1;
+    model.voxels = {0};
+    model.stress.resize(1);
+    model.is_thick = {1};
+    StressedPart part;
+    part.neighbours = voxel_neighbours(model.grid, model.voxels);
+    part.voxels = {0};
+    part.model = std::make_shared<const StressedModel>(std::move(model));
+    return section_stress(part, normal, distances);
+}
+
 TEST(SectionStress, TheSectionOfACubeIsThatOfThePolygon) {
+    std::vector<double> distances;
+    for (int i = -1000; i < 1000; ++i) distances.push_back((i + 0.5) * 0.001);
     for (const Vec3 n : normals()) {
         double volume = 0;
-        for (int i = -1000; i < 1000; ++i) {
-            const double d = (i + 0.5) * 0.001;
-            const double area = cube_section(n, d);
+        const std::vector<SectionStress> sections = cube_sections(n, distances);
+        for (std::size_t i = 0; i < distances.size(); ++i) {
+            const double d = distances[i];
+            const double area = sections[i].area_mm2;
             EXPECT_NEAR(area, clipped_area(n, d), 1e-9) << n.x << ' ' << n.y << ' ' << n.z << ' ' << d;
             volume += 0.001 * area;
         }
         EXPECT_NEAR(volume, 1, 1e-3);
     }
-    EXPECT_EQ(cube_section({0, 0, 1}, 0.5), 0.5) << "a plane in a face";
-    EXPECT_NEAR(cube_section(normalized({1e-6, 1e-5, 1}), 0.2), 1, 1e-9);
+    EXPECT_EQ(cube_sections({0, 0, 1}, {0.5})[0].area_mm2, 0.5) << "a plane in a face";
+    EXPECT_NEAR(cube_sections(normalized({1e-6, 1e-5, 1}), {0.2})[0].area_mm2, 1, 1e-9);
 }
 
 // One plane, one voxel and one section after the other.

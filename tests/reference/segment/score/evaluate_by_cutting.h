@@ -20,7 +20,4 @@ namespace qchopper {
 std::optional<CutEvaluation> evaluate_by_cutting(const Piece& piece, const Plane& plane, const Objectives& objectives,
                                                  const std::array<Vec3, 3>* box_axes = nullptr);
 
-// The same values of a piece that is not cut.
-SolidEvaluation measure(const Piece& piece);
-
 }  // namespace qchopper

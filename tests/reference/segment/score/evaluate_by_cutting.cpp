@@ -1,7 +1,7 @@
 // Cuts, groups the triangles of each half by solid, and adds up each solid from the definitions. O(triangles * caps of
 // a solid) besides the cut.
 
-#include "segment/score/reference.h"
+#include "tests/reference/segment/score/evaluate_by_cutting.h"
 
 #include <algorithm>
 #include <cassert>
@@ -13,9 +13,9 @@
 #include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/oriented_box.h"
-#include "segment/score/binary_fragility.h"
-#include "segment/score/fragility.h"
 #include "segment/score/section_measures.h"
+#include "tests/reference/segment/score/binary_fragility.h"
+#include "tests/reference/segment/score/fragility.h"
 
 namespace qchopper {
 namespace {
@@ -23,7 +23,7 @@ namespace {
 // Unit normals of all triangles. A cap triangle has its plane's, a part of a triangle that of the whole one (`parent`,
 // in the mesh `parents`): a sliver has none of its own. Zero for a triangle without area.
 std::vector<Vec3> triangle_normals(const TriangleMesh& mesh, const std::vector<HalfSpace>& half_spaces,
-                                   const std::vector<std::uint32_t>* parent, const TriangleMesh* parents) {
+                                   const std::vector<std::uint32_t>& parent, const TriangleMesh& parents) {
     std::vector<Vec3> normals(mesh.triangles.size());
     for (std::size_t t = 0; t < normals.size(); ++t) {
         const std::int32_t cap = cap_of(mesh, t);
@@ -32,7 +32,7 @@ std::vector<Vec3> triangle_normals(const TriangleMesh& mesh, const std::vector<H
         if (half_space != half_spaces.end())
             normals[t] = -half_space->up();
         else
-            normals[t] = normalized(parent != nullptr ? area_vector(*parents, (*parent)[t]) : area_vector(mesh, t));
+            normals[t] = normalized(area_vector(parents, parent[t]));
     }
     return normals;
 }
@@ -149,7 +149,7 @@ std::vector<SolidEvaluation> measure_half(const Half& half, const HalfSolids& so
     std::vector<HalfSpace> half_spaces = piece.half_spaces;
     half_spaces.push_back(half_space);
     const std::vector<std::uint32_t> solid_of = solid_of_triangle(solids.shells, solids.solids);
-    const std::vector<Vec3> normals = triangle_normals(half.mesh, half_spaces, &half.parent, piece.mesh.get());
+    const std::vector<Vec3> normals = triangle_normals(half.mesh, half_spaces, half.parent, *piece.mesh);
     std::vector<SolidEvaluation> evaluations =
         measure_solids(half.mesh, normals, solid_of, solids.solids.count, half_spaces);
     for (SolidEvaluation& evaluation : evaluations) evaluation.above = half_space.above;
@@ -178,12 +178,6 @@ std::optional<CutEvaluation> evaluate_by_cutting(const Piece& piece, const Plane
     }
     if (objectives.needs_seam()) evaluation.seam_mm = seam_of_cap(piece, plane, halves->below);
     return evaluation;
-}
-
-SolidEvaluation measure(const Piece& piece) {
-    const std::vector<Vec3> normals = triangle_normals(*piece.mesh, piece.half_spaces, nullptr, nullptr);
-    const std::vector<std::uint32_t> solid_of(piece.mesh->triangles.size(), 0);
-    return measure_solids(*piece.mesh, normals, solid_of, 1, piece.half_spaces).front();
 }
 
 }  // namespace qchopper

@@ -1,5 +1,7 @@
 // Prints the tables of registers.cpp, codes.cpp and packml.cpp as Markdown. O(characters).
 
+#include "tests/devices/print_registers.h"
+
 #include <cstdio>
 #include <initializer_list>
 
@@ -126,10 +128,8 @@ std::string print_registers() {
         "zero. Blocks of zeros do nothing.\n\nReserved registers are written as 0. What a cell publishes there is "
         "ignored: a later version may use it. A cell does nothing of a COMMAND or TICKET with another value there, "
         "because it may ask for more than the cell knows: it answers UNKNOWN_CMD or TICKET_FIELD, with the address in "
-        "ACK_DETAIL.\n\nVersion 1.1 added IDENTITY, the command QUERY_FILE, GRANT_EPOCH of "
-        "RESULT and the fields PART and PARTS of TICKET. A cell of 1.0 answers the read of IDENTITY with exception 2 "
-        "and QUERY_FILE with "
-        "UNKNOWN_CMD, and wants zeros in PART and PARTS.\n";
+        "ACK_DETAIL.\n\nA later version 1.x adds to this one and is served; a cell that publishes an older VERSION is "
+        "refused.\n";
     for (const Block* block : all_blocks()) out += print_block(*block);
     return out + what_is_kept + print_codes() + print_machine();
 }

@@ -1,7 +1,7 @@
 // One pass over the faces or vertices. For thinness one ray per face that counts, all of one direction
 // (parallel_rays.h): O(triangles) and the rays; 48 bytes per face that counts.
 
-#include "segment/score/fragility.h"
+#include "tests/reference/segment/score/fragility.h"
 
 #include <cassert>
 #include <cmath>

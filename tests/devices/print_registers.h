@@ -1,0 +1,12 @@
+// Prints the register map of a cell as Markdown, from the tables that the program uses.
+
+#pragma once
+
+#include <string>
+
+namespace qchopper {
+
+// The text of docs/registers.md.
+std::string print_registers();
+
+}  // namespace qchopper
