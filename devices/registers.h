@@ -1,7 +1,7 @@
 // The register map of a cell, version 1.1: every block and every field, as tables.
 //
 // Addresses are 0-based, as in the PDU; the encoding is that of register_writer.h. Every block fits one request. The
-// file docs/registers.md is what print_registers() returns (tests/devices/registers_test.cpp).
+// file docs/developer/formats/registers.md is what print_registers() returns (tests/devices/registers_test.cpp).
 
 #pragma once
 
@@ -33,7 +33,7 @@ const Field* field_named(const Block& block, const char* field_name);
 // Precondition: the block has that field.
 std::uint16_t address_of(const Block& block, const char* field_name);
 
-// The text of docs/registers.md.
+// The text of docs/developer/formats/registers.md.
 std::string print_registers();
 
 }  // namespace qchopper

@@ -24,7 +24,7 @@
 namespace qchopper {
 
 constexpr int job_schema_version = 7;
-constexpr int oldest_job_schema = 5;  // that is read (docs/job-folder.md says what older ones lack)
+constexpr int oldest_job_schema = 5;  // that is read (docs/developer/formats/job-folder.md says what older ones lack)
 
 // Precondition of all functions that take it: piece.mesh is not null, setup.block.stock is an index in cell.stock, so
 // are those of the alternatives, the envelope has a margin, states are empty or one per triangle, and max_unreachable
