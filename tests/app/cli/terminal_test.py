@@ -64,7 +64,8 @@ class Terminal:
                 if pid != 0:
                     os.close(self.terminal)
                     return os.waitstatus_to_exitcode(status)
-                self.step(0.1)
+                if not self.step(0.1):  # closed already: at once
+                    time.sleep(0.1)
         raise AssertionError("it cannot be ended")
 
 
