@@ -67,7 +67,7 @@ double checked(const TomlReader& reader, std::string_view key, const toml::node&
 
 const toml::node& need(const TomlReader& reader, const toml::table& table, std::string_view key) {
     const toml::node* node = table.get(key);
-    if (node == nullptr) reader.refuse(key, "is missing", "add the key; docs/cell-file.md explains each");
+    if (node == nullptr) reader.refuse(key, "is missing", "add the key; docs/user/cell-file.md explains each");
     return *node;
 }
 
@@ -101,7 +101,7 @@ TomlReader TomlReader::parse(std::string_view text, const std::string& file) {
                          file + ":" + std::to_string(error.source().begin.line) + ": not TOML from column " +
                              std::to_string(error.source().begin.column) +
                              " on: a value, bracket, comma or quotation mark is missing or too many",
-                         "docs/cell-file.md shows a whole cell file");
+                         "docs/user/cell-file.md shows a whole cell file");
     }
 }
 

@@ -1,4 +1,4 @@
-// Prints the runs of carve_runs.h as the tables of docs/carve.md, and whether the aims hold.
+// Prints the runs of carve_runs.h as the tables of docs/measurements/out-of-reach.md, and whether the aims hold.
 
 #pragma once
 

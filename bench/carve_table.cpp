@@ -1,5 +1,6 @@
-// Prints the tables of docs/carve.md: what share of the surface of ten models no tilting tool reaches after 0 to 16
-// cuts by the thesis' objectives and by those of the preset carve, judged on the really cut pieces.
+// Prints the tables of docs/measurements/out-of-reach.md: what share of the surface of ten models no tilting tool
+// reaches after 0 to 16 cuts by the thesis' objectives and by those of the preset carve, judged on the really cut
+// pieces.
 
 #include <algorithm>
 #include <iostream>

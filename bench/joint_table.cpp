@@ -1,5 +1,5 @@
-// Prints the table of docs/chopper.md: how well the pieces of five models can be joined after the same number of cuts
-// by several presets, and what no tilting tool reaches of them, judged on the really cut pieces.
+// Prints the table of docs/measurements/joints.md: how well the pieces of five models can be joined after the same
+// number of cuts by several presets, and what no tilting tool reaches of them, judged on the really cut pieces.
 
 #include <algorithm>
 #include <iostream>

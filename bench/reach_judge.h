@@ -1,7 +1,8 @@
 // Judges a really cut piece: what of its surface no tilting tool reaches. Beside the objective `unreachable`, which
 // knows it without cutting, and independent of it: other samples, other directions, rays on the piece's own mesh.
 //
-// mm2. As docs say what counts (docs/setup.md), for a tool of radius zero. Of the search it uses the data types only.
+// mm2. As docs say what counts (docs/user/setup.md), for a tool of radius zero. Of the search it uses the data types
+// only.
 
 #pragma once
 

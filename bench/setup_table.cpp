@@ -1,5 +1,6 @@
-// Prints the table of docs/setup.md: what share of the surface of the pieces of six models no tool reaches, in the four
-// ready cells, with 1, 2, 4 and 8 directions, on the bases that are chosen and on those of the thesis.
+// Prints the table of docs/measurements/setups.md: what share of the surface of the pieces of six models no tool
+// reaches, in the four ready cells, with 1, 2, 4 and 8 directions, on the bases that are chosen and on those of the
+// thesis.
 
 #include <algorithm>
 #include <array>

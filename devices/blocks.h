@@ -1,8 +1,8 @@
 // The values of the blocks of the register map: a struct for each block, a member for each field.
 //
-// Units are those of the map (docs/registers.md): lengths in 0.01 mm, shares in 0.01 %, times in s or in ms since 1970
-// (UTC). An id or a hash of zeros means none. That every member has the type and size of its field is checked when
-// registers.cpp is compiled (layout.h).
+// Units are those of the map (docs/developer/formats/registers.md): lengths in 0.01 mm, shares in 0.01 %, times in s or
+// in ms since 1970 (UTC). An id or a hash of zeros means none. That every member has the type and size of its field is
+// checked when registers.cpp is compiled (layout.h).
 
 #pragma once
 

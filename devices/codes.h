@@ -1,7 +1,7 @@
 // The coded values of the register map: modes, states, results, flag bits, and their names.
 //
-// The numbers are those on the wire (docs/registers.md). A value read from the wire may be any number: name() and
-// describe() return a text for every one, never nullptr.
+// The numbers are those on the wire (docs/developer/formats/registers.md). A value read from the wire may be any
+// number: name() and describe() return a text for every one, never nullptr.
 
 #pragma once
 
@@ -115,7 +115,7 @@ constexpr bool is_refusal(AckResult result) {
     return static_cast<std::uint16_t>(result) >= 0x100;
 }
 
-// One row of the table of results in docs/registers.md.
+// One row of the table of results in docs/developer/formats/registers.md.
 struct ResultCode {
     AckResult result;
     const char* name;

@@ -3,6 +3,11 @@
 // written after the sync of the row and never synced itself, so that a loss of power leaves it at most too small. A new
 // journal is made aside with its tables and renamed: one without tables has lost its log. All rows are read and
 // verified when it is opened, O(rows), and kept.
+//
+// Why the number of rows: the chain of hashes does not show that the last rows are missing, and without SQLite's log
+// the file is a whole older journal or none. A mark that the log is there would refuse a journal whose log another
+// program has folded in; a rollback journal needs two syncs more for each row. What deletes both files, or puts the
+// whole folder back, is found by the cell's memory only (STORE_ID, counters, the number of the last CLAIM).
 
 #include "devices/journal.h"
 

@@ -2,8 +2,8 @@
 //
 // States, their numbers, the commands 1..10 and their transitions follow PackML (ISA-TR88.00.02, numbers of
 // PackTags 3.0); the commands from 100 on are of this register map. The same tables serve the simulated cell and
-// docs/registers.md. That the machine follows them in all 17 states for all 21 commands is tested against a table
-// written by hand (tests/sim/packml_test.cpp).
+// docs/developer/formats/registers.md. That the machine follows them in all 17 states for all 21 commands is tested
+// against a table written by hand (tests/sim/packml_test.cpp).
 
 #pragma once
 
@@ -59,7 +59,7 @@ enum class CellCommand : std::uint16_t {
     query_file = 110
 };
 
-// All but `none`, in the order of docs/registers.md.
+// All but `none`, in the order of docs/developer/formats/registers.md.
 constexpr std::array<CellCommand, 21> all_commands{
     CellCommand::reset,     CellCommand::start,        CellCommand::stop,      CellCommand::hold,
     CellCommand::unhold,    CellCommand::suspend,      CellCommand::unsuspend, CellCommand::abort,

@@ -1,7 +1,7 @@
 // The register map of a cell, version 1.1: every block and every field, as tables.
 //
 // Addresses are 0-based, as in the PDU; the encoding is that of register_writer.h. Every block fits one request.
-// docs/registers.md is printed from these tables (tests/devices/registers_test.cpp).
+// docs/developer/formats/registers.md is printed from these tables (tests/devices/registers_test.cpp).
 
 #pragma once
 

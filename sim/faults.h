@@ -1,8 +1,8 @@
 // The faults that a simulated cell can be told to have, by name, and what they do to its answers.
 //
-// The table is the one place of the names: scripts, `cell-sim --list-faults` and docs/cell-sim.md are made from it. A
-// fault is armed for a number of times and, if its chance is below 1, drawn from a seed: the same seed and the same
-// calls give the same faults (tests/sim/faults_test.cpp).
+// The table is the one place of the names: scripts, `cell-sim --list-faults` and docs/user/cell-sim.md are made from
+// it. A fault is armed for a number of times and, if its chance is below 1, drawn from a seed: the same seed and the
+// same calls give the same faults (tests/sim/faults_test.cpp).
 
 #pragma once
 

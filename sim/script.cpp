@@ -35,7 +35,7 @@ const std::vector<ActRow>& rows() {
 
 [[noreturn]] void refuse(const std::string& name, std::size_t line, const std::string& why) {
     throw InputError(InputFault::config, name + ":" + std::to_string(line) + ": " + why,
-                     "docs/cell-sim.md lists the commands, `qchopper cell-sim --list-faults` the faults.");
+                     "docs/user/cell-sim.md lists the commands, `qchopper cell-sim --list-faults` the faults.");
 }
 
 std::vector<std::string> words_of(std::string_view text) {

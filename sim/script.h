@@ -1,5 +1,5 @@
 // The language of scripts and of the commands on standard input of a simulated cell: what a person at the cell does,
-// what goes wrong, and when. One line is one command; docs/cell-sim.md has the grammar.
+// what goes wrong, and when. One line is one command; docs/user/cell-sim.md has the grammar.
 //
 // A line is words, numbers among them; "#" begins a comment, an empty line says nothing. Whatever is parsed prints back
 // as the same line (tests/sim/script_test.cpp).

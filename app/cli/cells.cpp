@@ -93,7 +93,7 @@ int run(const CellsReachArguments& arguments, Terminal& terminal) {
     if (!cell.machine) {
         throw InputError(InputFault::use,
                          arguments.file.string() + " describes no machine, so what it holds is not known",
-                         "describe it as docs/cell-file.md says, or ask a cell that has one: qchopper cells list");
+                         "describe it as docs/user/cell-file.md says, or ask a cell that has one: qchopper cells list");
     }
     const Vec3 block = arguments.block ? *lengths_from(*arguments.block) : largest_stock_size(cell);
     const double tilt = arguments.tilt_deg * std::numbers::pi / 180;

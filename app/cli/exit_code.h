@@ -1,4 +1,5 @@
-// Exit codes of all commands, after sysexits.h of BSD, so that scripts can distinguish errors (docs/errors.md).
+// Exit codes of all commands, after sysexits.h of BSD, so that scripts can distinguish errors
+// (docs/user/troubleshooting.md).
 
 #pragma once
 

@@ -44,7 +44,7 @@ void add_repair_choices(CLI::App* c, RepairChoiceArguments& a) {
 void add_candidate_options(CLI::App* c, ProjectArguments& a) {
     c->add_option("--normals", a.normals,
                   "planes are tried along the axes of the piece's box, or along 129 normals of the sphere too: box or "
-                  "sphere (sphere by carve and chopper, else box; docs/candidate-planes.md)")
+                  "sphere (sphere by carve and chopper, else box; docs/user/candidate-planes.md)")
         ->check(one_of({"box", "sphere"}));
     CLI::Option* offsets =
         c->add_option("--offsets", a.offsets, "so many planes along each normal (80 by carve, else 40)")
@@ -68,7 +68,7 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
     c->add_option("--units", a.units, "what one unit of the scan is: mm, cm, m, in")
         ->check(one_of({"mm", "cm", "m", "in"}));
     add_scale(c, a.scale);
-    c->add_option("--cell", a.cell, "the cell file (docs/cell-file.md)");
+    c->add_option("--cell", a.cell, "the cell file (docs/user/cell-file.md)");
     add_tools(c, a.tools);
     c->add_option(
          "--preset", a.preset,
@@ -96,7 +96,7 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
     c->add_option(
         "--ignore-surface", a.ignore_surface,
         "a PLY of the scan in which surface that may stay as it is, is painted red or has the property ignore; "
-        "it is never out of reach (docs/ignored-surface.md)");
+        "it is never out of reach (docs/user/ignored-surface.md)");
     c->add_flag(
         "--ignore-inside", a.ignore_inside,
         "surface that no direction at all reaches before the first cut may stay, such as the inside of a skull");
@@ -134,10 +134,10 @@ void add_project_options(CLI::App* c, ProjectArguments& a) {
                   "Chopper's parts, utilization, connector, seam, symmetry, structure (the preset's)")
         ->check(
             read_by(weights_from, "not like face_ratio=10,fragility=5,piece_count=50,undercut=10, nor four numbers"));
-    c->add_option(
-         "--structure", a.structure,
-         "avoid cuts where the whole model, standing upright under a load, has tension and shear (docs/structure.md): "
-         "upright=+z,density=KG_M3,strength=MPA,load=weight; load may be N or weight+N; voxel=MM (off)")
+    c->add_option("--structure", a.structure,
+                  "avoid cuts where the whole model, standing upright under a load, has tension and shear "
+                  "(docs/user/structure.md): upright=+z,density=KG_M3,strength=MPA,load=weight; load may be N or "
+                  "weight+N; voxel=MM (off)")
         ->check(read_by(load_from, "not like upright=+z,density=100,strength=0.5,load=weight"));
     c->add_option("--beam", a.beam, "how many segmentations the search keeps (1: greedy)")
         ->check(number_between(1, 1000, "a count from 1 to 1000"));
@@ -207,8 +207,8 @@ void add_segment(CLI::App& app, SegmentArguments& segment, Arguments& common) {
         ->required();
     add_project_options(c, segment);
     c->get_option("--cell")->description(
-        "the cell file (docs/cell-file.md), now or later; without one the tool has no radius and tilts by up to 60 "
-        "degrees");
+        "the cell file (docs/user/cell-file.md), now or later; without one the tool has no radius and tilts by up to "
+        "60 degrees");
     c->add_flag("--step", segment.step, "propose the best planes for the next piece; cut nothing");
     c->add_option("--top", segment.top, "how many planes to show (10)")
         ->check(number_between(1, 1e6, "a count of planes"));
@@ -226,7 +226,7 @@ void add_segment(CLI::App& app, SegmentArguments& segment, Arguments& common) {
     c->add_flag("--redo", segment.redo, "put the decision that was taken back in force again");
     c->add_flag("--reset", segment.reset, "take all cuts back; --undo brings them again");
     c->add_flag("--auto", segment.goes_on, "let the search go on to the stop rules, given now or before");
-    c->add_option("--plan", segment.plan, "write the cuts as a plan (docs/plan-file.md)");
+    c->add_option("--plan", segment.plan, "write the cuts as a plan (docs/user/plan-file.md)");
     c->add_option("--replay", segment.replayed, "make the cuts of a plan on this scan");
     c->add_option("-o,--out", segment.out, "the project folder to make: NAME.qch");
     add_common(c, common, [&] { common.command = segment; });

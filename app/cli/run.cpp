@@ -34,7 +34,7 @@ constexpr FaultRow fault_rows[] = {
     {exit_create, "choose another place"},
     {exit_io, "check the disk, then run the command again"},
     {exit_busy, "wait until it is done, then run the command again"},
-    {exit_config, "correct that file; docs/cell-file.md explains the keys of a cell"}};
+    {exit_config, "correct that file; docs/user/cell-file.md explains the keys of a cell"}};
 static_assert(static_cast<std::size_t>(InputFault::config) + 1 == std::size(fault_rows));
 constexpr ExitCode device_codes[] = {exit_unreachable, exit_protocol, exit_busy, exit_demand_broken};  // of DeviceFault
 static_assert(static_cast<std::size_t>(DeviceFault::refused) + 1 == std::size(device_codes));

@@ -1,5 +1,5 @@
 // Writes pieces of a project as files for other programs, in place or in setup pose, simplified on request
-// (docs/export.md, tests/app/cli/export_test.cpp). Lengths in mm.
+// (docs/user/export.md, tests/app/cli/export_test.cpp). Lengths in mm.
 
 #pragma once
 

@@ -1,8 +1,8 @@
 // The holes that a job lists against those that the joints of its project give the piece.
 //
-// mm. Faults are findings (docs/verify.md): `other_joint` for a joint too many or missing, `other_hole` for a hole that
-// is missing, too many, shifted, or of another diameter, depth or mate. A hole of the job is held against the nearest
-// one of the same cap. tests/app/project/hole_faults_test.cpp.
+// mm. Faults are findings (docs/developer/formats/verdict.md): `other_joint` for a joint too many or missing,
+// `other_hole` for a hole that is missing, too many, shifted, or of another diameter, depth or mate. A hole of the job
+// is held against the nearest one of the same cap. tests/app/project/hole_faults_test.cpp.
 
 #pragma once
 

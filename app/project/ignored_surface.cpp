@@ -74,7 +74,7 @@ std::optional<IgnoredSurface> ignore_surface(const ProjectChoices& choices, std:
         scan.ignored.clear();
         imported.report.warnings.emplace_back(
             ignored.painted.empty() ? "No surface is ignored: none lies inside."
-                                    : "No surface is ignored: none is painted (docs/ignored-surface.md).");
+                                    : "No surface is ignored: none is painted (docs/user/ignored-surface.md).");
         return std::nullopt;
     }
     ignored.sha256 = sha256(scan.ignored);

@@ -2,7 +2,7 @@
 // the cell file.
 //
 // It stands beside the job, as NAME.verdict.json for NAME.qjob. What is read is what was written
-// (tests/app/project/job_verdict_test.cpp). docs/verify.md holds the grammar.
+// (tests/app/project/job_verdict_test.cpp). docs/developer/formats/verdict.md holds the grammar.
 
 #pragma once
 

@@ -32,7 +32,8 @@ std::optional<NoCutSurface> mark_no_cut(const ProjectChoices& choices, std::opti
     if (marks->sha256 != imported.sha256) check_is_of_scan(painted, imported.mesh, choices.no_cut->string());
     options.no_cut = no_cut_at(mapped_points(painted, marks->points.is_marked, imported.mesh));
     if (!options.no_cut.points) {
-        imported.report.warnings.emplace_back("All surface may be cut: none is painted (docs/candidate-planes.md).");
+        imported.report.warnings.emplace_back(
+            "All surface may be cut: none is painted (docs/user/candidate-planes.md).");
         return std::nullopt;
     }
     NoCutSurface record{fs::absolute(*choices.no_cut), options.no_cut.points->size(),

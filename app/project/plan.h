@@ -1,7 +1,7 @@
 // The plan: the cuts of a project as a small text file, to be made again on another version of the same specimen.
 //
 // Lengths are millimetres in the scan's own frame: the coordinates of its file times unit and scale, not shifted. A
-// plan that is written and read again is the same plan (tests/app/project/plan_test.cpp). docs/plan-file.md is the
+// plan that is written and read again is the same plan (tests/app/project/plan_test.cpp). docs/user/plan-file.md is the
 // grammar.
 
 #pragma once

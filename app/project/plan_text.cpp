@@ -1,4 +1,4 @@
-// Writes and reads the text of a plan, key by key in the order of docs/plan-file.md. O(cuts).
+// Writes and reads the text of a plan, key by key in the order of docs/user/plan-file.md. O(cuts).
 
 #include <array>
 #include <cmath>
@@ -207,7 +207,7 @@ Plan plan_from_text(std::string_view text, const std::string& file) {
     try {
         return plan_from(TomlReader::parse(text, file, plan_keys));
     } catch (const InputError& e) {  // the remedies of TomlReader are those of a cell file
-        throw InputError(InputFault::config, e.what(), "correct the plan; docs/plan-file.md explains its keys");
+        throw InputError(InputFault::config, e.what(), "correct the plan; docs/user/plan-file.md explains its keys");
     }
 }
 

@@ -13,7 +13,7 @@
 //
 // Everything but cell.toml, ignored.bin and no_cut.bin follows from project.json and the scan. Pieces, jobs and
 // pictures are never stale: they are removed before a decision changes and written when the cutting is over
-// (outputs.h). docs/project-folder.md is the grammar.
+// (outputs.h). docs/developer/formats/project-folder.md is the grammar.
 
 #pragma once
 

@@ -1,4 +1,5 @@
-// Writes and reads the text of project.json, schema qchopper-project-3 (docs/project-folder.md); others are refused.
+// Writes and reads the text of project.json, schema qchopper-project-3 (docs/developer/formats/project-folder.md);
+// others are refused.
 //
 // A project that is written and read again is the same project (tests/app/project/project_test.cpp). O(cuts + pieces).
 

@@ -1,8 +1,8 @@
 // Converts values to JSON and back, for project.json and the documents of the commands.
 //
-// Keys are those of docs/project-folder.md (VECTOR, WEIGHTS, TERMS, SOLID, IGNORED, SETTINGS, CUT). The readers throw
-// nlohmann::json::exception for a missing or wrong value, and InputError (config) for an unknown name of an
-// enumeration.
+// Keys are those of docs/developer/formats/project-folder.md (VECTOR, WEIGHTS, TERMS, SOLID, IGNORED, SETTINGS, CUT).
+// The readers throw nlohmann::json::exception for a missing or wrong value, and InputError (config) for an unknown name
+// of an enumeration.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 // The results of `cells list`, `cells show`, `cells check` and `cells reach`: lines for people and documents for
-// programs (docs/cell-file.md). O(values of the files).
+// programs (docs/user/cell-file.md). O(values of the files).
 
 #pragma once
 

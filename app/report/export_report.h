@@ -15,7 +15,7 @@ namespace qchopper {
 std::vector<std::string> warnings(const ExportedProject& exported, const ExportRequest& request,
                                   const Project& project);
 std::vector<std::string> lines(const ExportedProject& exported, const Project& project);
-// The document qchopper-export-1 (docs/export.md); `folder` is the project folder as it was typed.
+// The document qchopper-export-1 (docs/user/export.md); `folder` is the project folder as it was typed.
 std::string document(const ExportedProject& exported, const ExportRequest& request, const Project& project,
                      const std::filesystem::path& folder);
 

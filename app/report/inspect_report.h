@@ -1,4 +1,4 @@
-// The result of inspect: lines for people and the document of docs/inspect.md for programs. O(holes).
+// The result of inspect: lines for people and the document of docs/user/inspect.md for programs. O(holes).
 
 #pragma once
 

@@ -1,4 +1,5 @@
-// Small JSON documents: an error (docs/errors.md), a specimen that was made, a simulated cell that listens, its faults.
+// Small JSON documents: an error (docs/user/troubleshooting.md), a specimen that was made, a simulated cell that
+// listens, its faults.
 
 #pragma once
 

@@ -24,7 +24,7 @@ std::vector<std::string> warnings(const SetupAnswer& answer);
 // Said of a cell that describes no arm; empty for any other.
 std::string arm_note(const Cell& cell);
 
-// With the keys of the manifest's reach (docs/job-folder.md), the directions in piece coordinates.
+// With the keys of the manifest's reach (docs/developer/formats/job-folder.md), the directions in piece coordinates.
 nlohmann::ordered_json reach_json(const SurfaceReach& reach);
 
 std::vector<std::string> lines(const SetupAnswer& answer);

@@ -16,7 +16,7 @@ std::string margin_word(const WorkEnvelope& envelope);
 std::string place_word(const BlockPlacement& placement);
 // The sentence on the piece, then a table of the checks. None where the arm was not checked.
 std::vector<std::string> lines(const std::string& piece, const WorkEnvelope& envelope);
-// Angles in degrees, lengths in mm (docs/envelope.md).
+// Angles in degrees, lengths in mm (docs/user/envelope.md).
 nlohmann::ordered_json json_of(const WorkEnvelope& envelope);
 
 }  // namespace qchopper

@@ -16,7 +16,8 @@ std::string workholding_word(const Setup& setup);
 // The figures, and of a piece that is not held what is wrong and what to do.
 std::vector<std::string> lines(const Workholding& check);
 
-// As in the manifest (docs/job-folder.md), with `problem` and `remedy`, empty where it is held; null: not checked.
+// As in the manifest (docs/developer/formats/job-folder.md), with `problem` and `remedy`, empty where it is held; null:
+// not checked.
 nlohmann::ordered_json workholding_json(const Setup& setup);
 
 }  // namespace qchopper

@@ -2,7 +2,7 @@
 //
 // Lengths in mm in the cell's base frame, z up; angles in radians. In a cell that read_cell returns sizes are positive,
 // the reach box is not empty and the middle of the table lies in it, there are 1 to 1000 blocks, and no two have the
-// same name (tests/cam/cell/cell_test.cpp). docs/cell-file.md explains each key.
+// same name (tests/cam/cell/cell_test.cpp). docs/user/cell-file.md explains each key.
 
 #pragma once
 

@@ -1,4 +1,4 @@
-// The keys that each table of a cell file may have (docs/cell-file.md, docs/cell-file.schema.json).
+// The keys that each table of a cell file may have (docs/user/cell-file.md, docs/user/cell-file.schema.json).
 //
 // In a table with the key `source`, the keys before it have an origin; `sources` may name them.
 

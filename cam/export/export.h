@@ -2,7 +2,7 @@
 //
 // Millimetres; in GLB the root node converts to metres. 3MF holds the mesh of a piece unchanged and its pose beside it;
 // GLB, STL and PLY hold the points in the pose, GLB about the middle of each piece. Same pieces, same bytes
-// (tests/app/cli/export_test.cpp). docs/export.md describes the files for operators.
+// (tests/app/cli/export_test.cpp). docs/user/export.md describes the files for operators.
 
 #pragma once
 

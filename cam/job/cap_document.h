@@ -1,6 +1,7 @@
 // The caps in the manifest of a job file, as JSON.
 //
-// What is read is what was written (tests/cam/job/job_caps_test.cpp). docs/job-folder.md holds the grammar.
+// What is read is what was written (tests/cam/job/job_caps_test.cpp). docs/developer/formats/job-folder.md holds the
+// grammar.
 
 #pragma once
 

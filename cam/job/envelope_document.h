@@ -2,8 +2,8 @@
 // margin, and the tightest pose of each.
 //
 // Rounded to 1e-6, so that the last digits of sines, which processors differ in, are not seen
-// (tests/cam/job/envelope_document_test.cpp). docs/job-folder.md holds the grammar, docs/envelope.md explains the
-// checks.
+// (tests/cam/job/envelope_document_test.cpp). docs/developer/formats/job-folder.md holds the grammar,
+// docs/user/envelope.md explains the checks.
 
 #pragma once
 

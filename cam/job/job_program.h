@@ -2,7 +2,8 @@
 // it.
 //
 // Values; lengths in mm in the program's base frame, which is the setup frame. The texts themselves are entries of the
-// job file (docs/programs.md explains them); what is stated of a chunk is what a reader finds in its text.
+// job file (docs/developer/formats/programs.md explains them); what is stated of a chunk is what a reader finds in its
+// text.
 
 #pragma once
 

@@ -1,6 +1,7 @@
 // Writes and reads the manifest of a job file: what the job is, and the SHA-256 of every other file in it.
 //
-// What is read is what was written (tests/cam/job/job_file_test.cpp). docs/job-folder.md holds the grammar.
+// What is read is what was written (tests/cam/job/job_file_test.cpp). docs/developer/formats/job-folder.md holds the
+// grammar.
 
 #pragma once
 

@@ -1,7 +1,7 @@
 // Reads the job file of one piece: all that the cell and the workshop need, in one ZIP named <piece>.qjob.
 //
-// Checked are the form, the schema, and every size and SHA-256 (tests/cam/job/job_file_test.cpp). docs/job-folder.md
-// holds the grammar; write_job.h writes it. Needs neither rays nor pictures.
+// Checked are the form, the schema, and every size and SHA-256 (tests/cam/job/job_file_test.cpp).
+// docs/developer/formats/job-folder.md holds the grammar; write_job.h writes it. Needs neither rays nor pictures.
 
 #pragma once
 

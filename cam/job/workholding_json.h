@@ -1,4 +1,4 @@
-// What holds a piece, in the JSON of a job file and of reports (docs/job-folder.md).
+// What holds a piece, in the JSON of a job file and of reports (docs/developer/formats/job-folder.md).
 //
 // What is read is what was written (tests/cam/job/job_file_test.cpp).
 

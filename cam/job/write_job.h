@@ -1,7 +1,7 @@
 // Writes the job file of one piece: all that the cell and the workshop need, in one ZIP named <piece>.qjob.
 //
 // Same input, same bytes: no time and no random number goes in, and no number of threads
-// (tests/cam/job/job_file_test.cpp). docs/job-folder.md holds the grammar; read_job.h reads it.
+// (tests/cam/job/job_file_test.cpp). docs/developer/formats/job-folder.md holds the grammar; read_job.h reads it.
 
 #pragma once
 

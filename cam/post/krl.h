@@ -1,4 +1,4 @@
-// Writes a program in KRL, the language of KUKA's controllers, as docs/programs.md states it.
+// Writes a program in KRL, the language of KUKA's controllers, as docs/developer/formats/programs.md states it.
 //
 // A piece is one main program and chunks, each below the lines of ProgramSettings::lines_per_chunk and half of its
 // memory_bytes as long as one run is; a chunk ends only between runs, and with its direction, hold or tool. What does

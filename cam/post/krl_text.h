@@ -1,8 +1,8 @@
 // Lines of KUKA's robot language KRL: numbers, aggregates, comments, names.
 //
 // Numbers have a point and a fixed number of decimals, under every locale: never an exponent, never "-0.00", and what
-// is not finite or out of range is refused (tests/cam/post/krl_text_test.cpp). Lines end with CR LF. docs/programs.md
-// says which lines there are.
+// is not finite or out of range is refused (tests/cam/post/krl_text_test.cpp). Lines end with CR LF.
+// docs/developer/formats/programs.md says which lines there are.
 
 #pragma once
 

@@ -1,5 +1,18 @@
 // Operations are held one beside the other on several threads; then sections are joined in their order: of whole turns
 // of the axes the nearest, and the ways between.
+//
+// What no hold of the arm carries is left out. The work envelope judges the extreme poses of a setup, and a toolpath
+// goes farther in places: a radius below the base plane, and beside the block. A run that no hold carries is divided;
+// where that does not help, its moves are left out up to the next place from which a hold carries a cut, and the tool
+// comes down again there. At most a fiftieth of the length of an operation's cuts is left out (most_left_out); more
+// refuses the program, and holes are drilled as a whole or not at all. What was left out, and why, stands in the
+// manifest, on the sheet and in the verdict. What it means for the piece is not judged here: the proof replays the
+// program and measures the foam that stays, against a reachable surface that knows nothing of the arm.
+//
+// Cost: a later link over foam that now stays, or more foam for finishing, makes the proof refuse the job. A reserve
+// in the work envelope would refuse placements that are good but for a corner; raising the tip surface where the arm
+// does not hold it would need the arm, and an answer for every cell, while the toolpath is made. Test:
+// tests/cam/program/make_program_test.cpp, LeavesOutTheLittleThatNoHoldCarries.
 
 #include "cam/program/make_program.h"
 

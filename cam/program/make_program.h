@@ -27,7 +27,7 @@ class ProgramRefused : public InputError {
 
 // Of every operation the hold of the arm that carries all its runs, or few holds that carry them one after the other; a
 // run that none carries is divided, and up to a fiftieth of an operation's cuts is left out where no hold
-// carries it (docs/decisions/0036-what-no-hold-carries-is-left-out.md). Runs that would not fit in a chunk
+// carries it (make_program.cpp says why). Runs that would not fit in a chunk
 // (ProgramSettings::lines_per_chunk) are divided too, and sections that would fill more than a quarter of
 // ProgramSettings::memory_bytes. Preconditions: the cell has a machine, the envelope is of this setup (its regions are
 // tried first; it may have none). Throws ProgramRefused; InputError (use) as check_toolpath() does; Cancelled.

@@ -13,7 +13,7 @@ namespace qchopper {
 namespace {
 
 // mm3 more in a block that needs no saw cut are worth the cut: to carve them takes a robot about an hour, at the rate
-// measured over the programs of docs/performance.md.
+// measured over the programs of docs/measurements/performance.md.
 constexpr double foam_for_a_saw_cut = 20e6;
 
 constexpr double rounding = 1e-6;      // mm

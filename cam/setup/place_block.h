@@ -2,7 +2,7 @@
 //
 // Pure functions; the result does not depend on the number of threads. What is maximised is the smallest relative
 // margin of all poses (work_envelope.h). A place that holds is found wherever a scan of 20 cm and 30 degrees finds one
-// (tests/cam/setup/place_block_test.cpp; docs/envelope.md states how often for a finer scan).
+// (tests/cam/setup/place_block_test.cpp; docs/user/envelope.md states how often for a finer scan).
 
 #pragma once
 

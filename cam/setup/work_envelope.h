@@ -2,7 +2,7 @@
 // block has to stand for it.
 //
 // Values; mm and radians in the cell's frame unless a field says otherwise. A margin is in the unit of its check (mm,
-// degrees or degrees/s) and what is left beyond what the check asks for: negative means refused. docs/envelope.md
+// degrees or degrees/s) and what is left beyond what the check asks for: negative means refused. docs/user/envelope.md
 // explains every check. Computed by place_block.h.
 
 #pragma once

@@ -1,5 +1,21 @@
 // The tool tells the height of its tip at each step (TipDilation::height), from the lower end on until it is as high as
 // the higher end.
+//
+// A tip surface is known at the middles of cells, and at a vertical wall it jumps between two of them. A level that
+// keeps to the lower one stays up to a cell beside the edge: with cells of 0.5 mm up to 0.85 mm of foam on a wall
+// oblique to the map, where 0.75 mm are allowed. So where the surface falls by more than a ball does across a cell, the
+// height of the tip of the tool alone is computed at 15 places between the two middles, from the same map with the same
+// margin, and the level goes through the last that is not above it. Around the corners of cells the path is then an
+// arc of the tool's radius. Where holder or foam has raised the upper middle nothing is known between, and the level
+// stays at the lower one. Links ask the same: across an edge the surface is not linear, and a link up along a wall cut
+// into it. Rows of maps lie along the sides of the block, 0.3 cells beside lines between cells, because on such a line
+// rounding decides from point to point which cell a wall is in.
+//
+// With it at most 0.70 mm of foam stays on that wall, 99.89 % within tolerance in place of 88.8 %. Cost: 6 % of the
+// time of a toolpath with its replay, and 6 % more KRL. Cells of 0.25 mm would be four times as many; edges from the
+// triangles would be a second thing beside the map that says where the tool may be.
+// Tests: tests/cam/toolpath/finishing_test.cpp, LevelsGoAlongWallsThatAreObliqueToTheMap;
+// tests/cam/toolpath/passes_and_links_test.cpp, NoLinkUpAlongAWallCutsIntoIt.
 
 #include "cam/toolpath/edge_rises.h"
 

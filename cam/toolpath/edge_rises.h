@@ -1,5 +1,5 @@
-// How a tip surface rises between the middles of two neighbouring cells where there is an edge between them
-// (docs/decisions/0035-edges-between-the-middles-of-cells.md).
+// How a tip surface rises between the middles of two neighbouring cells where there is an edge between them;
+// edge_rises.cpp says why that is asked.
 //
 // mm, in the map.
 

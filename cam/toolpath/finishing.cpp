@@ -1,6 +1,17 @@
 // Which cells the tip has to visit follows from where the tool touches: a ball over a tip surface touches its radius
 // away from its middle, against the normal of the tip surface. At a crease, where it touches on both sides, the slopes
 // to both sides are taken. O(cells).
+//
+// The floor is no surface of the piece. The region to be finished holds surface of the piece alone, and the floor is
+// given beside it (FinishingOptions::floor): over it levels go up to one radius above it, around whatever the tool
+// touches there. The lowest one passes the foot of each wall with the centre of the ball at z = 0 and so removes all
+// foam above z = 0 within the tool's diameter of the wall; no rows go over the floor. With the floor in the region,
+// every wall over it was carved from top to foot, also walls that stand only because the piece hides what is under
+// them: 40 % of the passes and two thirds of the lines of the head of Igea at 1 m. Cost: such walls keep the allowance
+// of roughing, which took up to 0.02 percentage points of what is within tolerance, and where the floor is nearer to
+// the base than a radius the cleared strip is narrower.
+// Tests: tests/cam/toolpath/finishing_test.cpp, TheFloorIsClearedWithoutTheWallBesideIt and
+// TheStripUnderAnOverhangingEdgeIsCarved.
 
 #include "cam/toolpath/finishing.h"
 

@@ -1,6 +1,25 @@
-// One operation at a time: maps of its direction, passes, runs; then the stock learns what the runs removed. Of
-// finishing only the tip surface is kept, where foam blocks passes that may become free. Where many stay blocked, the
-// surface under them is taken from the direction again.
+// One operation at a time: maps of its direction, passes, runs; then the stock learns what the runs removed.
+//
+// Passes that foam blocks are taken up again. Finishing passes are divided into free and blocked parts
+// (clipped_passes.h). After the free ones the limit of holder and spindle is computed again over the foam that stands
+// then, until nothing more becomes free. What stays blocked waits, with its tip surface, for the other directions and
+// is tried again in rounds until a round carves nothing. The same holds for passes that would cut foam above the flute.
+// Clipping once, at the start, lost what later became free: of a piece twice as high as its tools are long 16 % of the
+// reachable surface kept too much foam. Passes are not sorted strictly from above, which would cost a link for each.
+//
+// A direction takes only surface that it can finish with holder and spindle clear of what finishing leaves, scallops
+// and clearance included, not only clear of the piece; else its deepest pass lies exactly on the limit and never
+// becomes free. Passes that stay blocked all the same, 200 mm or more of an operation in parts of 20 mm, give their
+// surface back, at most twice for each kind of finishing, to the directions that reach it better. The finest tool
+// roughs before it finishes.
+//
+// Foam is known in cells of a sixth of the finest tool's radius, 0.5 mm at least: a small tool lowers larger cells
+// hardly at all. Links and holder count a cell as foam until all of it is cut; for the flute the height at its middle
+// is known too (FoamCells), because a skin that roughing leaves on a wall is as thick as a cell.
+//
+// Cost: that of the passes; per operation with blocked passes a tip surface is kept, 4 bytes a cell of finishing, and
+// the foam is held twice. Tests: tests/cam/toolpath/make_toolpath_test.cpp, PassesThatFoamBlocksAreTakenUpAgain...,
+// SurfaceThatStaysBlockedIsLeftToAnotherDirection, FinishesAWallDownToWhereTheHolderMeetsItsTop.
 
 #include "cam/toolpath/make_toolpath.h"
 

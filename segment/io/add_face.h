@@ -1,6 +1,6 @@
 // Adds one face of a file to a scan as triangles, and keeps faces that precede their points in the file.
 //
-// Shared by the readers of PLY, OBJ and OFF. The limits hold for every format (docs/formats.md).
+// Shared by the readers of PLY, OBJ and OFF. The limits hold for every format (docs/user/scan-formats.md).
 
 #pragma once
 

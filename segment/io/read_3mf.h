@@ -18,7 +18,7 @@ namespace qchopper {
 bool is_3mf(const Bytes& bytes);
 
 // Throws InputError (mesh) for bytes that are no ZIP, a ZIP that is damaged or holds no 3MF, more than the limits of
-// docs/formats.md, and a required extension that is not read; `name` stands for the file.
+// docs/user/scan-formats.md, and a required extension that is not read; `name` stands for the file.
 RawMesh parse_3mf(const Bytes& bytes, const std::string& name);
 
 }  // namespace qchopper

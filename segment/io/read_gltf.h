@@ -1,7 +1,7 @@
 // Reads glTF of version 2, as JSON or GLB, every node at its place. The glTF part of read_mesh.h.
 //
 // glTF has metres and Y up; the scan has metres and Z up: (x, y, z) becomes (x, -z, y). Triangles, strips and fans are
-// read, also quantized and sparse points; lines, points, images and animations are not (docs/formats.md,
+// read, also quantized and sparse points; lines, points, images and animations are not (docs/user/scan-formats.md,
 // tests/segment/io/read_gltf_test.cpp). The JSON is filtered by gltf_json.h and read by tinygltf.
 
 #pragma once
@@ -19,8 +19,8 @@ bool is_gltf(const Bytes& bytes);
 
 // Bytes that are no GLB are read as JSON. Files that it names are read from `folder` and below it, nowhere else; with
 // an empty folder it must name none. Throws InputError (mesh) for a file that is damaged, exceeds the limits of
-// docs/formats.md or requires an extension that is not read, (missing) if a file beside it cannot be read; `name`
-// stands for the file.
+// docs/user/scan-formats.md or requires an extension that is not read, (missing) if a file beside it cannot be read;
+// `name` stands for the file.
 RawMesh parse_gltf(const Bytes& bytes, const std::string& name, const std::filesystem::path& folder);
 
 }  // namespace qchopper

@@ -1,9 +1,9 @@
 // Reads a scan from a PLY, STL, OBJ, OFF, glTF, GLB or 3MF file as it stands: nothing is welded, shifted or scaled.
 //
-// Coordinates are in the unit of the file with Z up; docs/formats.md lists what is read of each format. The content
-// determines the format; the ending of the name counts only where it bears the marks of several. For all bytes the
-// result is a mesh with finite coordinates and valid indices, or an InputError (mesh) that states what is wrong and at
-// which line or byte (tests/segment/io/read_mesh_test.cpp, tests/segment/io/damaged_test.cpp).
+// Coordinates are in the unit of the file with Z up; docs/user/scan-formats.md lists what is read of each format. The
+// content determines the format; the ending of the name counts only where it bears the marks of several. For all bytes
+// the result is a mesh with finite coordinates and valid indices, or an InputError (mesh) that states what is wrong and
+// at which line or byte (tests/segment/io/read_mesh_test.cpp, tests/segment/io/damaged_test.cpp).
 
 #pragma once
 

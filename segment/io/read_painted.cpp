@@ -123,11 +123,11 @@ MarkedPoints parse_marked(const Bytes& bytes, const std::string& name, const Mar
 }  // namespace
 
 MarkedPoints parse_no_cut_ply(const Bytes& bytes, const std::string& name) {
-    return parse_marked(bytes, name, no_cut_names, "docs/candidate-planes.md");
+    return parse_marked(bytes, name, no_cut_names, "docs/user/candidate-planes.md");
 }
 
 TriangleMesh parse_painted_ply(const Bytes& bytes, const std::string& name) {
-    auto [mesh, is_marked] = parse_marked(bytes, name, ignore_names, "docs/ignored-surface.md");
+    auto [mesh, is_marked] = parse_marked(bytes, name, ignore_names, "docs/user/ignored-surface.md");
     mesh.ignored.reserve(mesh.triangles.size());
     for (const Triangle& t : mesh.triangles) {
         mesh.ignored.push_back(is_marked[t[0]] + is_marked[t[1]] + is_marked[t[2]] >= 2 ? 1 : 0);

@@ -1,7 +1,7 @@
 // Dowels that hold two pieces together, and the holes for them.
 //
 // mm. A hole is perpendicular to the cap that it is drilled into and goes equally deep into both pieces. The sizes are
-// a list of the workshop (docs/cell-file.md); the defaults are those of the specification of joints in foam.
+// a list of the workshop (docs/user/cell-file.md); the defaults are those of the specification of joints in foam.
 
 #pragma once
 

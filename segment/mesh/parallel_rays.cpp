@@ -5,6 +5,10 @@
 // symbolic shift, after H. Edelsbrunner and E. Mücke, "Simulation of simplicity" (1990). The crossing of
 // line_crossing.h would round to other last bits, and divides twice per triangle and query before it rejects. O(points
 // + triangles + queries in the cells covered); 12 bytes a point, about 130 a query.
+//
+// Why no tree of Embree, which pictures and setups use: at 1.9 million faces tree and rays took more than 1 s where the
+// grid takes 0.5 s, the next piece would need another tree, and rays in single precision that graze an edge decide now
+// this way, now that, so that the plain sum and the sweep differed.
 
 #include "segment/mesh/parallel_rays.h"
 

@@ -1,5 +1,5 @@
-// Welds, settles, resolves, smooths and measures: the order of docs/repair.md. Memory: two more copies of the mesh, one
-// to measure the deviation and one to undo a resolving. The cost is that of the steps.
+// Welds, settles, resolves, smooths and measures: the order of docs/user/repair.md. Memory: two more copies of the
+// mesh, one to measure the deviation and one to undo a resolving. The cost is that of the steps.
 
 #include "segment/repair/repair.h"
 

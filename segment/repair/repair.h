@@ -1,4 +1,4 @@
-// Makes a closed solid of a scan by the steps of docs/repair.md, changing as little as possible.
+// Makes a closed solid of a scan by the steps of docs/user/repair.md, changing as little as possible.
 //
 // Points and triangles that no step touches keep their bits and their order (-0.0 becomes 0.0). A second repair changes
 // nothing (tests/segment/repair/repair_test.cpp). What cannot be made a solid is returned with a report of what is left

@@ -1,7 +1,7 @@
 // What repair() has done to a mesh: the counts, the steps and the warnings for the operator.
 //
 // Places are in units of the mesh; fields that end in _mm, and those of pen_grooves and alpha_wrapped, are mm.
-// docs/repair.md explains every number.
+// docs/user/repair.md explains every number.
 
 #pragma once
 
@@ -82,7 +82,7 @@ struct Refusal {
 // By the first reason why the result is no solid; nothing for a solid.
 std::optional<Refusal> refusal_of(const RepairReport& report);
 
-// One step in the order of docs/repair.md.
+// One step in the order of docs/user/repair.md.
 struct RepairStep {
     std::string name;  // as in the options and in the document
     std::size_t count = 0;

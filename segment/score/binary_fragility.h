@@ -1,5 +1,6 @@
 // Binary fragility: whether a vertex near a plane stands over material that the cut would leave thin (Luo et al.,
-// "Chopper: partitioning models into 3D-printable parts", 2012, section 3.4, made precise in docs/chopper.md).
+// "Chopper: partitioning models into 3D-printable parts", 2012, section 3.4, made precise in
+// docs/developer/objectives.md).
 //
 // mm. A vertex at most `distance` from the plane, on the side s (1 above, -1 below), counts if its outward normal n
 // looks away from the plane (s n . n_P >= 0.9), or if s n . n_P > 0 and the edges at it all go up, all go down, or

@@ -1,6 +1,12 @@
 // A first pass over the triangles finds where clusters begin; a second adds up each cluster and finds its cone of
 // normals (L. A. Shirman and S. S. Abi-Ezzi, The cone of normals technique for fast processing of curved patches,
 // 1993). O(triangles + points); memory 8 bytes per point for the neighbours, 4 per point of a cluster.
+//
+// Nine in ten triangles lie between two planes of a normal and only add to a sum, so clusters of at most 16, connected
+// runs along a Morton curve (segment/mesh/order.h), are added as a whole where their points lie in one slab. Larger
+// ones are crossed too often, smaller ones too many; bounds per cluster, area vectors computed again and prefetching
+// were no faster. Cost: the order of triangles in a piece is ours and changes with this rule; files then differ in
+// their bytes.
 
 #include "segment/score/clusters.h"
 

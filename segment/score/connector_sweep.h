@@ -1,5 +1,5 @@
 // The objective connector: how well the parts that a plane makes can be held together by dowels (Luo et al. 2012,
-// section 3.3, made precise in docs/chopper.md).
+// section 3.3, made precise in docs/developer/objectives.md).
 //
 // A joint is a part above and a part below and all regions of the section in which they touch, each at least 4 cm2.
 // Form `spread`: the mean over the joints, by area, of 1 if the farthest two dowels that fit are less than three

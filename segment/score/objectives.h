@@ -1,6 +1,6 @@
 // The objectives of a cut and their weighted sum; lower is better: the four of the thesis (Nicholson 2016, section
 // 4.2), the surface that no tool reaches (unreachable.h), and those of Chopper (Luo et al., "Chopper: partitioning
-// models into 3D-printable parts", 2012), of which docs/chopper.md has the formulas.
+// models into 3D-printable parts", 2012), of which docs/developer/objectives.md has the formulas.
 //
 // Invariants: tests/segment/score/objectives_test.cpp.
 

@@ -21,8 +21,8 @@ namespace qchopper {
 std::vector<std::optional<CutEvaluation>> sweep(const PreparedPiece& prepared, Vec3 normal,
                                                 std::span<const double> offsets, const Objectives& objectives);
 
-// The solids and their sizes alone. Measured by itself in docs/performance.md. Faces, cap area and fragility of a plane
-// are the same bits whatever other offsets are swept with it; volumes and base sums are not.
+// The solids and their sizes alone. Measured by itself in docs/measurements/performance.md. Faces, cap area and
+// fragility of a plane are the same bits whatever other offsets are swept with it; volumes and base sums are not.
 std::vector<std::optional<CutEvaluation>> sweep_solids(const PreparedPiece& prepared, Vec3 normal,
                                                        std::span<const double> offsets);
 

@@ -1,6 +1,12 @@
 // The values of a plane are the same bits whatever other planes of its normal are evaluated with it (sweep.h), so that
 // they do not depend on what was asked before. Each visit of a normal costs a pass over the piece, so that all of its
 // planes that may be among the best are evaluated at once.
+//
+// Seam, fragility, connector and symmetry take as long as everything else for 132 normals, so they wait for the bound
+// of late_rank.h: of 26,268 planes of a head of 371,000 faces 686 were evaluated in full, 2.9 s in place of 8.0 s. At
+// least 16 best are sought, because so many are ranked again with boxes of their own. Values that are forbidden
+// (Objectives::forbidden) are known only with the slow terms: while fewer than the best are free of them, all planes
+// are evaluated. Cost: a ranking lists no more planes than were asked for.
 
 #include "segment/search/late_rank.h"
 

@@ -4,7 +4,7 @@
 // No term is negative, so the cost without the slow terms is a bound. Normals are taken in the order of their least
 // bound, a few at a time; of those of their planes that can be among the best fragility is evaluated first, then the
 // other slow terms. It ends when no other plane can be, so that the best are the same as if all were evaluated
-// (tests/segment/search/late_rank_test.cpp). docs/decisions/0027.
+// (tests/segment/search/late_rank_test.cpp).
 
 #pragma once
 

@@ -59,8 +59,8 @@ struct PieceChecks {
     UnreachableOf unreachable;
     BlocksNeeded blocks_needed = {};  // allowed is what some block of the cell holds
     // Whether arm, tools and holder of the cell can carve the piece: a part of the rule fits_cell where a priority is
-    // given, asked of pieces that fit the cell (docs/decisions/0034). One that they cannot carve is cut for the sizes
-    // of low_blocks_needed.
+    // given, asked of pieces that fit the cell (app/project/setups.cpp says why). One that they cannot carve is cut for
+    // the sizes of low_blocks_needed.
     FitsCell is_carvable = {};
     BlocksNeeded low_blocks_needed = {};
     // Surface (mm2) of which less is no gain of cuts on trial (trial.h): a patch that the finest tool cannot tell from

@@ -326,7 +326,8 @@ void KrlExecution::read_halt(const Source& source, std::size_t at, KrlLine& line
 }
 
 void KrlExecution::read_call(const std::string& name, KrlLine& line, bool is_main) {
-    if (name.empty() || name.front() == '$') line.refuse("this is no line of a program (docs/programs.md)");
+    if (name.empty() || name.front() == '$')
+        line.refuse("this is no line of a program (docs/developer/formats/programs.md)");
     if (!line.takes('(')) line.refuse("\"" + name + "\" is not known");
     const bool has_argument = !line.takes(')');
     const double argument = has_argument ? line.number(-1e6, 1e6) : 0;

@@ -1,7 +1,7 @@
 // A robot program as its text says it, read back: what the arm would do, in the order in which it would do it.
 //
 // Values only; mm, radians, seconds, kg. What a step needs of the lines before it is in its modal state, so that a step
-// is complete without them. Nothing here is shared with what writes programs (docs/programs.md).
+// is complete without them. Nothing here is shared with what writes programs (docs/developer/formats/programs.md).
 
 #pragma once
 

@@ -14,7 +14,7 @@
 
 namespace qchopper {
 
-// Degrees and mm below which a pose is refused; docs/envelope.md says with which margins setups are planned.
+// Degrees and mm below which a pose is refused; docs/user/envelope.md says with which margins setups are planned.
 struct ArmThresholds {
     double wrist_deg = 5;     // of axis 5 from 0 and 180
     double shoulder_mm = 50;  // wrist centre from axis 1

@@ -2,8 +2,8 @@
 //
 // mm, kg, kg m2, in the frame of the flange. By the cell file: the spindle is a solid cylinder of the size of its body,
 // tool and holder are one from the nose to the tip with their largest diameter, both of even density
-// (docs/programs.md). Inertia is about the centre of mass; parallel axes by J. Steiner's theorem. O(steps of the
-// holder) (tests/sim/replay/carried_load_test.cpp holds it against the load data of cam/program).
+// (docs/developer/formats/programs.md). Inertia is about the centre of mass; parallel axes by J. Steiner's theorem.
+// O(steps of the holder) (tests/sim/replay/carried_load_test.cpp holds it against the load data of cam/program).
 
 #pragma once
 

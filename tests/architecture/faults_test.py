@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every fault of the list in docs/link-faults.md has a test of its name: TEST(Fault, F07_...), F08_F34_... for two."""
+"""Every fault of the list in docs/developer/link-faults.md has a test of its name: TEST(Fault, F07_...), F08_F34_... for two."""
 import pathlib
 import re
 import sys

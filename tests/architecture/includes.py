@@ -4,7 +4,7 @@
 
 A compilation unit is a header together with the source of the same name; units do not include each other in a circle.
 faults(root) lists every violation, one line each, in the tree at `root`. The tables below are the rule; README.md and
-docs/architecture.md describe it.
+docs/developer/architecture.md describe it.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""The glossary's rule: some words have a standard term in this project and must not come back (docs/glossary.md).
+"""The glossary's rule: some words have a standard term in this project and must not come back (docs/developer/glossary.md).
 
 faults(root) lists every place where one of them stands: in identifiers as whole parts (crumb in `crumb_volume_mm3` and
 in `CrumbList`), in help, messages and comments as whole words, and in the documents.
@@ -51,7 +51,7 @@ FOLDERS = ["base", "segment", "cam", "devices", "sim", "app", "tests", "bench", 
 SUFFIXES = {".h", ".cpp", ".py", ".md", ".txt", ""}
 # Where the words stand because they are listed, or because of what was.
 EXEMPT = {
-    "docs/glossary.md",
+    "docs/developer/glossary.md",
     "tests/architecture/words.py",
     "tests/architecture/words_test.py",
 }
@@ -89,4 +89,4 @@ def faults(root):
     for name, path in files(root):
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
             for word in set(refused_in(line)) - ALIASES.get(name, set()):
-                yield f"{name}:{number}: \"{word.replace('_', ' ')}\": the term is {REFUSED[word]} (docs/glossary.md)"
+                yield f"{name}:{number}: \"{word.replace('_', ' ')}\": the term is {REFUSED[word]} (docs/developer/glossary.md)"

@@ -1,4 +1,5 @@
-// Faults of docs/link-faults.md on the side of the PC: what the hand-off sends and says when the cell answers so.
+// Faults of docs/developer/link-faults.md on the side of the PC: what the hand-off sends and says when the cell answers
+// so.
 
 #include <set>
 

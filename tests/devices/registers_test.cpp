@@ -111,10 +111,10 @@ TEST(Registers, TheNumbersOfTheStatesAreThoseOfPackTags) {
 }
 
 TEST(Registers, TheDocumentIsWhatTheTablesPrint) {
-    std::ifstream file(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "docs" / "registers.md");
+    std::ifstream file(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "docs" / "developer" / "formats" / "registers.md");
     std::stringstream text;
     text << file.rdbuf();
-    EXPECT_EQ(text.str(), print_registers()) << "write print_registers() to docs/registers.md";
+    EXPECT_EQ(text.str(), print_registers()) << "write print_registers() to docs/developer/formats/registers.md";
 }
 
 // The simulated cell must not share the logic that it is there to test, and nobody here needs geometry.

@@ -2,7 +2,7 @@
  * overtaken, PCs are killed, a journal loses its last rows, the cell loses power or its store or gets an older copy of it
  * back, the operator cancels, and another PC takes the cell over.
  *
- * docs/model.md says what is in it and what not, and holds the results of scripts/model. The rows MOVE are compared with
+ * docs/developer/model.md says what is in it and what not, and holds the results of scripts/model. The rows MOVE are compared with
  * the simulated cell (tests/sim/model_test.cpp). Every property is an assertion; no property is about time. */
 
 #ifndef PCS

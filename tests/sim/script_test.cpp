@@ -64,10 +64,10 @@ std::string print_faults() {
 }
 
 TEST(Script, ThePageListsEveryFaultAndEveryWord) {
-    std::ifstream file(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "docs" / "cell-sim.md");
+    std::ifstream file(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "docs" / "user" / "cell-sim.md");
     std::stringstream text;
     text << file.rdbuf();
-    EXPECT_NE(text.str().find(print_faults()), std::string::npos) << "write print_faults() to docs/cell-sim.md";
+    EXPECT_NE(text.str().find(print_faults()), std::string::npos) << "write print_faults() to docs/user/cell-sim.md";
     for (const ActRow& row : all_choices()) {
         EXPECT_NE(text.str().find(std::string("`") + row.word), std::string::npos) << row.word;
         for (const char* choice : row.choices) EXPECT_NE(text.str().find(choice), std::string::npos) << choice;

@@ -1,4 +1,4 @@
-// inspect as a process: what it prints, the document of docs/inspect.md, and that it touches nothing.
+// inspect as a process: what it prints, the document of docs/user/inspect.md, and that it touches nothing.
 
 #include <gtest/gtest.h>
 
@@ -80,7 +80,7 @@ TEST_F(Inspect, GivesTheThreeVerdicts) {
     EXPECT_EQ(document({"inspect", "sheet.ply", "--json"})["verdict"], "unrepairable");
 }
 
-// Every field of the document is a row of docs/inspect.md, and every row is a field.
+// Every field of the document is a row of docs/user/inspect.md, and every row is a field.
 TEST_F(Inspect, DocumentsEveryField) {
     write_file(folder.path / "bad.ply", to_ply(bad()));
     const json deep = document({"inspect", "bad.ply", "--deep", "--json"});
@@ -92,7 +92,7 @@ TEST_F(Inspect, DocumentsEveryField) {
         }
     }
     std::set<std::string> rows;
-    std::istringstream page(program::bytes_in(fs::path(QCHOPPER_SOURCE_DIR) / "docs" / "inspect.md"));
+    std::istringstream page(program::bytes_in(fs::path(QCHOPPER_SOURCE_DIR) / "docs" / "user" / "inspect.md"));
     bool is_table = false;
     for (std::string line; std::getline(page, line);) {
         is_table |= line == "| field | meaning |";

@@ -37,7 +37,7 @@ Names names_of(Keys keys) {
 }
 
 void expect_same(std::span<const TableKeys> known) {
-    std::ifstream stream(QCHOPPER_SOURCE_DIR "/docs/cell-file.schema.json");
+    std::ifstream stream(QCHOPPER_SOURCE_DIR "/docs/user/cell-file.schema.json");
     const json schema = json::parse(stream);
     Tables in_schema;
     add_tables(schema, "", in_schema);
@@ -66,7 +66,7 @@ bool has_word(const std::string& text, const std::string& key) {
 }
 
 TEST(CellPage, ExplainsEveryKey) {
-    std::ifstream stream(QCHOPPER_SOURCE_DIR "/docs/cell-file.md");
+    std::ifstream stream(QCHOPPER_SOURCE_DIR "/docs/user/cell-file.md");
     std::ostringstream bytes;
     bytes << stream.rdbuf();
     const std::string page = bytes.str();

@@ -96,7 +96,7 @@ TEST(Damaged, ShuffledStretchesAreRefusedOrReadSoundly) {
     }
 }
 
-// What fuzzers have found (docs/fuzzing.md), each cut down to the kind of it.
+// What fuzzers have found (docs/developer/fuzzing.md), each cut down to the kind of it.
 struct Found {
     const char* kind;
     std::string bytes;

@@ -171,7 +171,7 @@ TEST(PenGrooves, ShapesWithoutPenGroovesKeepEveryBit) {
     std::vector<shapes::Named> all = shapes::all_closed();
     for (shapes::Named& shape : all) {
         // Facets as wide as a line, with a crease on both sides, lie below a smooth surface as a line does
-        // (docs/repair.md): so these balls are round.
+        // (docs/user/repair.md): so these balls are round.
         if (shape.name != "two balls") continue;
         shape.mesh = shapes::joined({shapes::ball({0, 0, 0}, 10, 60), shapes::ball({0, 0, 30}, 12, 60)});
     }

@@ -1,4 +1,5 @@
-// Faults put into the text of robot programs: text in, text out, for any KRL program of docs/programs.md.
+// Faults put into the text of robot programs: text in, text out, for any KRL program of
+// docs/developer/formats/programs.md.
 //
 // Each gives the files of a program with one fault, or nothing where the program has no place for it. Names, sizes and
 // hashes are for the caller to make again.
