@@ -1,4 +1,4 @@
-// SHA-256 (FIPS 180-4) of bytes, by OpenSSL, as a value of its own type (tests/base/file_test.cpp).
+// SHA-256 (FIPS 180-4) of bytes, by OpenSSL, as a value of its own type (tests/base/files/file_test.cpp).
 
 #pragma once
 

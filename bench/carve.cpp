@@ -12,19 +12,19 @@
 #include <utility>
 #include <vector>
 
-#include "app/project/presets.h"
+#include "app/engine/presets.h"
 #include "base/parallel.h"
 #include "bench/choice.h"
 #include "bench/clock.h"
 #include "bench/embree_rays.h"
 #include "bench/figures.h"
 #include "bench/measures.h"
+#include "segment/access/reach_sweep.h"
+#include "segment/access/sampled_piece.h"
 #include "segment/cut/cut_piece.h"
 #include "segment/cut/nudge.h"
 #include "segment/mesh/oriented_box.h"
-#include "segment/score/candidates.h"
-#include "segment/score/reach_sweep.h"
-#include "segment/score/sampled_piece.h"
+#include "segment/search/candidates/candidates.h"
 #include "segment/search/rank_piece.h"
 
 namespace {

@@ -13,8 +13,8 @@
 #include "base/text.h"
 #include "bench/clock.h"
 #include "bench/reach_judge.h"
+#include "segment/access/cut_reach.h"
 #include "segment/mesh/measure.h"
-#include "segment/score/cut_reach.h"
 #include "segment/search/search.h"
 
 namespace qchopper::bench {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/project/presets.h"
+#include "app/engine/presets.h"
 #include "base/error.h"
 #include "bench/carve_runs.h"
 #include "bench/carve_summary.h"

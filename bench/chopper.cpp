@@ -18,9 +18,9 @@
 #include "segment/joint/piece_joints.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/rays.h"
-#include "segment/score/evaluate.h"
-#include "segment/score/seam_cost.h"
-#include "segment/score/symmetry_plane.h"
+#include "segment/objectives/seam_cost.h"
+#include "segment/objectives/symmetry_plane.h"
+#include "segment/search/candidates/evaluate.h"
 #include "segment/search/rank.h"
 #include "segment/search/search.h"
 

@@ -9,10 +9,10 @@
 #include "base/parallel.h"
 #include "bench/clock.h"
 #include "bench/measures.h"
+#include "segment/access/tool_directions.h"
 #include "segment/mesh/oriented_box.h"
-#include "segment/score/seam_cost.h"
-#include "segment/score/sweep.h"
-#include "segment/score/tool_directions.h"
+#include "segment/objectives/seam_cost.h"
+#include "segment/objectives/sweep/sweep.h"
 #include "segment/search/late_rank.h"
 
 namespace qchopper::bench {

@@ -6,8 +6,8 @@
 #include "bench/clock.h"
 #include "bench/measures.h"
 #include "segment/mesh/oriented_box.h"
-#include "segment/score/fragility_sweep.h"
-#include "segment/score/sweep.h"
+#include "segment/objectives/sweep/fragility_sweep.h"
+#include "segment/objectives/sweep/sweep.h"
 #include "segment/search/search.h"
 
 namespace qchopper::bench {

@@ -7,20 +7,20 @@
 #include <string>
 #include <vector>
 
-#include "base/file.h"
+#include "base/files/file.h"
+#include "base/files/temporary_folder.h"
 #include "base/parallel.h"
-#include "base/temporary_folder.h"
 #include "bench/choice.h"
 #include "bench/clock.h"
 #include "bench/figures.h"
 #include "bench/other_readers.h"
+#include "segment/access/piece_reach.h"
+#include "segment/access/tool_fit.h"
 #include "segment/cut/cut_piece.h"
 #include "segment/cut/nudge.h"
 #include "segment/io/write_ply.h"
 #include "segment/mesh/oriented_box.h"
 #include "segment/mesh/triangle_tree.h"
-#include "segment/score/piece_reach.h"
-#include "segment/score/tool_fit.h"
 
 namespace {
 

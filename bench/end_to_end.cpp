@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "base/error.h"
-#include "base/temporary_folder.h"
+#include "base/files/temporary_folder.h"
 #include "bench/by_turns.h"
 #include "bench/choice.h"
 #include "bench/figures.h"

@@ -16,9 +16,9 @@
 #include "cam/setup/block.h"
 #include "cam/setup/choose_setup.h"
 #include "cam/setup/envelope.h"
-#include "cam/setup/height_map.h"
-#include "cam/setup/place_block.h"
+#include "cam/setup/placement/place_block.h"
 #include "segment/mesh/measure.h"
+#include "segment/raster/height_map.h"
 #include "segment/search/search.h"
 #include "tests/cam/setup/random_setups.h"
 

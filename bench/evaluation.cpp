@@ -10,10 +10,10 @@
 #include "bench/clock.h"
 #include "bench/measures.h"
 #include "segment/cut/cut.h"
-#include "segment/score/evaluate.h"
-#include "segment/score/sweep.h"
+#include "segment/objectives/sweep/sweep.h"
+#include "segment/search/candidates/evaluate.h"
 #include "segment/search/piece_names.h"
-#include "tests/reference/segment/score/evaluate_by_cutting.h"
+#include "tests/reference/segment/objectives/evaluate_by_cutting.h"
 
 namespace qchopper::bench {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <iostream>
 
-#include "app/project/project_folder.h"
-#include "base/file.h"
-#include "base/temporary_folder.h"
+#include "app/store/project_folder.h"
+#include "base/files/file.h"
+#include "base/files/temporary_folder.h"
 #include "bench/child.h"
 #include "bench/clock.h"
 #include "bench/measures.h"

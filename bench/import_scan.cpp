@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <string>
 
-#include "base/file.h"
+#include "base/files/file.h"
+#include "base/files/temporary_folder.h"
 #include "base/parallel.h"
-#include "base/temporary_folder.h"
 #include "bench/child.h"
 #include "bench/choice.h"
 #include "bench/clock.h"
@@ -17,9 +17,9 @@
 #include "segment/io/read_mesh.h"
 #include "segment/io/write_ply.h"
 #include "segment/io/write_stl.h"
-#include "segment/mesh/manifold.h"
-#include "segment/repair/fill_holes.h"
-#include "segment/repair/self_intersections.h"
+#include "segment/mesh/connectivity/manifold.h"
+#include "segment/repair/holes/fill_holes.h"
+#include "segment/repair/intersections/self_intersections.h"
 #include "segment/repair/weld.h"
 
 namespace {

@@ -7,19 +7,19 @@
 #include <string>
 #include <vector>
 
-#include "app/project/presets.h"
+#include "app/engine/presets.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "bench/clock.h"
 #include "bench/reach_judge.h"
 #include "bench/specimens.h"
 #include "bench/table_models.h"
+#include "segment/access/cut_reach.h"
 #include "segment/joint/piece_joints.h"
 #include "segment/joint/seam.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/oriented_box.h"
-#include "segment/score/cut_reach.h"
-#include "segment/score/seam_cost.h"
+#include "segment/objectives/seam_cost.h"
 #include "segment/search/search.h"
 
 namespace {

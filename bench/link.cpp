@@ -14,15 +14,15 @@
 #include <stdexcept>
 #include <thread>
 
-#include "app/project/hand_over.h"
+#include "app/dispatch/hand_over.h"
 #include "bench/clock.h"
 #include "bench/figures.h"
-#include "devices/codec.h"
-#include "devices/first_contact.h"
-#include "devices/modbus_tcp.h"
-#include "sim/cell_sim.h"
+#include "devices/hand_off/first_contact.h"
+#include "devices/wire/codec.h"
+#include "devices/wire/modbus_tcp.h"
+#include "sim/cell/cell_sim.h"
 #include "tests/schedules/schedule.h"
-#include "tests/sim/cell_rig.h"
+#include "tests/sim/cell/cell_rig.h"
 
 namespace qchopper::bench {
 namespace {

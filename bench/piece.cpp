@@ -11,7 +11,7 @@
 #include <tuple>
 #include <vector>
 
-#include "app/project/job_proof.h"
+#include "app/jobs/job_proof.h"
 #include "base/error.h"
 #include "base/timings.h"
 #include "bench/clock.h"

@@ -8,10 +8,10 @@
 #include "bench/choice.h"
 #include "bench/clock.h"
 #include "bench/figures.h"
+#include "segment/access/accessibility.h"
+#include "segment/access/unreachable.h"
 #include "segment/cut/nudge.h"
 #include "segment/mesh/oriented_box.h"
-#include "segment/score/accessibility.h"
-#include "segment/score/unreachable.h"
 
 namespace {
 

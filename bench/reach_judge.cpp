@@ -18,7 +18,7 @@
 #include "bench/embree_rays.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/oriented_box.h"
-#include "segment/mesh/projected_area.h"
+#include "segment/raster/projected_area.h"
 
 namespace qchopper::bench {
 namespace {

@@ -10,9 +10,9 @@
 #include <limits>
 #include <string>
 
-#include "base/file.h"
+#include "base/files/file.h"
+#include "base/files/temporary_folder.h"
 #include "base/parallel.h"
-#include "base/temporary_folder.h"
 #include "bench/choice.h"
 #include "bench/clock.h"
 #include "bench/figures.h"
@@ -22,9 +22,9 @@
 #include "cam/setup/foam_points.h"
 #include "cam/setup/held_directions.h"
 #include "cam/setup/mapped_reach.h"
+#include "segment/access/tool_directions.h"
 #include "segment/io/write_ply.h"
 #include "segment/mesh/measure.h"
-#include "segment/score/tool_directions.h"
 #include "segment/search/search.h"
 
 namespace {

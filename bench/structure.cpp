@@ -9,9 +9,9 @@
 #include "base/parallel.h"
 #include "bench/choice.h"
 #include "bench/clock.h"
+#include "segment/access/tool_directions.h"
 #include "segment/mesh/measure.h"
 #include "segment/sample/sample.h"
-#include "segment/score/tool_directions.h"
 #include "segment/structure/section_stress.h"
 
 namespace {

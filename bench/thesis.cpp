@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "app/project/presets.h"
+#include "app/engine/presets.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "bench/clock.h"

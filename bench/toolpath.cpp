@@ -9,8 +9,8 @@
 
 #include "bench/clock.h"
 #include "bench/specimens.h"
+#include "cam/stock/tip_surface.h"
 #include "cam/toolpath/finishing.h"
-#include "cam/toolpath/tip_surface.h"
 #include "segment/mesh/measure.h"
 #include "tests/cam/toolpath/replay.h"
 #include "tests/shapes.h"

@@ -5,7 +5,7 @@
 #include "base/parallel.h"
 #include "bench/clock.h"
 #include "bench/measures.h"
-#include "segment/score/sampled_piece.h"
+#include "segment/access/sampled_piece.h"
 #include "segment/search/search.h"
 
 namespace qchopper::bench {

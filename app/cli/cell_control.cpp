@@ -1,21 +1,21 @@
 // Commands to a cell outside of a dispatch, and its status.
 
-#include "devices/cell_control.h"
+#include "devices/hand_off/cell_control.h"
 
 #include <memory>
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
-#include "app/project/left_open.h"
-#include "app/project/state_folder.h"
-#include "app/report/cell_control_report.h"
+#include "app/dispatch/left_open.h"
+#include "app/dispatch/state_folder.h"
+#include "app/report/cell/cell_control_report.h"
 #include "base/error.h"
 #include "cam/cell/cell.h"
-#include "devices/first_contact.h"
-#include "devices/journal_history.h"
-#include "devices/operator_words.h"
-#include "devices/request_socket.h"
-#include "devices/seen_store.h"
+#include "devices/hand_off/first_contact.h"
+#include "devices/hand_off/journal_history.h"
+#include "devices/hand_off/operator_words.h"
+#include "devices/hand_off/request_socket.h"
+#include "devices/hand_off/seen_store.h"
 
 namespace qchopper {
 namespace {

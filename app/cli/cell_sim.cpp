@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "app/cli/check_arguments.h"
+#include "app/cli/arguments/check_arguments.h"
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
 #include "app/cli/simulated_limits.h"
@@ -13,8 +13,8 @@
 #include "app/report/notices.h"
 #include "base/error.h"
 #include "base/printable.h"
-#include "devices/modbus_tcp.h"
-#include "sim/script_run.h"
+#include "devices/wire/modbus_tcp.h"
+#include "sim/cell/script_run.h"
 
 namespace qchopper {
 namespace {

@@ -1,17 +1,17 @@
 // Lists, shows and checks cell files, and tells where blocks can stand. O(files), beside the picture of the reach and
-// the places of a block (cam/setup/block_places.h).
+// the places of a block (cam/setup/placement/block_places.h).
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "app/cli/arguments/option_values.h"
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
-#include "app/cli/option_values.h"
-#include "app/report/cell_report.h"
-#include "app/report/reach_picture.h"
+#include "app/pictures/reach_picture.h"
+#include "app/report/cell/cell_report.h"
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/file.h"
 
 namespace qchopper {
 namespace {

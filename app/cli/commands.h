@@ -1,14 +1,15 @@
-// The commands: each passes its arguments to app/project, shows the report of app/report and returns the exit code.
+// The commands: each passes its arguments to app/engine or app/dispatch, shows the report of app/report and returns the
+// exit code.
 //
 // They throw InputError, DeviceError and Cancelled, which run_program() reports; terminal.unchanged is then the
 // sentence about what is unchanged.
 
 #pragma once
 
-#include "app/cli/arguments.h"
+#include "app/cli/arguments/arguments.h"
 #include "app/cli/terminal.h"
-#include "app/project/hand_over.h"
-#include "devices/modbus_tcp.h"
+#include "app/dispatch/hand_over.h"
+#include "devices/wire/modbus_tcp.h"
 
 namespace qchopper {
 

@@ -1,6 +1,6 @@
 // Hands the jobs of a project to a cell; asks before a real one is set in motion.
 
-#include "devices/dispatch.h"
+#include "devices/hand_off/dispatch.h"
 
 #include <unistd.h>
 
@@ -11,18 +11,18 @@
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
 #include "app/cli/standard_input_lines.h"
-#include "app/project/left_open.h"
-#include "app/project/proven_jobs.h"
-#include "app/project/state_folder.h"
-#include "app/report/hand_over_report.h"
+#include "app/dispatch/left_open.h"
+#include "app/dispatch/proven_jobs.h"
+#include "app/dispatch/state_folder.h"
+#include "app/report/cell/hand_over_report.h"
 #include "base/printable.h"
 #include "cam/cell/cell.h"
 #include "cam/cell/cell_check.h"
-#include "devices/codec.h"
-#include "devices/device_error.h"
-#include "devices/drop_folder.h"
-#include "devices/first_contact.h"
-#include "devices/request_socket.h"
+#include "devices/hand_off/drop_folder.h"
+#include "devices/hand_off/first_contact.h"
+#include "devices/hand_off/request_socket.h"
+#include "devices/wire/codec.h"
+#include "devices/wire/device_error.h"
 
 namespace qchopper {
 namespace {

@@ -2,11 +2,11 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/simulated_limits.h"
-#include "app/project/proven_jobs.h"
-#include "app/project/shell_word.h"
-#include "base/temporary_folder.h"
-#include "devices/modbus_tcp.h"
-#include "sim/cell_sim.h"
+#include "app/dispatch/proven_jobs.h"
+#include "base/files/temporary_folder.h"
+#include "base/shell_word.h"
+#include "devices/wire/modbus_tcp.h"
+#include "sim/cell/cell_sim.h"
 
 namespace qchopper {
 namespace {

@@ -2,9 +2,9 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
-#include "app/project/project_folder.h"
 #include "app/report/explanation.h"
-#include "base/file.h"
+#include "app/store/project_folder.h"
+#include "base/files/file.h"
 
 namespace qchopper {
 namespace {

@@ -1,10 +1,10 @@
 // Writes pieces for other programs.
 
+#include "app/cli/arguments/version.h"
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
-#include "app/cli/version.h"
-#include "app/project/project_folder.h"
 #include "app/report/export_report.h"
+#include "app/store/project_folder.h"
 
 namespace qchopper {
 

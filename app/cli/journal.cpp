@@ -4,8 +4,8 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
-#include "app/project/state_folder.h"
-#include "app/report/journal_report.h"
+#include "app/dispatch/state_folder.h"
+#include "app/report/cell/journal_report.h"
 #include "base/error.h"
 
 namespace qchopper {

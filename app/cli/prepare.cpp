@@ -1,13 +1,13 @@
 // From a scan to job files, or on with a project that is not finished yet.
 
-#include "app/cli/check_arguments.h"
+#include "app/cli/arguments/check_arguments.h"
+#include "app/cli/arguments/option_values.h"
+#include "app/cli/arguments/project_arguments.h"
+#include "app/cli/arguments/version.h"
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
-#include "app/cli/option_values.h"
-#include "app/cli/project_arguments.h"
 #include "app/cli/unusual_size.h"
-#include "app/cli/version.h"
-#include "app/project/prepare_project.h"
+#include "app/engine/prepare_project.h"
 #include "app/report/prepare_report.h"
 
 namespace qchopper {

@@ -1,11 +1,11 @@
 // Makes a closed solid of a scan and reports what was done.
 
+#include "app/cli/arguments/project_arguments.h"
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
-#include "app/cli/project_arguments.h"
 #include "app/cli/unusual_size.h"
-#include "app/project/mesh_output.h"
 #include "app/report/repair_report.h"
+#include "segment/io/mesh_output.h"
 
 namespace qchopper {
 

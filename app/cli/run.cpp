@@ -8,11 +8,11 @@
 #include <optional>
 #include <string_view>
 
+#include "app/cli/arguments/parse_arguments.h"
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
-#include "app/cli/parse_arguments.h"
 #include "app/report/notices.h"
-#include "devices/device_error.h"
+#include "devices/wire/device_error.h"
 
 namespace qchopper {
 namespace {

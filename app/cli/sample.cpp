@@ -2,10 +2,10 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
-#include "app/project/mesh_output.h"
-#include "app/project/project_folder.h"
 #include "app/report/notices.h"
+#include "app/store/project_folder.h"
 #include "base/timings.h"
+#include "segment/io/mesh_output.h"
 
 namespace qchopper {
 

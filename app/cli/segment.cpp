@@ -1,11 +1,11 @@
 // Cuts a scan one decision at a time, or shows the state of its project.
 
-#include "app/cli/check_arguments.h"
+#include "app/cli/arguments/check_arguments.h"
+#include "app/cli/arguments/project_arguments.h"
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
-#include "app/cli/project_arguments.h"
 #include "app/cli/unusual_size.h"
-#include "app/project/segment_project.h"
+#include "app/engine/segment_project.h"
 #include "app/report/segment_report.h"
 
 namespace qchopper {

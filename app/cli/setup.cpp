@@ -1,12 +1,12 @@
 // Shows the setups of a project, or makes one of them the operator's choice.
 
+#include "app/cli/arguments/option_values.h"
+#include "app/cli/arguments/version.h"
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
-#include "app/cli/option_values.h"
-#include "app/cli/version.h"
-#include "app/project/project_folder.h"
 #include "app/report/program_report.h"
 #include "app/report/setup_report.h"
+#include "app/store/project_folder.h"
 
 namespace qchopper {
 

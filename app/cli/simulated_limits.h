@@ -6,7 +6,7 @@
 #pragma once
 
 #include "cam/cell/cell.h"
-#include "sim/machine.h"
+#include "sim/cell/machine.h"
 
 namespace qchopper {
 

@@ -22,9 +22,9 @@
 
 #include "app/cli/exit_code.h"
 #include "app/report/timings_report.h"
+#include "base/files/unfinished.h"
 #include "base/printable.h"
 #include "base/text.h"
-#include "base/unfinished.h"
 
 namespace qchopper {
 namespace {

@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "app/project/project_context.h"
+#include "app/store/project_context.h"
 #include "base/timings.h"
 
 namespace qchopper {

@@ -1,12 +1,12 @@
 // Verifies the jobs of a project, or one job file.
 
+#include "app/cli/arguments/project_arguments.h"
+#include "app/cli/arguments/version.h"
 #include "app/cli/commands.h"
 #include "app/cli/exit_code.h"
-#include "app/cli/project_arguments.h"
-#include "app/cli/version.h"
-#include "app/project/project_folder.h"
-#include "app/project/verify_jobs.h"
+#include "app/dispatch/verify_jobs.h"
 #include "app/report/verify_report.h"
+#include "app/store/project_folder.h"
 #include "base/error.h"
 
 namespace qchopper {

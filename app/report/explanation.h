@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/project/explain.h"
+#include "app/engine/explain.h"
 #include "segment/picture/plot.h"
 
 namespace qchopper {

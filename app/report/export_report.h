@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/project/export_pieces.h"
+#include "app/engine/export_pieces.h"
 
 namespace qchopper {
 

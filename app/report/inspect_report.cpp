@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/project/value_json.h"
 #include "app/report/columns.h"
+#include "app/store/value_json.h"
 #include "base/text.h"
 #include "segment/import/import_scan.h"
 

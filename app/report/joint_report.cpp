@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/project/value_json.h"
 #include "app/report/columns.h"
+#include "app/store/value_json.h"
 #include "base/text.h"
 
 namespace qchopper {

@@ -1,6 +1,6 @@
 // Joints, seams and the steps of the assembly as text and JSON.
 //
-// Tests: tests/app/project/project_joints_test.cpp.
+// Tests: tests/app/jobs/project_joints_test.cpp.
 
 #pragma once
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/project/project_joints.h"
+#include "app/jobs/project_joints.h"
 
 namespace qchopper {
 

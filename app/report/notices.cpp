@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/project/value_json.h"
+#include "app/store/value_json.h"
 #include "base/text.h"
 #include "segment/import/inspect.h"
 #include "segment/mesh/measure.h"
-#include "sim/faults.h"
+#include "sim/cell/faults.h"
 
 namespace qchopper {
 

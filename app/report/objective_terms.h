@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/text.h"
-#include "segment/score/objectives.h"
+#include "segment/objectives/objectives.h"
 
 namespace qchopper {
 

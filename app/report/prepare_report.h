@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/project/open_project.h"
+#include "app/engine/open_project.h"
 
 namespace qchopper {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/project/shell_word.h"
+#include "base/shell_word.h"
 #include "base/text.h"
 
 namespace qchopper {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/project/piece_jobs.h"
+#include "app/jobs/piece_jobs.h"
 
 namespace qchopper {
 

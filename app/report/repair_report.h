@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/project/repair_file.h"
+#include "app/engine/repair_file.h"
 
 namespace qchopper {
 

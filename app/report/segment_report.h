@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/project/decide.h"
+#include "app/engine/decide.h"
 
 namespace qchopper {
 

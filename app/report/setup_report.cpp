@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "app/project/project_lines.h"
-#include "app/project/shell_word.h"
-#include "app/project/value_json.h"
 #include "app/report/columns.h"
 #include "app/report/program_report.h"
 #include "app/report/work_envelope_report.h"
 #include "app/report/workholding_report.h"
+#include "app/store/project_lines.h"
+#include "app/store/value_json.h"
+#include "base/shell_word.h"
 #include "base/text.h"
 #include "cam/cell/allowed_tools.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/project/setup_project.h"
+#include "app/engine/setup_project.h"
 
 namespace qchopper {
 

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/project/value_json.h"
 #include "app/report/columns.h"
+#include "app/store/value_json.h"
 #include "base/text.h"
 
 namespace qchopper {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/project/verify_jobs.h"
+#include "app/dispatch/verify_jobs.h"
 
 namespace qchopper {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cam/setup/work_envelope.h"
+#include "cam/setup/placement/work_envelope.h"
 
 namespace qchopper {
 

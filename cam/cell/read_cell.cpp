@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "cam/cell/cell_keys.h"
 #include "cam/cell/cell_tables.h"
 #include "cam/cell/job_tools.h"

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/pose.h"
 #include "base/sha256.h"
 #include "segment/cut/piece.h"

@@ -11,14 +11,14 @@
 #include <string>
 #include <vector>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "cam/cell/cell.h"
 #include "cam/job/job_cap.h"
 #include "cam/job/job_program.h"
 #include "cam/job/ticket.h"
 #include "cam/setup/envelope.h"
+#include "cam/setup/placement/work_envelope.h"
 #include "cam/setup/setup.h"
-#include "cam/setup/work_envelope.h"
 #include "segment/cut/piece.h"
 
 namespace qchopper {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "base/box.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/sha256.h"
 #include "cam/cell/cell.h"
 #include "cam/setup/drill_direction.h"

@@ -7,8 +7,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "base/files/portable_name.h"
 #include "base/json.h"
-#include "base/portable_name.h"
 #include "cam/job/cap_document.h"
 
 namespace qchopper {

@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "cam/job/job_cap.h"
 #include "cam/job/job_program.h"
 

@@ -1,12 +1,12 @@
-// Unpacks by base/zip.h and hashes every entry once. O(bytes), with the archive and the files in memory.
+// Unpacks by base/files/zip.h and hashes every entry once. O(bytes), with the archive and the files in memory.
 
 #include "cam/job/read_job.h"
 
 #include <array>
 
 #include "base/error.h"
-#include "base/portable_name.h"
-#include "base/zip.h"
+#include "base/files/portable_name.h"
+#include "base/files/zip.h"
 #include "cam/job/cap_document.h"
 #include "cam/job/envelope_document.h"
 #include "cam/job/manifest.h"

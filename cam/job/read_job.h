@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "cam/job/job.h"
 
 namespace qchopper {

@@ -1,23 +1,23 @@
-// Packs by base/zip.h and hashes every entry once. O(bytes), with the files and the archive in memory; besides, two
-// pictures are drawn (setup_picture.cpp).
+// Packs by base/files/zip.h and hashes every entry once. O(bytes), with the files and the archive in memory; besides,
+// two pictures are drawn (setup_picture.cpp).
 
 #include "cam/job/write_job.h"
 
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/zip.h"
+#include "base/files/zip.h"
 #include "cam/cell/job_tools.h"
-#include "cam/job/cap_template.h"
 #include "cam/job/envelope_document.h"
-#include "cam/job/envelope_picture.h"
 #include "cam/job/manifest.h"
-#include "cam/job/preview.h"
 #include "cam/job/read_job.h"
-#include "cam/job/setup_picture.h"
-#include "cam/job/setup_sheet.h"
-#include "cam/job/sheet_details.h"
-#include "cam/job/template_pdf.h"
+#include "cam/job/sheet/cap_template.h"
+#include "cam/job/sheet/envelope_picture.h"
+#include "cam/job/sheet/preview.h"
+#include "cam/job/sheet/setup_picture.h"
+#include "cam/job/sheet/setup_sheet.h"
+#include "cam/job/sheet/sheet_details.h"
+#include "cam/job/sheet/template_pdf.h"
 #include "segment/io/write_stl.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/transform.h"

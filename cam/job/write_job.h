@@ -5,7 +5,7 @@
 
 #pragma once
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "cam/job/job.h"
 
 namespace qchopper {

@@ -10,8 +10,8 @@
 
 #include "base/context.h"
 #include "cam/cell/cell.h"
+#include "cam/setup/placement/work_envelope.h"
 #include "cam/setup/setup.h"
-#include "cam/setup/work_envelope.h"
 #include "cam/toolpath/drilling.h"
 
 namespace qchopper {

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "cam/cell/reach_map.h"
-#include "cam/setup/place_score.h"
+#include "cam/setup/placement/place_score.h"
 
 namespace qchopper {
 namespace {

@@ -16,9 +16,9 @@
 #include "cam/cell/cell.h"
 #include "cam/program/program.h"
 #include "cam/program/sampled_path.h"
-#include "cam/setup/pose_judge.h"
+#include "cam/setup/placement/pose_judge.h"
+#include "cam/setup/placement/work_envelope.h"
 #include "cam/setup/setup.h"
-#include "cam/setup/work_envelope.h"
 
 namespace qchopper {
 

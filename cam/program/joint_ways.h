@@ -12,7 +12,7 @@
 
 #include "cam/cell/cell.h"
 #include "cam/program/program.h"
-#include "cam/setup/pose_judge.h"
+#include "cam/setup/placement/pose_judge.h"
 #include "cam/setup/setup.h"
 
 namespace qchopper {

@@ -12,8 +12,8 @@
 #include "base/error.h"
 #include "cam/cell/cell.h"
 #include "cam/program/program.h"
+#include "cam/setup/placement/work_envelope.h"
 #include "cam/setup/setup.h"
-#include "cam/setup/work_envelope.h"
 #include "cam/toolpath/toolpath.h"
 
 namespace qchopper {

@@ -1,7 +1,7 @@
 // Where the block of a setup stands on the table, and to which angle a rotary table is turned for each direction.
 //
 // Values; mm and radians. The default is the middle of the block over the middle of the table, its sides along those
-// of the table (tests/cam/setup/work_envelope_test.cpp).
+// of the table (tests/cam/setup/placement/work_envelope_test.cpp).
 
 #pragma once
 

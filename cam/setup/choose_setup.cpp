@@ -1,5 +1,5 @@
 // Every base is laid out in its block and judged on samples with its own few directions; the best ones are judged again
-// by height maps, until the best of all is one of them. Rays of the samples (segment/score/piece_reach.h) and
+// by height maps, until the best of all is one of them. Rays of the samples (segment/access/piece_reach.h) and
 // O(directions x triangles) for each base that is mapped.
 
 #include "cam/setup/choose_setup.h"
@@ -13,15 +13,15 @@
 #include <tuple>
 
 #include "cam/setup/envelope.h"
-#include "cam/setup/footprint.h"
 #include "cam/setup/held_directions.h"
 #include "cam/setup/mapped_reach.h"
 #include "cam/setup/paint_narrow.h"
-#include "cam/setup/place_block.h"
+#include "cam/setup/placement/place_block.h"
 #include "cam/setup/standing_sections.h"
 #include "cam/setup/undercut.h"
-#include "segment/score/piece_reach.h"
-#include "segment/score/tool_fit.h"
+#include "segment/access/piece_reach.h"
+#include "segment/access/tool_fit.h"
+#include "segment/mesh/footprint.h"
 
 namespace qchopper {
 namespace {

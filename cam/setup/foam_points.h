@@ -15,9 +15,9 @@
 
 #include "base/box.h"
 #include "base/pose.h"
-#include "cam/setup/height_map.h"
 #include "segment/mesh/polygon.h"
 #include "segment/mesh/triangle_mesh.h"
+#include "segment/raster/height_map.h"
 
 namespace qchopper {
 

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "cam/setup/envelope.h"
-#include "cam/setup/place_block.h"
+#include "cam/setup/placement/place_block.h"
 
 namespace qchopper {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/context.h"
 #include "cam/cell/cell.h"
 #include "cam/setup/choose_setup.h"
-#include "cam/setup/work_envelope.h"
+#include "cam/setup/placement/work_envelope.h"
 #include "segment/cut/piece.h"
 
 namespace qchopper {

@@ -11,7 +11,7 @@
 #include "base/pose.h"
 #include "cam/cell/carving_tool.h"
 #include "cam/cell/robot.h"
-#include "cam/setup/height_map.h"
+#include "segment/raster/height_map.h"
 
 namespace qchopper {
 

@@ -14,8 +14,8 @@
 
 #include "base/parallel.h"
 #include "cam/setup/foam_points.h"
-#include "cam/setup/height_map.h"
 #include "segment/mesh/measure.h"
+#include "segment/raster/height_map.h"
 
 namespace qchopper {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "cam/setup/surface_reach.h"
+#include "segment/access/surface_samples.h"
 #include "segment/mesh/triangle_mesh.h"
-#include "segment/score/surface_samples.h"
 
 namespace qchopper {
 

@@ -11,8 +11,8 @@
 #include <map>
 #include <numbers>
 
-#include "cam/setup/footprint.h"
-#include "segment/mesh/disjoint_sets.h"
+#include "segment/mesh/connectivity/disjoint_sets.h"
+#include "segment/mesh/footprint.h"
 
 namespace qchopper {
 namespace {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "cam/toolpath/disc_max.h"
+#include "segment/raster/disc_max.h"
 
 namespace qchopper {
 namespace {

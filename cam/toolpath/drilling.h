@@ -15,7 +15,7 @@
 #include "cam/cell/cell.h"
 #include "cam/setup/drill_direction.h"
 #include "cam/setup/setup.h"
-#include "cam/toolpath/in_process_stock.h"
+#include "cam/stock/in_process_stock.h"
 #include "cam/toolpath/toolpath.h"
 #include "segment/mesh/triangle_mesh.h"
 

@@ -14,9 +14,9 @@
 
 #include "base/context.h"
 #include "cam/cell/carving_tool.h"
+#include "cam/stock/tip_surface.h"
 #include "cam/toolpath/finishing_region.h"
 #include "cam/toolpath/pass.h"
-#include "cam/toolpath/tip_surface.h"
 
 namespace qchopper {
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "cam/toolpath/disc_max.h"
+#include "segment/raster/disc_max.h"
 
 namespace qchopper {
 namespace {

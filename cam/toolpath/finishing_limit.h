@@ -6,10 +6,10 @@
 #pragma once
 
 #include "cam/cell/carving_tool.h"
-#include "cam/setup/height_map.h"
 #include "cam/setup/holder_limit.h"
 #include "cam/setup/setup.h"
 #include "cam/toolpath/links.h"
+#include "segment/raster/height_map.h"
 
 namespace qchopper {
 

@@ -11,7 +11,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "cam/toolpath/tip_view.h"
+#include "cam/stock/tip_view.h"
 #include "segment/mesh/measure.h"
 
 namespace qchopper {

@@ -11,8 +11,8 @@
 #include <optional>
 #include <vector>
 
-#include "cam/setup/height_map.h"
 #include "segment/mesh/triangle_mesh.h"
+#include "segment/raster/height_map.h"
 
 namespace qchopper {
 

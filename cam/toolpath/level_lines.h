@@ -9,8 +9,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "cam/toolpath/edge_rises.h"
-#include "cam/toolpath/tip_view.h"
+#include "cam/stock/edge_rises.h"
+#include "cam/stock/tip_view.h"
 #include "segment/mesh/polygon.h"
 
 namespace qchopper {

@@ -11,11 +11,11 @@
 #include <optional>
 
 #include "base/parallel.h"
-#include "cam/toolpath/edge_rises.h"
+#include "cam/stock/edge_rises.h"
 #include "cam/toolpath/level_lines.h"
-#include "cam/toolpath/middles_around.h"
 #include "cam/toolpath/path_reduction.h"
 #include "cam/toolpath/scallop.h"
+#include "segment/raster/middles_around.h"
 
 namespace qchopper {
 namespace {

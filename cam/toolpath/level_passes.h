@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "base/context.h"
+#include "cam/stock/tip_surface.h"
+#include "cam/stock/tip_view.h"
 #include "cam/toolpath/finishing_region.h"
 #include "cam/toolpath/pass.h"
 #include "cam/toolpath/raster_passes.h"
-#include "cam/toolpath/tip_surface.h"
-#include "cam/toolpath/tip_view.h"
 
 namespace qchopper {
 

@@ -11,9 +11,9 @@
 #include <numbers>
 #include <optional>
 
-#include "cam/toolpath/disc_max.h"
-#include "cam/toolpath/middles_around.h"
 #include "cam/toolpath/pass_order.h"
+#include "segment/raster/disc_max.h"
+#include "segment/raster/middles_around.h"
 
 namespace qchopper {
 namespace {

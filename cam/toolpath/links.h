@@ -16,12 +16,12 @@
 #include <vector>
 
 #include "cam/cell/carving_tool.h"
-#include "cam/setup/height_map.h"
 #include "cam/setup/holder_limit.h"
-#include "cam/toolpath/in_process_stock.h"
+#include "cam/stock/in_process_stock.h"
+#include "cam/stock/tip_surface.h"
 #include "cam/toolpath/pass.h"
-#include "cam/toolpath/tip_surface.h"
 #include "cam/toolpath/toolpath.h"
+#include "segment/raster/height_map.h"
 
 namespace qchopper {
 

@@ -33,15 +33,15 @@
 
 #include "base/error.h"
 #include "cam/setup/holder_limit.h"
+#include "cam/stock/in_process_stock.h"
+#include "cam/stock/roughing_limit.h"
+#include "cam/stock/tip_surface.h"
 #include "cam/toolpath/clipped_passes.h"
 #include "cam/toolpath/finishing.h"
 #include "cam/toolpath/finishing_limit.h"
 #include "cam/toolpath/finishing_region.h"
-#include "cam/toolpath/in_process_stock.h"
 #include "cam/toolpath/links.h"
 #include "cam/toolpath/roughing.h"
-#include "cam/toolpath/roughing_limit.h"
-#include "cam/toolpath/tip_surface.h"
 #include "cam/toolpath/unused_tools.h"
 
 namespace qchopper {

@@ -12,7 +12,7 @@
 #include "base/context.h"
 #include "cam/cell/cell.h"
 #include "cam/setup/setup.h"
-#include "cam/toolpath/in_process_stock.h"
+#include "cam/stock/in_process_stock.h"
 #include "cam/toolpath/toolpath.h"
 #include "cam/toolpath/toolpath_settings.h"
 #include "segment/mesh/triangle_mesh.h"

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/context.h"
+#include "cam/stock/tip_view.h"
 #include "cam/toolpath/pass.h"
 #include "cam/toolpath/path_reduction.h"
-#include "cam/toolpath/tip_view.h"
 
 namespace qchopper {
 

@@ -9,8 +9,8 @@
 #include <limits>
 #include <utility>
 
-#include "cam/toolpath/disc_max.h"
 #include "cam/toolpath/roughing_passes.h"
+#include "segment/raster/disc_max.h"
 
 namespace qchopper {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "base/context.h"
 #include "cam/cell/carving_tool.h"
-#include "cam/setup/height_map.h"
 #include "cam/setup/holder_limit.h"
 #include "cam/toolpath/links.h"
 #include "cam/toolpath/toolpath.h"
+#include "segment/raster/height_map.h"
 
 namespace qchopper {
 

@@ -3,7 +3,7 @@
 // Plane coordinates, mm. A point that touches moves by 1e-10 of the size of the region, away from what it touches: out
 // of the material where two parts of the material touch there, into it where two parts of the void do. So the result
 // has no contact, and a triangulation of it is one of the given loops, but for slivers as thin as the move
-// (tests/segment/score/touching_test.cpp).
+// (tests/segment/objectives/sweep/touching_test.cpp).
 
 #pragma once
 

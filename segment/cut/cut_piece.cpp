@@ -5,7 +5,7 @@
 #include <cassert>
 
 #include "segment/cut/half_solids.h"
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 
 namespace qchopper {
 namespace {

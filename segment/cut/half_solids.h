@@ -1,12 +1,13 @@
 // Groups the shells of the two halves of a cut to solids, for the cut and for the reference evaluation.
 //
 // A cavity that the plane does not cross stays in the solid that it was in before the cut, as in the sweep: so the cut
-// makes the solids that the sweep evaluates, also of solids that touch (tests/segment/score/touching_test.cpp).
+// makes the solids that the sweep evaluates, also of solids that touch
+// (tests/segment/objectives/sweep/touching_test.cpp).
 
 #pragma once
 
 #include "segment/cut/cut.h"
-#include "segment/mesh/solids.h"
+#include "segment/mesh/connectivity/solids.h"
 
 namespace qchopper {
 

@@ -24,7 +24,7 @@ struct HalfSpace {
     Vec3 up() const { return above ? plane.normal : -plane.normal; }
 };
 
-struct SampledPiece;   // segment/score/sampled_piece.h
+struct SampledPiece;   // segment/access/sampled_piece.h
 struct StressedModel;  // segment/structure/stress.h
 
 struct Piece {
@@ -33,7 +33,7 @@ struct Piece {
     std::vector<HalfSpace> half_spaces;  // in the order of the cuts; of some of them the piece may have no cap left
     std::shared_ptr<const SampledPiece> samples =
         {};  // along which directions its surface is open; null: not asked yet
-    // Per point what a mm of seam there costs, in [0, 1] (segment/score/seam_cost.h); null: 1 everywhere.
+    // Per point what a mm of seam there costs, in [0, 1] (segment/objectives/seam_cost.h); null: 1 everywhere.
     std::shared_ptr<const std::vector<float>> seam_cost = {};
     std::shared_ptr<const StressedModel> stress = {};  // of the uncut scan under load; null: no load is given
 };

@@ -9,14 +9,14 @@
 #include <map>
 
 #include "base/text.h"
-#include "segment/mesh/containment.h"
-#include "segment/mesh/links.h"
-#include "segment/mesh/manifold.h"
-#include "segment/mesh/shells.h"
+#include "segment/mesh/connectivity/containment.h"
+#include "segment/mesh/connectivity/links.h"
+#include "segment/mesh/connectivity/manifold.h"
+#include "segment/mesh/connectivity/shells.h"
 #include "segment/repair/fragments.h"
+#include "segment/repair/intersections/self_intersections.h"
 #include "segment/repair/open_components.h"
 #include "segment/repair/repair.h"
-#include "segment/repair/self_intersections.h"
 #include "segment/repair/weld.h"
 
 namespace qchopper {

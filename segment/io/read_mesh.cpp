@@ -7,15 +7,15 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "segment/io/glb_file.h"
-#include "segment/io/gunzip.h"
-#include "segment/io/read_3mf.h"
-#include "segment/io/read_gltf.h"
-#include "segment/io/read_obj.h"
-#include "segment/io/read_off.h"
-#include "segment/io/read_ply.h"
-#include "segment/io/read_stl.h"
-#include "segment/io/text.h"
+#include "segment/io/formats/glb_file.h"
+#include "segment/io/formats/gunzip.h"
+#include "segment/io/formats/read_3mf.h"
+#include "segment/io/formats/read_gltf.h"
+#include "segment/io/formats/read_obj.h"
+#include "segment/io/formats/read_off.h"
+#include "segment/io/formats/read_ply.h"
+#include "segment/io/formats/read_stl.h"
+#include "segment/io/formats/text.h"
 #include "segment/io/to_utf8.h"
 
 namespace qchopper {

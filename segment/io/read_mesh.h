@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <string>
 
-#include "base/file.h"
-#include "segment/io/raw_mesh.h"
+#include "base/files/file.h"
+#include "segment/io/formats/raw_mesh.h"
 
 namespace qchopper {
 

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "base/error.h"
-#include "segment/io/ply_header.h"
-#include "segment/io/ply_values.h"
-#include "segment/io/read_ply.h"
+#include "segment/io/formats/ply_header.h"
+#include "segment/io/formats/ply_values.h"
+#include "segment/io/formats/read_ply.h"
 
 namespace qchopper {
 namespace {

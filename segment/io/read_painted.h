@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {

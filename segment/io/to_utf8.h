@@ -1,13 +1,13 @@
 // Removes the byte order mark of a text and converts UTF-16 to bytes.
 //
 // Some programs on Windows save OBJ and PLY as UTF-16. All that describes a mesh is ASCII; other characters occur in
-// names and comments only and become question marks (tests/segment/io/unpack_test.cpp).
+// names and comments only and become question marks (tests/segment/io/formats/unpack_test.cpp).
 
 #pragma once
 
 #include <optional>
 
-#include "base/file.h"
+#include "base/files/file.h"
 
 namespace qchopper {
 

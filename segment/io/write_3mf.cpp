@@ -7,7 +7,7 @@
 #include <charconv>
 #include <memory>
 
-#include "base/zip.h"
+#include "base/files/zip.h"
 
 namespace qchopper {
 namespace {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/pose.h"
 #include "segment/mesh/triangle_mesh.h"
 

@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {

@@ -5,7 +5,7 @@
 
 #pragma once
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {

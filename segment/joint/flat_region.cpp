@@ -9,7 +9,7 @@
 #include <map>
 #include <utility>
 
-#include "segment/mesh/disjoint_sets.h"
+#include "segment/mesh/connectivity/disjoint_sets.h"
 #include "segment/mesh/plane_section.h"
 
 namespace qchopper {

@@ -2,8 +2,8 @@
 //
 // mm. Both triangles at an edge get the same point of it to the last bit, and a corner at the height or side of the
 // line counts as above it; so a line crosses every closed surface an even number of times, also through vertices and
-// along edges (tests/segment/mesh/containment_test.cpp). O(1). This is the half-open rule of the crossing number
-// (M. Shimrat, "Algorithm 112: position of point relative to polygon", 1962), applied twice.
+// along edges (tests/segment/mesh/connectivity/containment_test.cpp). O(1). This is the half-open rule of the crossing
+// number (M. Shimrat, "Algorithm 112: position of point relative to polygon", 1962), applied twice.
 
 #pragma once
 

@@ -2,7 +2,7 @@
 //
 // mm. The side of a point is decided by height() in plane.h alone; a point at the plane's height is above. The point of
 // a crossed edge is computed from its upper end, so that both triangles, and every caller, get the same bits
-// (tests/segment/score/touching_test.cpp, tests/app/project/outline_test.cpp).
+// (tests/segment/objectives/sweep/touching_test.cpp, tests/app/engine/outline_test.cpp).
 
 #pragma once
 

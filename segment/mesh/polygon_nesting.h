@@ -1,7 +1,7 @@
 // Polygon nesting: the flat regions that a plane cuts out of a solid, each an outer loop with its holes.
 //
 // Plane coordinates, mm. The cut and the sweep call this one function with the same points to the last bit, so their
-// regions are the same, also where loops touch or cross (tests/segment/score/touching_test.cpp).
+// regions are the same, also where loops touch or cross (tests/segment/objectives/sweep/touching_test.cpp).
 
 #pragma once
 

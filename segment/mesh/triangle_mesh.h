@@ -1,8 +1,8 @@
 // An indexed triangle mesh: points, and triangles as indices of points.
 //
 // Coordinates are doubles in millimetres. A triangle lists its corners counter-clockwise seen from outside. A mesh is
-// *closed* when every half-edge has exactly one opposite (edges.h, tests/segment/mesh/edges_test.cpp). All functions
-// here but is_consistent are O(1).
+// *closed* when every half-edge has exactly one opposite (edges.h, tests/segment/mesh/connectivity/edges_test.cpp). All
+// functions here but is_consistent are O(1).
 
 #pragma once
 

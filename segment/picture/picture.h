@@ -8,7 +8,7 @@
 #include <span>
 
 #include "base/context.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "segment/picture/camera.h"
 #include "segment/picture/lettering.h"
 #include "segment/picture/scene.h"

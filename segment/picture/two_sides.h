@@ -9,7 +9,7 @@
 #include <string>
 
 #include "base/context.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "segment/picture/coloured.h"
 
 namespace qchopper {

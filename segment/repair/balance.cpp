@@ -18,8 +18,8 @@
 #include <utility>
 #include <vector>
 
-#include "segment/mesh/edge_groups.h"
-#include "segment/mesh/manifold.h"
+#include "segment/mesh/connectivity/edge_groups.h"
+#include "segment/mesh/connectivity/manifold.h"
 #include "segment/mesh/submesh.h"
 #include "segment/repair/faces.h"
 #include "segment/repair/wedges.h"

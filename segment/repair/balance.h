@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/triangle_mesh.h"
 #include "segment/repair/source_faces.h"
 

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "segment/mesh/edges.h"
-#include "segment/mesh/manifold.h"
+#include "segment/mesh/connectivity/edges.h"
+#include "segment/mesh/connectivity/manifold.h"
 #include "segment/mesh/submesh.h"
 
 namespace qchopper {

@@ -9,10 +9,10 @@
 #include <cstdint>
 #include <limits>
 
-#include "segment/mesh/disjoint_sets.h"
-#include "segment/mesh/edge_groups.h"
-#include "segment/mesh/edges.h"
-#include "segment/mesh/manifold.h"
+#include "segment/mesh/connectivity/disjoint_sets.h"
+#include "segment/mesh/connectivity/edge_groups.h"
+#include "segment/mesh/connectivity/edges.h"
+#include "segment/mesh/connectivity/manifold.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/submesh.h"
 

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/triangle_mesh.h"
 #include "segment/repair/source_faces.h"
 

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "segment/mesh/solids.h"
+#include "segment/mesh/connectivity/solids.h"
 #include "segment/mesh/submesh.h"
 
 namespace qchopper {

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <vector>
 
-#include "segment/mesh/shells.h"
+#include "segment/mesh/connectivity/shells.h"
 #include "segment/mesh/submesh.h"
 
 namespace qchopper {

@@ -2,8 +2,8 @@
 
 #pragma once
 
-#include "segment/repair/fill_holes.h"
-#include "segment/repair/pen_grooves.h"
+#include "segment/repair/holes/fill_holes.h"
+#include "segment/repair/pen_grooves/pen_grooves.h"
 
 namespace qchopper {
 

@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "segment/mesh/containment.h"
-#include "segment/mesh/shells.h"
+#include "segment/mesh/connectivity/containment.h"
+#include "segment/mesh/connectivity/shells.h"
 #include "segment/repair/weld.h"
 
 namespace qchopper {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/measure.h"
 #include "segment/repair/orient_outward.h"
 #include "segment/repair/settle.h"

@@ -9,14 +9,14 @@
 #include <cassert>
 #include <limits>
 
-#include "segment/mesh/disjoint_sets.h"
-#include "segment/mesh/manifold.h"
+#include "segment/mesh/connectivity/disjoint_sets.h"
+#include "segment/mesh/connectivity/manifold.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/triangle_tree.h"
-#include "segment/repair/exact_pair.h"
 #include "segment/repair/faces.h"
-#include "segment/repair/fill_loop.h"
-#include "segment/repair/self_intersections.h"
+#include "segment/repair/holes/fill_loop.h"
+#include "segment/repair/intersections/exact_pair.h"
+#include "segment/repair/intersections/self_intersections.h"
 #include "segment/repair/surface_region.h"
 
 namespace qchopper {

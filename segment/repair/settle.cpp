@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "segment/repair/balance.h"
 #include "segment/repair/degenerate.h"
 #include "segment/repair/faces.h"

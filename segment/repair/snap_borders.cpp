@@ -11,8 +11,8 @@
 #include <map>
 #include <vector>
 
-#include "segment/mesh/edges.h"
-#include "segment/mesh/manifold.h"
+#include "segment/mesh/connectivity/edges.h"
+#include "segment/mesh/connectivity/manifold.h"
 #include "segment/repair/weld.h"
 
 namespace qchopper {

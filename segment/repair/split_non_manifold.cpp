@@ -11,10 +11,10 @@
 #include <span>
 #include <vector>
 
-#include "segment/mesh/disjoint_sets.h"
-#include "segment/mesh/edge_groups.h"
-#include "segment/mesh/edges.h"
-#include "segment/mesh/manifold.h"
+#include "segment/mesh/connectivity/disjoint_sets.h"
+#include "segment/mesh/connectivity/edge_groups.h"
+#include "segment/mesh/connectivity/edges.h"
+#include "segment/mesh/connectivity/manifold.h"
 #include "segment/repair/wedges.h"
 
 namespace qchopper {

@@ -8,8 +8,8 @@
 #include <map>
 #include <unordered_map>
 
-#include "segment/mesh/disjoint_sets.h"
-#include "segment/mesh/manifold.h"
+#include "segment/mesh/connectivity/disjoint_sets.h"
+#include "segment/mesh/connectivity/manifold.h"
 
 namespace qchopper {
 

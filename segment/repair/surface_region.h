@@ -9,7 +9,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {

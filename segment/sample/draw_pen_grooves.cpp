@@ -9,7 +9,7 @@
 #include <numbers>
 #include <set>
 
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/normals.h"
 #include "segment/mesh/plane_frame.h"
 

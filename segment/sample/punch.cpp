@@ -11,7 +11,7 @@
 #include <numeric>
 #include <vector>
 
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/submesh.h"
 

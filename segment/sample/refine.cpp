@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 
 namespace qchopper {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "segment/repair/self_intersections.h"
+#include "segment/repair/intersections/self_intersections.h"
 #include "segment/sample/bones.h"
 #include "segment/sample/isosurface.h"
 #include "segment/sample/punch.h"

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "segment/score/sampled_piece.h"
+#include "segment/access/sampled_piece.h"
 #include "segment/search/trial.h"
 
 namespace qchopper {

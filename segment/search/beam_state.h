@@ -1,5 +1,5 @@
 // The beam between two rounds in the form in which it is saved: an interrupted search that resumes from it ends as if
-// it had not been interrupted (tests/app/project/open_project_test.cpp).
+// it had not been interrupted (tests/app/engine/open_project_test.cpp).
 //
 // The segmentations of a beam have their first cuts in common: the cuts form a tree, in which each is kept once. Ranks
 // and evaluations are not kept, because they follow from the pieces. Reverted trials are, because the same cuts later

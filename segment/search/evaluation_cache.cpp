@@ -11,8 +11,8 @@
 #include "base/parallel.h"
 #include "base/shared_progress.h"
 #include "base/timings.h"
-#include "segment/score/evaluate.h"
-#include "segment/score/sampled_piece.h"
+#include "segment/access/sampled_piece.h"
+#include "segment/search/candidates/evaluate.h"
 
 namespace qchopper {
 

@@ -19,8 +19,8 @@
 
 #include "base/context.h"
 #include "segment/mesh/oriented_box.h"
-#include "segment/score/candidates.h"
-#include "segment/score/objectives.h"
+#include "segment/objectives/objectives.h"
+#include "segment/search/candidates/candidates.h"
 #include "segment/search/segmentation.h"
 
 namespace qchopper {
@@ -73,7 +73,7 @@ struct PlaneOrder {
 // Per plane what its cut would make, as far as the oriented boxes of the parts count; nothing: it misses.
 using OwnBoxes = std::map<Plane, std::optional<CutEvaluation>, PlaneOrder>;
 
-// Where evaluations are kept beyond the end of the program (app/project/evaluation_store.h). Both functions may be
+// Where evaluations are kept beyond the end of the program (app/store/caches/evaluation_store.h). Both functions may be
 // empty; they are called from one thread.
 struct EvaluationStore {
     std::function<std::optional<PieceEvaluations>(const Piece&)> find;  // nothing: not stored

@@ -19,7 +19,7 @@
 #include "base/timings.h"
 #include "segment/cut/cut_piece.h"
 #include "segment/mesh/measure.h"
-#include "segment/score/sweep.h"
+#include "segment/objectives/sweep/sweep.h"
 
 namespace qchopper {
 namespace {

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <limits>
 
-#include "segment/score/cut_reach.h"
+#include "segment/access/cut_reach.h"
 #include "segment/search/further_candidates.h"
 #include "segment/search/late_rank.h"
 #include "segment/search/reach_rank.h"

@@ -12,10 +12,10 @@
 
 #include "base/parallel.h"
 #include "base/timings.h"
+#include "segment/access/cut_reach.h"
+#include "segment/access/dense_reach.h"
 #include "segment/cut/nudge.h"
-#include "segment/score/cut_reach.h"
-#include "segment/score/dense_reach.h"
-#include "segment/score/sweep.h"
+#include "segment/objectives/sweep/sweep.h"
 #include "segment/search/further_candidates.h"
 #include "segment/search/refined_plane.h"
 #include "segment/search/size_candidates.h"
@@ -408,7 +408,7 @@ class ReachRanking {
         return rank(all, others, settings_.objectives, scan_);
     }
 
-    // Of the planes that are taken, and those that setups may choose before them (app/project/verdict.h), the first
+    // Of the planes that are taken, and those that setups may choose before them (app/engine/verdict.h), the first
     // whose sides are several solids and that was not cut yet.
     ReachPlane* first_in_doubt(const std::vector<Ranked>& ranked) {
         for (std::size_t i = 0; i < std::min(std::max(settings_.beam, least_best_planes), ranked.size()); ++i) {

@@ -2,7 +2,7 @@
 // evaluated whole.
 //
 // The unreachable area of every plane of 132 normals follows from the piece's samples without cutting
-// (segment/score/reach_sweep.h). All other terms are at least 0, so a plane is not evaluated once its weighted
+// (segment/access/reach_sweep.h). All other terms are at least 0, so a plane is not evaluated once its weighted
 // unreachable area alone exceeds the best total: the best plane is the one that evaluating all candidates would find
 // (tests/segment/search/reach_rank_test.cpp). A side of several solids is not judged by the sweep: such planes are
 // really cut if they come to stand among the first four. The best plane is moved and turned a little

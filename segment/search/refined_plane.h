@@ -1,7 +1,7 @@
 // Moves and turns a plane a little, so that less of both sides is out of reach.
 //
 // mm. The candidates of a piece have 132 normals, some ten degrees apart, and 80 offsets; between them a plane can be
-// better. What it leaves is asked with dense directions (segment/score/dense_reach.h), because the scan's own favour
+// better. What it leaves is asked with dense directions (segment/access/dense_reach.h), because the scan's own favour
 // the normals that are among them.
 
 #pragma once
@@ -9,8 +9,8 @@
 #include <functional>
 
 #include "base/context.h"
+#include "segment/access/dense_reach.h"
 #include "segment/cut/piece.h"
-#include "segment/score/dense_reach.h"
 
 namespace qchopper {
 

@@ -67,7 +67,7 @@ StopJudge judge_for(const SearchSettings& settings, const PieceChecks& checks, E
 // after every round that changes it, so that it can be saved: at b = 1 after every decision. The search ends with the
 // round in which `time_limit` passes; at least one round is made unless the limit is 0. Throws Cancelled if the
 // context is cancelled; `segmentation` is then the best of the last round. A search that is interrupted anywhere and
-// resumed from `progress` ends as if it had not been interrupted (tests/app/project/open_project_test.cpp). `progress`
+// resumed from `progress` ends as if it had not been interrupted (tests/app/engine/open_project_test.cpp). `progress`
 // may be null.
 SearchEnd search(Segmentation& segmentation, const SearchSettings& settings, EvaluationCache& cache,
                  const PieceChecks& checks, const std::function<void(const Segmentation&)>& on_round,

@@ -6,13 +6,13 @@
 #include <cassert>
 #include <cstdio>
 
+#include "segment/access/sampled_piece.h"
 #include "segment/cut/cut_piece.h"
+#include "segment/mesh/connectivity/solids.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/order.h"
 #include "segment/mesh/oriented_box.h"
-#include "segment/mesh/solids.h"
-#include "segment/score/sampled_piece.h"
-#include "segment/score/seam_cost.h"
+#include "segment/objectives/seam_cost.h"
 #include "segment/search/piece_names.h"
 
 namespace qchopper {

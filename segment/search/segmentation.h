@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "segment/cut/piece.h"
-#include "segment/score/candidates.h"
-#include "segment/score/objectives.h"
+#include "segment/objectives/objectives.h"
+#include "segment/search/candidates/candidates.h"
 
 namespace qchopper {
 

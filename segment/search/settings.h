@@ -4,8 +4,8 @@
 
 #include <cstddef>
 
-#include "segment/score/candidates.h"
-#include "segment/score/objectives.h"
+#include "segment/objectives/objectives.h"
+#include "segment/search/candidates/candidates.h"
 #include "segment/search/stop_rules.h"
 
 namespace qchopper {
@@ -20,7 +20,7 @@ struct SearchSettings {
                                  // of the piece's extent, the worse is culled; of no effect at b = 1
     bool operator==(const SearchSettings&) const = default;
 
-    // Whether the pieces need samples (segment/score/sampled_piece.h).
+    // Whether the pieces need samples (segment/access/sampled_piece.h).
     bool takes_samples() const { return stop.max_unreachable.has_value() || objectives.weights.unreachable > 0; }
     // Whether the scan is to be measured, and its points asked how well they are seen.
     bool measures_scan() const {

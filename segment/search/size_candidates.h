@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "segment/mesh/oriented_box.h"
-#include "segment/score/candidates.h"
+#include "segment/search/candidates/candidates.h"
 #include "segment/search/stop_rules.h"
 
 namespace qchopper {

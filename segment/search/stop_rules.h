@@ -59,7 +59,7 @@ struct PieceChecks {
     UnreachableOf unreachable;
     BlocksNeeded blocks_needed = {};  // allowed is what some block of the cell holds
     // Whether arm, tools and holder of the cell can carve the piece: a part of the rule fits_cell where a priority is
-    // given, asked of pieces that fit the cell (app/project/setups.cpp says why). One that they cannot carve is cut for
+    // given, asked of pieces that fit the cell (app/jobs/setups.cpp says why). One that they cannot carve is cut for
     // the sizes of low_blocks_needed.
     FitsCell is_carvable = {};
     BlocksNeeded low_blocks_needed = {};

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "segment/mesh/links.h"
-#include "segment/repair/self_intersections.h"
+#include "segment/mesh/connectivity/links.h"
+#include "segment/repair/intersections/self_intersections.h"
 #include "segment/simplify/collapse.h"
 #include "segment/simplify/collapse_passes.h"
 #include "segment/simplify/sampled_deviation.h"

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <functional>
 
-#include "segment/mesh/disjoint_sets.h"
+#include "segment/mesh/connectivity/disjoint_sets.h"
 
 namespace qchopper {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "segment/mesh/disjoint_sets.h"
+#include "segment/mesh/connectivity/disjoint_sets.h"
 #include "segment/mesh/measure.h"
 #include "segment/structure/displacements.h"
 

@@ -11,7 +11,7 @@
 #include "base/text.h"
 #include "cam/cell/machine_bodies.h"
 #include "sim/program/rounded_corner.h"
-#include "sim/replay/direction_frame.h"
+#include "sim/replay/stock/direction_frame.h"
 
 namespace qchopper {
 namespace {

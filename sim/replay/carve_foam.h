@@ -9,9 +9,9 @@
 
 #include "base/context.h"
 #include "sim/replay/finding.h"
-#include "sim/replay/foam.h"
 #include "sim/replay/hole_check.h"
 #include "sim/replay/scene.h"
+#include "sim/replay/stock/foam.h"
 #include "sim/replay/tool_path.h"
 
 namespace qchopper {

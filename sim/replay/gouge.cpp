@@ -12,8 +12,8 @@
 #include "base/parallel.h"
 #include "segment/mesh/triangle_tree.h"
 #include "sim/replay/carve_foam.h"
-#include "sim/replay/direction_frame.h"
 #include "sim/replay/hole_check.h"
+#include "sim/replay/stock/direction_frame.h"
 
 namespace qchopper {
 namespace {

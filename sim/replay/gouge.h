@@ -13,8 +13,8 @@
 
 #include "base/context.h"
 #include "segment/mesh/triangle_mesh.h"
-#include "sim/replay/cutter.h"
 #include "sim/replay/scene.h"
+#include "sim/replay/stock/cutter.h"
 #include "sim/replay/tool_path.h"
 
 namespace qchopper {

@@ -13,8 +13,8 @@
 
 #include "base/context.h"
 #include "sim/replay/finding.h"
-#include "sim/replay/foam.h"
 #include "sim/replay/scene.h"
+#include "sim/replay/stock/foam.h"
 
 namespace qchopper {
 

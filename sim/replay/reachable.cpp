@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "base/parallel.h"
-#include "sim/replay/cutter.h"
-#include "sim/replay/direction_frame.h"
+#include "sim/replay/stock/cutter.h"
+#include "sim/replay/stock/direction_frame.h"
 
 namespace qchopper {
 namespace {

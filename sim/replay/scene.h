@@ -16,7 +16,7 @@
 #include "base/pose.h"
 #include "cam/cell/cell.h"
 #include "segment/mesh/triangle_mesh.h"
-#include "sim/replay/stock.h"
+#include "sim/replay/stock/stock.h"
 
 namespace qchopper {
 

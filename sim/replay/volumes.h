@@ -1,13 +1,13 @@
 // Volumes between what is left of the foam and the target, on vertical lines through the middles of square cells.
 //
 // mm3. Along each line both are intervals, exact but for rounding. O(lines * (crossings + maps))
-// (tests/sim/replay/foam_test.cpp).
+// (tests/sim/replay/stock/foam_test.cpp).
 
 #pragma once
 
 #include "base/context.h"
-#include "sim/replay/foam.h"
 #include "sim/replay/scene.h"
+#include "sim/replay/stock/foam.h"
 
 namespace qchopper {
 

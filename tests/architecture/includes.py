@@ -2,7 +2,8 @@
 
     base -> segment -> cam -> devices -> sim -> app
 
-A compilation unit is a header together with the source of the same name; units do not include each other in a circle.
+The sub-modules of a module stand in an order of their own. Folders that stand in the same folder do not include each
+other in a circle at any depth; a folder below a sub-module is a part of it. A compilation unit is a header together with the source of the same name; units do not include each other in a circle.
 faults(root) lists every violation, one line each, in the tree at `root`. The tables below are the rule; README.md and
 docs/developer/architecture.md describe it.
 """
@@ -12,19 +13,38 @@ from pathlib import Path
 
 MODULES = ["base", "segment", "cam", "devices", "sim", "app"]
 
-# Inside these modules the sub-modules are ordered as well.
+# Inside these modules the sub-modules are ordered as well. "" is the root of the module.
 SUB_MODULES = {
-    "segment": ["mesh", "io", "repair", "import", "structure", "cut", "simplify", "sample", "picture", "score", "search", "joint"],
-    "cam": ["cell", "setup", "toolpath", "program", "post", "job", "export"],
-    "app": ["project", "report", "cli"],
+    "base": ["", "files"],
+    "segment": [
+        "mesh",
+        "raster",
+        "io",
+        "repair",
+        "import",
+        "structure",
+        "cut",
+        "simplify",
+        "sample",
+        "picture",
+        "access",
+        "objectives",
+        "search",
+        "joint",
+    ],
+    "cam": ["cell", "setup", "stock", "toolpath", "program", "post", "job", "export"],
+    "devices": ["wire", "journal", "hand_off"],
+    "sim": ["cell", "program", "replay"],
+    "app": ["store", "pictures", "jobs", "engine", "dispatch", "report", "cli"],
 }
 
-# What a module may include of the modules before it, where that is less than everything. A name that ends in / is a
-# folder.
+# What a module or sub-module may include beside itself, where that is less than everything before it. A name that ends
+# in / is a folder. The two halves of sim do not see each other: what runs jobs, and what proves programs.
 VIEW = {
     "devices": {"base/", "cam/job/ticket.h"},
-    "sim": {"base/", "segment/mesh/", "segment/io/", "segment/import/", "cam/cell/"}
-    | {f"devices/{name}.h" for name in ("registers", "codes", "field", "blocks", "codec", "bus", "register_writer", "packml")},
+    "sim/cell": {"base/", "devices/wire/"},
+    "sim/program": {"base/"},
+    "sim/replay": {"base/", "cam/cell/", "segment/mesh/", "sim/program/"},
 }
 
 # Modules in which no included header may belong to a source that includes CGAL.
@@ -47,6 +67,7 @@ HEAVY = {
     "expat": (r"expat\.h$", 1),
     "libpng": (r"png\.h$", 1),
     "libhersheyfont": (r"hersheyfont\.h$", 1),
+    "libhpdf": (r"hpdf\.h$", 1),
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -66,7 +87,11 @@ def module_of(name):
 
 def sub_module_of(name):
     parts = name.split("/")
-    return parts[1] if len(parts) > 2 else None
+    return parts[1] if len(parts) > 2 else ""
+
+
+def named(module, sub):
+    return f"{module}/{sub}" if sub else f"the root of {module}"
 
 
 def unit_of(name):
@@ -82,9 +107,10 @@ def why_not(source, target):
     module, other = module_of(source), module_of(target)
     if MODULES.index(other) > MODULES.index(module):
         return f"{other} comes after {module}"
+    for folder, view in VIEW.items():
+        if source.startswith(folder + "/") and not target.startswith(folder + "/") and not is_seen(target, view):
+            return f"{folder} sees only a part of {other}, and this is not in it"
     if other != module:
-        if module in VIEW and not is_seen(target, VIEW[module]):
-            return f"{module} sees only a part of {other}, and this is not in it"
         return None
     order = SUB_MODULES.get(module)
     if order is None:
@@ -92,9 +118,9 @@ def why_not(source, target):
     here, there = sub_module_of(source), sub_module_of(target)
     for sub in (here, there):
         if sub not in order:
-            return f"{sub or 'the root'} has no place in the order of the sub-modules of {module}"
+            return f"{named(module, sub)} has no place in the order of the sub-modules of {module}"
     if order.index(there) > order.index(here):
-        return f"{module}/{there} comes after {module}/{here}"
+        return f"{named(module, there)} comes after {named(module, here)}"
     return None
 
 
@@ -126,6 +152,18 @@ class Tree:
         for name, lines in self.files.items():
             seen = result.setdefault(unit_of(name), set())
             seen |= {unit_of(target) for _, how, target in lines if how == '"'} - {unit_of(name)}
+        return result
+
+    def folders(self):
+        """Per folder the folders that stand in the same folder and of which it includes something."""
+        result = {}
+        for name, lines in self.files.items():
+            here = name.split("/")[:-1]
+            for _, how, target in lines:
+                there = target.split("/")[:-1]
+                depth = next((i for i, (a, b) in enumerate(zip(here, there)) if a != b), None)
+                if how == '"' and depth is not None:
+                    result.setdefault("/".join(here[: depth + 1]), set()).add("/".join(there[: depth + 1]))
         return result
 
 
@@ -177,6 +215,8 @@ def circles(graph):
 def circle_faults(tree):
     for circle in circles(tree.units()):
         yield f"these units include each other in a circle: {', '.join(circle)}"
+    for circle in circles(tree.folders()):
+        yield f"these folders include each other in a circle: {', '.join(circle)}"
 
 
 def reach_faults(tree):

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "base/edit_distance.h"
+#include "base/files/portable_name.h"
 #include "base/hex.h"
-#include "base/portable_name.h"
 #include "base/uuid.h"
 
 namespace qchopper {

@@ -16,11 +16,11 @@
 #include <sstream>
 #include <thread>
 
-#include "devices/cell_control.h"
-#include "devices/first_contact.h"
-#include "devices/journal.h"
-#include "sim/script.h"
-#include "tests/sim/cell_rig.h"
+#include "devices/hand_off/cell_control.h"
+#include "devices/hand_off/first_contact.h"
+#include "devices/journal/journal.h"
+#include "sim/cell/script.h"
+#include "tests/sim/cell/cell_rig.h"
 
 namespace qchopper {
 namespace {

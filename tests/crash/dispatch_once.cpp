@@ -14,11 +14,11 @@
 #include <cstdlib>
 #include <set>
 
-#include "app/project/hand_over.h"
-#include "devices/journal.h"
-#include "devices/journal_history.h"
-#include "devices/modbus_tcp.h"
-#include "tests/sim/cell_rig.h"
+#include "app/dispatch/hand_over.h"
+#include "devices/hand_off/journal_history.h"
+#include "devices/journal/journal.h"
+#include "devices/wire/modbus_tcp.h"
+#include "tests/sim/cell/cell_rig.h"
 
 namespace qchopper {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "tests/sim/cell_rig.h"
+#include "tests/sim/cell/cell_rig.h"
 
 namespace qchopper {
 namespace {

@@ -12,12 +12,12 @@
 #include "cam/setup/choose_setup.h"
 #include "cam/setup/envelope.h"
 #include "cam/setup/setup.h"
-#include "devices/dispatch.h"
-#include "devices/modbus_tcp.h"
+#include "devices/hand_off/dispatch.h"
+#include "devices/wire/modbus_tcp.h"
 #include "segment/io/read_mesh.h"
 #include "segment/io/write_ply.h"
-#include "segment/mesh/edges.h"
-#include "sim/cell_sim.h"
+#include "segment/mesh/connectivity/edges.h"
+#include "sim/cell/cell_sim.h"
 
 namespace qchopper::walk {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "sim/modbus_pdu.h"
-#include "sim/panel.h"
-#include "tests/sim/good_ticket.h"
+#include "sim/cell/modbus_pdu.h"
+#include "sim/cell/panel.h"
+#include "tests/sim/cell/good_ticket.h"
 
 namespace qchopper {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <map>
 
-#include "sim/machine.h"
+#include "sim/cell/machine.h"
 #include "tests/fuzz/demand.h"
 
 namespace qchopper {

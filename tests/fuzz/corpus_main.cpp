@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "base/file.h"
+#include "base/files/file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "segment/io/read_3mf.h"
+#include "segment/io/formats/read_3mf.h"
 #include "tests/fuzz/reader.h"
 #include "tests/segment/io/wrappings.h"
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "devices/codec.h"
+#include "devices/wire/codec.h"
 #include "tests/fuzz/demand.h"
 
 namespace qchopper {

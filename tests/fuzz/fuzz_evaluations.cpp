@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/project/evaluation_store.h"
+#include "app/store/caches/evaluation_store.h"
 #include "base/sha256.h"
 #include "tests/fuzz/demand.h"
 #include "tests/fuzz/memory_folder.h"

@@ -1,6 +1,6 @@
 // The glTF reader. Bytes that begin with "glTF" are a GLB; others are read as JSON.
 
-#include "segment/io/read_gltf.h"
+#include "segment/io/formats/read_gltf.h"
 #include "tests/fuzz/reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/files/zip.h"
 #include "base/sha256.h"
-#include "base/zip.h"
 #include "cam/job/read_job.h"
 #include "tests/fuzz/demand.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "base/sha256.h"
-#include "sim/memory.h"
+#include "sim/cell/memory.h"
 #include "tests/fuzz/demand.h"
 
 namespace qchopper {

@@ -1,6 +1,6 @@
 // The OBJ reader.
 
-#include "segment/io/read_obj.h"
+#include "segment/io/formats/read_obj.h"
 #include "tests/fuzz/reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

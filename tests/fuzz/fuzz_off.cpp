@@ -1,6 +1,6 @@
 // The OFF reader.
 
-#include "segment/io/read_off.h"
+#include "segment/io/formats/read_off.h"
 #include "tests/fuzz/reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,7 +1,7 @@
 // The plan file: a plan that is read, written and read again is the same plan. Writing replaces control characters in
 // its texts, so it is written twice.
 
-#include "app/project/plan.h"
+#include "app/store/plan.h"
 #include "tests/fuzz/demand.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

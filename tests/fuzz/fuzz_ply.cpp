@@ -1,6 +1,6 @@
 // The PLY reader.
 
-#include "segment/io/read_ply.h"
+#include "segment/io/formats/read_ply.h"
 #include "tests/fuzz/reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,6 +1,6 @@
 // project.json: a project that is read, written and read again is the same project.
 
-#include "app/project/project_json.h"
+#include "app/store/project_json.h"
 #include "tests/fuzz/demand.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

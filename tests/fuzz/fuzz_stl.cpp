@@ -1,7 +1,7 @@
 // Both STL readers: the text reader gets the bytes as they are, the binary reader gets them cut to whole triangles with
 // the right count, which no mutation would find.
 
-#include "segment/io/read_stl.h"
+#include "segment/io/formats/read_stl.h"
 #include "tests/fuzz/reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "base/file.h"
-#include "base/zip.h"
+#include "base/files/file.h"
+#include "base/files/zip.h"
 #include "cam/job/read_job.h"
 #include "cam/job/write_job.h"
 #include "tests/fuzz/seeds.h"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "devices/codec.h"
-#include "sim/memory.h"
+#include "devices/wire/codec.h"
+#include "sim/cell/memory.h"
 #include "tests/fuzz/cell_steps.h"
 #include "tests/fuzz/seeds.h"
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "tests/fuzz/seeds.h"
 #include "tests/segment/io/encodings.h"
 

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/project/evaluation_store.h"
-#include "app/project/plan.h"
-#include "app/project/project_json.h"
+#include "app/store/caches/evaluation_store.h"
+#include "app/store/plan.h"
+#include "app/store/project_json.h"
 #include "base/sha256.h"
 #include "tests/fuzz/memory_folder.h"
 #include "tests/fuzz/seeds.h"

@@ -3,7 +3,7 @@
  * back, the operator cancels, and another PC takes the cell over.
  *
  * docs/developer/model.md says what is in it and what not, and holds the results of scripts/model. The rows MOVE are compared with
- * the simulated cell (tests/sim/model_test.cpp). Every property is an assertion; no property is about time. */
+ * the simulated cell (tests/sim/cell/model_test.cpp). Every property is an assertion; no property is about time. */
 
 #ifndef PCS
 #define PCS 1        /* dispatchers */
@@ -39,7 +39,7 @@
 #define EPOCHS 3     /* a dispatcher that would claim a higher epoch gives up */
 #endif
 
-/* Job states of the cell and its commands, as in devices/codes.h and devices/packml.h. */
+/* Job states of the cell and its commands, as in devices/wire/codes.h and devices/wire/packml.h. */
 mtype:job = { none, stored, prepared, running, ended };
 mtype:cmd = { no_cmd, claim, store, prepare, start, cancel, clear_result };
 mtype:mem = { unknown_job, started, cancelled };

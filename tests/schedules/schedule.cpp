@@ -10,15 +10,15 @@
 #include <optional>
 #include <utility>
 
-#include "app/project/hand_over.h"
+#include "app/dispatch/hand_over.h"
 #include "base/error.h"
-#include "devices/first_contact.h"
-#include "devices/journal.h"
-#include "devices/journal_history.h"
-#include "devices/seen_store.h"
-#include "sim/random.h"
+#include "devices/hand_off/first_contact.h"
+#include "devices/hand_off/journal_history.h"
+#include "devices/hand_off/seen_store.h"
+#include "devices/journal/journal.h"
+#include "sim/cell/random.h"
 #include "tests/schedules/virtual_link.h"
-#include "tests/sim/cell_rig.h"
+#include "tests/sim/cell/cell_rig.h"
 
 namespace qchopper::schedules {
 namespace {

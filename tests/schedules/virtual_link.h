@@ -5,8 +5,8 @@
 
 #pragma once
 
-#include "devices/bus.h"
-#include "devices/modbus_frame.h"
+#include "devices/wire/bus.h"
+#include "devices/wire/modbus_frame.h"
 #include "tests/schedules/world.h"
 
 namespace qchopper::schedules {

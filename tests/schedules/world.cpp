@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "base/sha256.h"
-#include "sim/modbus_pdu.h"
-#include "sim/panel.h"
-#include "sim/random.h"
+#include "sim/cell/modbus_pdu.h"
+#include "sim/cell/panel.h"
+#include "sim/cell/random.h"
 
 namespace qchopper::schedules {
 namespace {

@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
-#include "devices/codec.h"
-#include "sim/machine.h"
-#include "tests/sim/fault_proxy.h"
+#include "devices/wire/codec.h"
+#include "sim/cell/machine.h"
+#include "tests/sim/cell/fault_proxy.h"
 
 namespace qchopper::schedules {
 

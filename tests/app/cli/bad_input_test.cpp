@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/exit_code.h"
-#include "app/project/project_folder.h"
+#include "app/store/project_folder.h"
 #include "tests/app/cli/program.h"
 
 namespace qchopper {

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "app/cli/exit_code.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "segment/io/write_ply.h"
 #include "tests/app/ball_cap.h"
 #include "tests/app/cli/program.h"

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/exit_code.h"
+#include "base/files/zip.h"
 #include "base/sha256.h"
-#include "base/zip.h"
 #include "tests/app/cli/program.h"
 
 namespace qchopper {

@@ -7,8 +7,8 @@
 
 #include "app/cli/exit_code.h"
 #include "app/cli/terminal.h"
-#include "app/report/cell_control_report.h"
-#include "app/report/hand_over_report.h"
+#include "app/report/cell/cell_control_report.h"
+#include "app/report/cell/hand_over_report.h"
 #include "tests/app/cli/program.h"
 
 namespace qchopper {

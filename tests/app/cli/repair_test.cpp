@@ -11,7 +11,7 @@
 #include "segment/io/read_mesh.h"
 #include "segment/io/write_ply.h"
 #include "segment/io/write_stl.h"
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "tests/app/cli/program.h"
 
 namespace qchopper {

@@ -13,7 +13,7 @@
 
 #include "app/cli/exit_code.h"
 #include "tests/app/cli/program.h"
-#include "tests/sim/fault_proxy.h"
+#include "tests/sim/cell/fault_proxy.h"
 
 namespace qchopper {
 namespace {

@@ -9,9 +9,9 @@
 #include "cam/cell/job_tools.h"
 #include "cam/job/ticket.h"
 #include "cam/job/write_job.h"
-#include "devices/codec.h"
+#include "devices/wire/codec.h"
 #include "segment/search/segmentation.h"
-#include "sim/ticket_check.h"
+#include "sim/cell/ticket_check.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

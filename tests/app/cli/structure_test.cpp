@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "segment/io/write_ply.h"
 #include "tests/app/cli/program.h"
 #include "tests/shapes.h"

@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/exit_code.h"
-#include "base/file.h"
+#include "base/files/file.h"
+#include "base/files/zip.h"
 #include "base/hex.h"
 #include "base/sha256.h"
-#include "base/zip.h"
 #include "segment/io/write_ply.h"
 #include "tests/app/ball_cap.h"
 #include "tests/app/cli/program.h"

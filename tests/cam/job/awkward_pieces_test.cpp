@@ -12,10 +12,10 @@
 
 #include "base/parallel.h"
 #include "cam/job/read_job.h"
-#include "cam/job/setup_sheet.h"
-#include "cam/job/sheet_details.h"
+#include "cam/job/sheet/setup_sheet.h"
+#include "cam/job/sheet/sheet_details.h"
 #include "cam/job/write_job.h"
-#include "segment/score/tool_directions.h"
+#include "segment/access/tool_directions.h"
 #include "tests/cam/job/some_job.h"
 #include "tests/cam/setup/solids.h"
 

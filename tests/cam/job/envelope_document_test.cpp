@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/zip.h"
+#include "base/files/zip.h"
 #include "cam/job/read_job.h"
 #include "cam/job/write_job.h"
 #include "tests/cam/job/some_job.h"

@@ -9,11 +9,11 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/zip.h"
+#include "base/files/zip.h"
 #include "cam/job/cap_document.h"
-#include "cam/job/cap_template.h"
 #include "cam/job/read_job.h"
-#include "cam/job/template_pdf.h"
+#include "cam/job/sheet/cap_template.h"
+#include "cam/job/sheet/template_pdf.h"
 #include "cam/job/write_job.h"
 #include "segment/io/read_mesh.h"
 #include "segment/mesh/measure.h"

@@ -11,7 +11,7 @@
 #include <random>
 
 #include "base/error.h"
-#include "base/zip.h"
+#include "base/files/zip.h"
 #include "segment/io/read_mesh.h"
 #include "tests/cam/job/some_job.h"
 

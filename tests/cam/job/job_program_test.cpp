@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/zip.h"
+#include "base/files/zip.h"
 #include "cam/job/job_caps.h"
 #include "cam/job/program_document.h"
 #include "cam/job/read_job.h"

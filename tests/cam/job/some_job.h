@@ -9,7 +9,7 @@
 
 #include "cam/job/job.h"
 #include "cam/setup/choose_setup.h"
-#include "cam/setup/place_block.h"
+#include "cam/setup/placement/place_block.h"
 #include "tests/cam/setup/pieces.h"
 
 namespace qchopper::test_pieces {

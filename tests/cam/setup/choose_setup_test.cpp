@@ -9,8 +9,8 @@
 #include "cam/setup/envelope.h"
 #include "cam/setup/undercut.h"
 #include "segment/mesh/measure.h"
-#include "segment/mesh/projected_area.h"
 #include "segment/mesh/transform.h"
+#include "segment/raster/projected_area.h"
 #include "tests/cam/setup/pieces.h"
 
 namespace qchopper {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "cam/setup/place_block.h"
+#include "cam/setup/placement/place_block.h"
 #include "tests/cam/setup/pieces.h"
 #include "tests/reference/cam/setup/holds_at_placement.h"
 

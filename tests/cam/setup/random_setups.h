@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "cam/setup/block.h"
-#include "cam/setup/place_block.h"
+#include "cam/setup/placement/place_block.h"
 #include "cam/setup/setup.h"
 #include "tests/reference/cam/setup/holds_at_placement.h"
 #include "tests/shapes.h"

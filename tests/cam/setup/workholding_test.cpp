@@ -10,10 +10,10 @@
 #include <numbers>
 
 #include "cam/setup/choose_setup.h"
-#include "cam/setup/height_map.h"
 #include "cam/setup/standing_sections.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/plane_section.h"
+#include "segment/raster/height_map.h"
 #include "tests/cam/setup/pieces.h"
 #include "tests/cam/setup/solids.h"
 

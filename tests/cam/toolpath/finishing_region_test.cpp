@@ -10,7 +10,7 @@
 #include <random>
 
 #include "base/parallel.h"
-#include "cam/toolpath/tip_surface.h"
+#include "cam/stock/tip_surface.h"
 #include "tests/cam/toolpath/toolpath_pieces.h"
 #include "tests/shapes.h"
 

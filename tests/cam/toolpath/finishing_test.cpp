@@ -11,8 +11,8 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "cam/stock/tip_surface.h"
 #include "cam/toolpath/scallop.h"
-#include "cam/toolpath/tip_surface.h"
 #include "tests/cam/toolpath/replay.h"
 #include "tests/cam/toolpath/toolpath_pieces.h"
 #include "tests/shapes.h"

@@ -8,13 +8,13 @@
 #include <random>
 #include <set>
 
+#include "cam/stock/tip_surface.h"
 #include "cam/toolpath/clipped_passes.h"
-#include "cam/toolpath/disc_max.h"
 #include "cam/toolpath/finishing_limit.h"
 #include "cam/toolpath/links.h"
 #include "cam/toolpath/pass_order.h"
 #include "cam/toolpath/roughing_passes.h"
-#include "cam/toolpath/tip_surface.h"
+#include "segment/raster/disc_max.h"
 #include "tests/cam/toolpath/toolpath_pieces.h"
 
 namespace qchopper {

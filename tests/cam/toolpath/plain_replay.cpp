@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "cam/setup/holder_limit.h"
-#include "cam/toolpath/tip_surface.h"
+#include "cam/stock/tip_surface.h"
 
 namespace qchopper::test_pieces {
 namespace {

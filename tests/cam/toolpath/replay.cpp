@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "cam/toolpath/tip_surface.h"
+#include "cam/stock/tip_surface.h"
 #include "segment/mesh/measure.h"
 
 namespace qchopper::test_pieces {

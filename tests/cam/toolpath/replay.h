@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "cam/cell/carving_tool.h"
-#include "cam/setup/height_map.h"
 #include "cam/toolpath/pass.h"
 #include "segment/mesh/triangle_mesh.h"
+#include "segment/raster/height_map.h"
 
 namespace qchopper::test_pieces {
 

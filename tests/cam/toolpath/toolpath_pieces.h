@@ -5,9 +5,9 @@
 #include <cstddef>
 
 #include "cam/cell/carving_tool.h"
-#include "cam/setup/height_map.h"
 #include "cam/setup/setup.h"
 #include "segment/mesh/triangle_mesh.h"
+#include "segment/raster/height_map.h"
 
 namespace qchopper::test_pieces {
 

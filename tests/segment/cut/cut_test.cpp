@@ -9,7 +9,7 @@
 #include "segment/cut/cut_piece.h"
 #include "segment/cut/nudge.h"
 #include "segment/io/read_mesh.h"
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/measure.h"
 #include "tests/pieces.h"
 #include "tests/shapes.h"

@@ -9,7 +9,7 @@
 #include "segment/cut/cut.h"
 #include "segment/cut/nudge.h"
 #include "segment/import/import_scan.h"
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/measure.h"
 #include "tests/pieces.h"
 

@@ -10,9 +10,9 @@
 
 #include "segment/io/write_ply.h"
 #include "segment/io/write_stl.h"
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
+#include "segment/mesh/connectivity/shells.h"
 #include "segment/mesh/measure.h"
-#include "segment/mesh/shells.h"
 #include "tests/segment/io/help.h"
 #include "tests/shapes.h"
 

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {

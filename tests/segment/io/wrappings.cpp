@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "base/zip.h"
+#include "base/files/zip.h"
 
 namespace qchopper {
 namespace {

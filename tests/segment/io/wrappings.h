@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {

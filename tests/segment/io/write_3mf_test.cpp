@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "segment/io/read_mesh.h"
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/measure.h"
 #include "segment/mesh/transform.h"
 #include "segment/repair/weld.h"

@@ -9,8 +9,8 @@
 
 #include "segment/cut/cap.h"
 #include "segment/joint/in_front.h"
-#include "segment/mesh/containment.h"
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/containment.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/plane_frame.h"
 #include "tests/segment/joint/cut_pieces.h"
 #include "tests/shapes.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/measure.h"
 #include "tests/segment/joint/cut_pieces.h"
 #include "tests/shapes.h"

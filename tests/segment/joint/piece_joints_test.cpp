@@ -7,7 +7,7 @@
 
 #include "base/parallel.h"
 #include "segment/joint/dowel_sites.h"
-#include "segment/mesh/containment.h"
+#include "segment/mesh/connectivity/containment.h"
 #include "segment/mesh/plane_frame.h"
 #include "tests/segment/joint/cut_pieces.h"
 #include "tests/segment/joint/turned_pattern.h"

@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "segment/mesh/shells.h"
+#include "segment/mesh/connectivity/shells.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "base/error.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/distance.h"
-#include "segment/mesh/edges.h"
 #include "segment/mesh/measure.h"
-#include "segment/repair/self_intersections.h"
+#include "segment/repair/intersections/self_intersections.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

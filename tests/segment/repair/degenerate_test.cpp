@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/measure.h"
 #include "tests/shapes.h"
 

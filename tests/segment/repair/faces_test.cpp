@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/measure.h"
 #include "segment/repair/weld.h"
 #include "tests/shapes.h"

@@ -13,7 +13,7 @@
 #include "segment/cut/nudge.h"
 #include "segment/import/import_scan.h"
 #include "segment/import/inspect.h"
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/measure.h"
 #include "tests/segment/io/help.h"
 

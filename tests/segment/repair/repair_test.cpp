@@ -10,7 +10,7 @@
 #include <random>
 
 #include "base/error.h"
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/measure.h"
 #include "segment/repair/choices.h"
 #include "tests/shapes.h"

@@ -7,10 +7,10 @@
 #include <set>
 
 #include "segment/io/read_mesh.h"
-#include "segment/mesh/edges.h"
-#include "segment/mesh/manifold.h"
+#include "segment/mesh/connectivity/edges.h"
+#include "segment/mesh/connectivity/manifold.h"
 #include "segment/mesh/measure.h"
-#include "segment/repair/self_intersections.h"
+#include "segment/repair/intersections/self_intersections.h"
 #include "segment/repair/weld.h"
 #include "tests/segment/io/help.h"
 #include "tests/segment/repair/nasty_meshes.h"

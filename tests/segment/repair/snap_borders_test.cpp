@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/measure.h"
 #include "segment/repair/weld.h"
 #include "tests/shapes.h"

@@ -6,9 +6,9 @@
 #include <numbers>
 #include <random>
 
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
+#include "segment/mesh/connectivity/shells.h"
 #include "segment/mesh/measure.h"
-#include "segment/mesh/shells.h"
 #include "segment/repair/weld.h"
 #include "tests/reference/segment/mesh/non_manifold_vertices.h"
 #include "tests/shapes.h"

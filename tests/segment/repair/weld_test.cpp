@@ -6,7 +6,7 @@
 
 #include "segment/io/read_mesh.h"
 #include "segment/io/write_stl.h"
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/measure.h"
 #include "tests/shapes.h"
 

@@ -6,9 +6,9 @@
 
 #include <set>
 
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
+#include "segment/mesh/connectivity/shells.h"
 #include "segment/mesh/measure.h"
-#include "segment/mesh/shells.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "tests/shapes.h"
 
 namespace qchopper {

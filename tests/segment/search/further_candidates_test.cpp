@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "base/parallel.h"
+#include "segment/access/sampled_piece.h"
 #include "segment/mesh/measure.h"
 #include "segment/sample/sample.h"
-#include "segment/score/sampled_piece.h"
 #include "segment/search/rank_piece.h"
 #include "segment/search/search.h"
 #include "tests/shapes.h"

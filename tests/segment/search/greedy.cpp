@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "segment/score/evaluate.h"
+#include "segment/search/candidates/evaluate.h"
 #include "tests/segment/search/next_piece.h"
 
 namespace qchopper::greedy {

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "segment/mesh/oriented_box.h"
+#include "segment/objectives/seam_cost.h"
 #include "segment/sample/sample.h"
-#include "segment/score/evaluate.h"
-#include "segment/score/seam_cost.h"
+#include "segment/search/candidates/evaluate.h"
 #include "segment/search/search.h"
 #include "tests/shapes.h"
 

@@ -7,11 +7,11 @@
 #include <functional>
 
 #include "base/parallel.h"
+#include "segment/access/cut_reach.h"
 #include "segment/cut/nudge.h"
 #include "segment/mesh/measure.h"
+#include "segment/objectives/seam_cost.h"
 #include "segment/sample/sample.h"
-#include "segment/score/cut_reach.h"
-#include "segment/score/seam_cost.h"
 #include "segment/search/search.h"
 #include "tests/shapes.h"
 

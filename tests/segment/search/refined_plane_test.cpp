@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
+#include "segment/access/cut_reach.h"
+#include "segment/access/dense_reach.h"
+#include "segment/access/tool_directions.h"
 #include "segment/cut/nudge.h"
 #include "segment/mesh/oriented_box.h"
 #include "segment/sample/sample.h"
-#include "segment/score/cut_reach.h"
-#include "segment/score/dense_reach.h"
-#include "segment/score/tool_directions.h"
 #include "segment/search/segmentation.h"
 
 namespace qchopper {

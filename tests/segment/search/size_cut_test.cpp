@@ -7,9 +7,9 @@
 #include <map>
 
 #include "base/parallel.h"
+#include "segment/access/cut_reach.h"
 #include "segment/mesh/boxes_needed.h"
 #include "segment/sample/sample.h"
-#include "segment/score/cut_reach.h"
 #include "segment/search/reach_rank.h"
 #include "segment/search/search.h"
 #include "tests/shapes.h"

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "segment/score/evaluate.h"
-#include "segment/score/sampled_piece.h"
+#include "segment/access/sampled_piece.h"
+#include "segment/search/candidates/evaluate.h"
 #include "segment/search/rank_piece.h"
 #include "segment/search/search.h"
 #include "segment/structure/section_stress.h"

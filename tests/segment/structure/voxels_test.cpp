@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "segment/cut/cut.h"
-#include "segment/mesh/containment.h"
+#include "segment/mesh/connectivity/containment.h"
 #include "segment/mesh/measure.h"
 #include "tests/shapes.h"
 

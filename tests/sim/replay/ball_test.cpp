@@ -6,9 +6,9 @@
 #include <ctime>
 #include <numbers>
 
-#include "sim/replay/direction_frame.h"
 #include "sim/replay/path_time.h"
 #include "sim/replay/replay.h"
+#include "sim/replay/stock/direction_frame.h"
 #include "tests/shapes.h"
 #include "tests/sim/replay/box_job.h"
 

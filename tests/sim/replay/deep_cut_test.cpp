@@ -8,7 +8,7 @@
 #include <random>
 
 #include "sim/replay/carve_foam.h"
-#include "sim/replay/direction_frame.h"
+#include "sim/replay/stock/direction_frame.h"
 #include "tests/sim/replay/box_job.h"
 
 namespace qchopper {

@@ -3,7 +3,7 @@
 #include "tests/reference/cam/setup/holds_at_placement.h"
 
 #include "cam/setup/block_placement.h"
-#include "cam/setup/place_score.h"
+#include "cam/setup/placement/place_score.h"
 
 namespace qchopper {
 

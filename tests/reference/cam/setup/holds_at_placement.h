@@ -1,5 +1,5 @@
-// Whether all poses of a setup are held where its block stands: what place_block() (cam/setup/place_block.h) is held
-// against, place by place.
+// Whether all poses of a setup are held where its block stands: what place_block() (cam/setup/placement/place_block.h)
+// is held against, place by place.
 //
 // mm.
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cam/cell/cell.h"
-#include "cam/setup/carving_poses.h"
+#include "cam/setup/placement/carving_poses.h"
 #include "cam/setup/setup.h"
 
 namespace qchopper {

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "base/pose.h"
-#include "cam/setup/height_map.h"
+#include "segment/raster/height_map.h"
 
 namespace qchopper {
 

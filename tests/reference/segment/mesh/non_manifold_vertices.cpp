@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "segment/mesh/disjoint_sets.h"
-#include "segment/mesh/manifold.h"
+#include "segment/mesh/connectivity/disjoint_sets.h"
+#include "segment/mesh/connectivity/manifold.h"
 
 namespace qchopper {
 

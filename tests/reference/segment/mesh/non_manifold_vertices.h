@@ -1,11 +1,11 @@
-// Counts the points where surfaces only touch: the reference of links() (segment/mesh/links.h) and of
-// split_non_manifold_vertices() (segment/mesh/manifold.h).
+// Counts the points where surfaces only touch: the reference of links() (segment/mesh/connectivity/links.h) and of
+// split_non_manifold_vertices() (segment/mesh/connectivity/manifold.h).
 
 #pragma once
 
 #include <cstddef>
 
-#include "segment/mesh/edges.h"
+#include "segment/mesh/connectivity/edges.h"
 #include "segment/mesh/triangle_mesh.h"
 
 namespace qchopper {

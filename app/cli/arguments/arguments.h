@@ -1,0 +1,220 @@
+// The command line as values: one struct per command, in which nothing stands for an option that is not given.
+//
+// parse_arguments() has checked single values (option_values.h); check_arguments.h checks which options go together.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "app/engine/export_pieces.h"
+
+namespace qchopper {
+
+struct SampleArguments {
+    std::string specimen;
+    std::size_t faces = 100'000;
+    int holes = 0;
+    int pen_grooves = 0;
+    std::filesystem::path out;
+};
+
+struct InspectArguments {
+    std::filesystem::path scan;
+    std::optional<std::string> units;
+    bool deep = false;
+};
+
+// How a scan becomes a solid, for every command that imports one.
+struct RepairChoiceArguments {
+    bool size_ok = false;  // any size of the scan is taken
+    std::optional<double> weld_mm;
+    std::optional<std::string> fill;  // auto | flat | fair | none
+    bool resolve_self_intersections = false;
+    bool smooth_pen_grooves = false;
+    std::optional<double> alpha_wrap_mm;
+};
+
+struct RepairArguments : RepairChoiceArguments {
+    std::filesystem::path scan;
+    std::filesystem::path out;
+    std::optional<std::string> units;
+    std::optional<double> scale;
+    std::optional<std::string> fragments;  // keep | drop
+    bool keep_self_intersections = false;
+    std::optional<double> groove_width;  // mm, of the widest pen groove
+    std::optional<double> groove_depth;  // mm, of the deepest
+    std::vector<std::string> skipped;    // names of steps
+};
+
+// The settings of a new project. Stop rules and beam are also those of a search that goes on.
+struct ProjectArguments : RepairChoiceArguments {
+    std::filesystem::path input;  // a scan, or a project folder to go on with
+    std::optional<std::string> units;
+    std::optional<double> scale;
+    std::optional<std::filesystem::path> cell;
+    std::vector<std::uint16_t> tools;  // numbers
+    std::optional<std::string> preset;
+    std::optional<int> min_cuts;
+    std::optional<std::size_t> max_faces;
+    std::optional<std::string> max_obb;  // option_values.h reads it
+    bool fits_cell = false;
+    std::optional<double> max_unreachable;  // 0..1
+    bool count_narrow = false;
+    std::optional<int> max_cuts;
+    std::optional<std::string> stop;          // any | all
+    std::optional<std::string> fragility;     // thinness | thesis | binary
+    std::optional<std::string> print_volume;  // option_values.h reads it
+    std::optional<std::string> utilization;   // cut | whole
+    std::optional<std::string> connector;     // spread | ratio
+    std::vector<std::string> forbidden;       // objectives
+    std::optional<std::string> weights;       // option_values.h reads it
+    std::optional<std::string> structure;     // option_values.h reads it
+    std::optional<int> beam;
+    std::optional<double> time_limit_s;
+    std::optional<std::string> fragments;  // keep | drop
+    std::optional<double> fragment_volume_mm3;
+    std::optional<std::string> normals;  // box | sphere
+    std::optional<int> offsets;
+    std::optional<double> offset_step_mm;
+    std::optional<std::filesystem::path> planes;
+    bool symmetry = false;
+    std::optional<std::filesystem::path> no_cut;
+    std::optional<std::filesystem::path> ignore_surface;
+    bool ignore_inside = false;
+    std::optional<std::string> discard;  // option_values.h reads it
+    std::optional<std::filesystem::path> out;
+};
+
+struct PrepareArguments : ProjectArguments {
+    bool programs = false;
+    bool no_programs = false;
+};
+
+struct SegmentArguments : ProjectArguments {
+    // What to do: one of these, or none to see the state of the project.
+    bool step = false;
+    std::optional<std::size_t> accept;   // a place in the ranking, from 1
+    std::optional<std::string> plane;    // nx,ny,nz,d
+    std::optional<std::string> preview;  // a place, or nx,ny,nz,d
+    bool undo = false;
+    bool redo = false;
+    bool reset = false;
+    bool goes_on = false;                           // --auto
+    std::optional<std::filesystem::path> plan;      // to write
+    std::optional<std::filesystem::path> replayed;  // a plan to replay
+    // Options of these.
+    std::optional<std::string> piece;
+    std::optional<std::size_t> top;
+    bool write_pieces = false;
+};
+
+struct ExplainArguments {
+    std::filesystem::path project;
+    std::optional<int> cut;                    // the last one
+    std::optional<std::filesystem::path> out;  // of the plot
+};
+
+struct ExportArguments : ExportRequest {
+    std::filesystem::path project;
+};
+
+struct CellsListArguments {
+    std::filesystem::path folder = "cells";
+};
+
+struct CellsShowArguments {
+    std::filesystem::path file;
+    std::optional<std::filesystem::path> out;  // picture of the reach
+};
+
+struct CellsReachArguments {
+    std::filesystem::path file;
+    double tilt_deg = 0;
+    std::optional<std::string> block;  // option_values.h reads it; the largest of the cell
+};
+
+struct CellsCheckArguments {
+    std::filesystem::path file;
+};
+
+struct SetupArguments {
+    std::filesystem::path project;
+    std::optional<std::string> piece;
+    std::optional<int> base;
+    std::optional<std::size_t> max_directions;
+    std::vector<std::uint16_t> tools;
+    bool is_free = false;  // --auto
+};
+
+struct VerifyArguments {
+    std::filesystem::path input;  // a job file, or a project folder
+    std::optional<std::filesystem::path> cell;
+    std::optional<std::string> piece;
+};
+
+struct DryRunArguments {
+    std::filesystem::path project;
+    std::optional<std::string> piece;
+    double speed = 100'000;  // simulated seconds per second
+};
+
+struct CellSimArguments {
+    std::string listen = "127.0.0.1:15020";
+    std::filesystem::path drop;
+    std::string consent = "auto";
+    std::optional<std::filesystem::path> store;
+    std::optional<std::filesystem::path> cell;
+    double speed = 1;
+    std::optional<std::filesystem::path> script;
+    bool list_faults = false;
+};
+
+struct DispatchArguments {
+    std::filesystem::path project;
+    std::optional<std::string> piece;
+    std::optional<std::string> to;
+    std::optional<std::filesystem::path> drop;
+    bool yes = false;
+    bool accept_unreachable = false;
+    bool accept_workholding = false;
+    bool again = false;
+    bool chunks = false;
+    bool rehearse = false;
+    std::optional<std::uint32_t> takeover_code;
+};
+
+// Which cell: by its address, or by the file that names it.
+struct CellChoiceArguments {
+    std::optional<std::string> to;
+    std::optional<std::filesystem::path> cell;
+};
+
+struct JournalArguments {
+    std::filesystem::path folder;  // of the journal; empty: list all
+    bool shows = true;             // else it is only verified
+};
+
+struct CellControlArguments : CellChoiceArguments {
+    std::string action;  // status, hold, unhold, stop, abort, clear, reset, take-over, accept-store
+    std::optional<std::uint32_t> code;
+    bool yes = false;
+};
+
+struct Arguments {
+    bool json = false;  // for the option parser only; run.cpp reads it before
+    bool quiet = false;
+    bool timings = false;
+    std::variant<SampleArguments, InspectArguments, RepairArguments, PrepareArguments, SegmentArguments,
+                 ExplainArguments, ExportArguments, CellsListArguments, CellsShowArguments, CellsCheckArguments,
+                 CellsReachArguments, SetupArguments, VerifyArguments, DryRunArguments, CellSimArguments,
+                 DispatchArguments, JournalArguments, CellControlArguments>
+        command;
+};
+
+}  // namespace qchopper

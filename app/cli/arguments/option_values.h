@@ -1,0 +1,68 @@
+// Reads values of options that are one word each, and checks them. O(characters).
+
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/engine/discard_request.h"
+#include "app/store/decisions.h"
+#include "segment/io/formats/raw_mesh.h"
+#include "segment/mesh/plane.h"
+#include "segment/structure/stress.h"
+
+namespace qchopper {
+
+// The readers return nothing for a text that they cannot read.
+
+// "face_ratio=10,undercut=2" in any order, each at most once, or four numbers in the order face ratio, fragility, piece
+// count, undercut. Weights are from 0 to 1e12.
+std::optional<GivenWeights> weights_from(const std::string& text);
+
+// The objectives of which a value of 1 can be forbidden.
+std::vector<std::string> forbiddable();
+
+// "nx,ny,nz,d": a direction of any length but zero, and the distance along it in mm. The normal is a unit vector.
+std::optional<Plane> plane_from(const std::string& text);
+
+// "X,Y,Z": three lengths in mm, greater than zero.
+std::optional<Vec3> lengths_from(const std::string& text);
+
+// The same, each at least 1.
+std::optional<Vec3> print_volume_from(const std::string& text);
+
+// "upright=+z,density=100,strength=0.5,load=weight": the load of the objective structure; any order, each at most once.
+// upright is +x, -x, +y, -y, +z, -z or X:Y:Z of any length but zero; density in kg/m3, strength in MPa; load is weight,
+// a force in N, or weight+FORCE. Also voxel, in mm, and poisson may be given, the others must.
+std::optional<StructureOptions> load_from(const std::string& text);
+
+// "A,C,below=50ml": names of pieces and at most one volume above 0 in mm3, cm3, ml or l, in any order.
+std::optional<DiscardRequest> discard_from(const std::string& text);
+
+// A whole number from 1 to 1e6, the place in a ranking.
+std::optional<std::size_t> place_from(const std::string& text);
+
+// Numbers in ascending order, each once.
+std::vector<std::uint16_t> ascending(std::vector<std::uint16_t> numbers);
+
+// Returns an empty text for a right value, else what is wrong with it, without a full stop.
+using OptionCheck = std::function<std::string(const std::string&)>;
+
+constexpr double many = 1e15;  // more than any count or length that makes sense
+
+// `what` follows in the message: "... is not a count of faces". Both bounds are allowed values.
+OptionCheck number_between(double low, double high, const std::string& what);
+OptionCheck one_of(const std::vector<std::string>& values);
+// For one of the readers above. `what` follows in the message: "... is not nx,ny,nz,d".
+template <typename Reader>
+OptionCheck read_by(Reader reader, const std::string& what) {
+    return [=](const std::string& text) { return reader(text) ? std::string() : "\"" + text + "\" is " + what; };
+}
+
+// The formats of scans, for help texts.
+const std::string scan_formats = std::string(mesh_formats) + ", packed by gzip or not";
+
+}  // namespace qchopper

@@ -1,0 +1,356 @@
+// One function per command, on the option parser CLI11.
+
+#include "app/cli/arguments/parse_arguments.h"
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+
+#include "app/cli/arguments/examples.h"
+#include "app/cli/arguments/option_values.h"
+#include "app/cli/arguments/project_options.h"
+#include "app/cli/arguments/version.h"
+#include "base/edit_distance.h"
+#include "base/error.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::size_t most_edits = 2;  // between a misspelt word and the one that is suggested
+
+const CLI::App* command_named(const CLI::App& app, const std::string& name) {
+    for (const CLI::App* command : app.get_subcommands({})) {
+        if (command->get_name() == name) return command;
+    }
+    return nullptr;
+}
+
+// The name in `known` nearest to a misspelt one, as a question; empty: none is near.
+std::string suggestion(const std::string& misspelt, const std::vector<std::string>& known) {
+    std::string nearest;
+    std::size_t least = most_edits + 1;
+    for (const std::string& name : known) {
+        const std::size_t edits = edit_distance(name, misspelt);
+        if (edits < least) {
+            least = edits;
+            nearest = name;
+        }
+    }
+    return nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?";
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options()) {
+        if (option->get_group().empty()) continue;  // an older name
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    return names;
+}
+
+InputError unknown_option(const std::string& name, const std::string& said, const CLI::App& command) {
+    return {InputFault::use, name + " is no option of " + said + suggestion(name, option_names(command)),
+            "see " + said + " --help"};
+}
+
+// The error for a command line with a word that is no command, or an option that its command does not have; else the
+// one that says `otherwise`.
+InputError unknown_word(const CLI::App& app, int argc, const char* const* argv, const std::string& otherwise) {
+    const CLI::App* command = &app;
+    std::string said = "qchopper";
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const bool is_option = word.size() > 2 && word.compare(0, 2, "--") == 0;
+        const std::string name = word.substr(0, word.find('='));
+        if (is_option && command->get_option_no_throw(name) == nullptr) return unknown_option(name, said, *command);
+        if (word[0] == '-' || command->get_subcommands({}).empty()) continue;
+        const CLI::App* next = command_named(*command, word);
+        if (next == nullptr) {
+            std::vector<std::string> commands;
+            for (const CLI::App* c : command->get_subcommands({})) commands.push_back(c->get_name());
+            return {InputFault::use, "\"" + word + "\" is no command" + suggestion(word, commands),
+                    "see " + said + " --help"};
+        }
+        command = next;
+        said.append(" ").append(word);
+    }
+    return {InputFault::use, otherwise, "see " + said + " --help"};
+}
+
+struct Parser {
+    CLI::App app{"From the scan of a bone to carving jobs for a robot cell.", "qchopper"};
+    Arguments common;
+    SampleArguments sample;
+    InspectArguments inspect;
+    RepairArguments repair;
+    PrepareArguments prepare;
+    SegmentArguments segment;
+    ExplainArguments explain;
+    ExportArguments exported;
+    CellsListArguments cells_list;
+    CellsShowArguments cells_show;
+    CellsCheckArguments cells_check;
+    CellsReachArguments cells_reach;
+    SetupArguments setup;
+    VerifyArguments verify;
+    DryRunArguments dry_run;
+    CellSimArguments cell_sim;
+    DispatchArguments dispatch;
+    JournalArguments journal_show;
+    JournalArguments journal_verify;
+    CellControlArguments cell_control;
+
+    Parser() {
+        app.footer(examples_of(""));
+        app.require_subcommand(1);
+        app.set_version_flag("--version", std::string("qchopper ") + version);
+        add_sample();
+        add_inspect();
+        add_repair(app, repair, common);
+        add_prepare(app, prepare, common);
+        add_segment(app, segment, common);
+        add_explain();
+        add_export();
+        add_cells();
+        add_setup();
+        add_verify();
+        add_dry_run();
+        add_cell_sim();
+        add_dispatch();
+        add_journal();
+        add_cell();
+        for (CLI::App* command : app.get_subcommands({})) {
+            const std::string examples = examples_of(command->get_name());
+            command->footer(examples);
+            for (CLI::App* inner : command->get_subcommands({})) inner->footer(examples);
+        }
+    }
+
+    void add_sample() {
+        CLI::App* c =
+            app.add_subcommand("sample", "make a synthetic specimen: a bone with everything that makes scans hard");
+        c->add_option("SPECIMEN", sample.specimen, "vertebra, femur or skull")
+            ->required()
+            ->check(one_of({"vertebra", "femur", "skull"}));
+        c->add_option("--faces", sample.faces, "how many faces (100000)")
+            ->check(number_between(1, many, "a count of faces"));
+        c->add_option("--holes", sample.holes, "leave so many holes (0)")
+            ->check(number_between(0, 1e6, "a count of holes"));
+        const OptionCheck is_count = number_between(0, 1e6, "a count of pen grooves");
+        c->add_option("--pen-grooves", sample.pen_grooves,
+                      "draw so many grooves, as a marker pen leaves them in a scan (0)")
+            ->check(is_count);
+        c->add_option("--marks", sample.pen_grooves)->check(is_count)->group("");
+        c->add_option("-o,--out", sample.out, "the file to write: .ply, or .stl")->required();
+        add_common(c, common, [this] { common.command = sample; });
+    }
+
+    void add_inspect() {
+        CLI::App* c = app.add_subcommand("inspect", "report what a scan is and what is wrong with it");
+        c->add_option("SCAN", inspect.scan, scan_formats + "; - is standard input")->required();
+        c->add_option("--units", inspect.units, "what one unit of the file is: mm, cm, m, in")
+            ->check(one_of({"mm", "cm", "m", "in"}));
+        c->add_flag("--deep", inspect.deep, "find faces that run through each other too");
+        add_common(c, common, [this] { common.command = inspect; });
+    }
+
+    void add_explain() {
+        CLI::App* c =
+            app.add_subcommand("explain", "explain why a cut lies where it lies, with a plot of what all planes cost");
+        c->add_option("PROJECT", explain.project, "the folder NAME.qch")->required();
+        c->add_option("--cut", explain.cut, "the number of the cut (the last)")
+            ->check(number_between(1, 1e6, "the number of a cut"));
+        c->add_option("-o,--out", explain.out, "the plot to write, .svg (PROJECT/pictures/cut-K.svg)");
+        add_common(c, common, [this] { common.command = explain; });
+    }
+
+    void add_export() {
+        CLI::App* c = app.add_subcommand("export", "write pieces as 3MF, STL, PLY or GLB for other programs");
+        c->add_option("PROJECT", exported.project, "the folder NAME.qch")->required();
+        c->add_option("--format", exported.format, "3mf, stl, ply or glb")
+            ->required()
+            ->check(one_of({"3mf", "stl", "ply", "glb"}));
+        c->add_option("--pose", exported.pose,
+                      "place: as they sit in the scan; setup: as they lie in the stock (place)")
+            ->check(one_of({"place", "setup"}));
+        c->add_option("--piece", exported.piece, "only this piece");
+        c->add_flag("--holes", exported.holes, "cut the holes of the dowels into the pieces");
+        c->add_option("--simplify", exported.simplify_mm,
+                      "as few faces as a deviation of so many mm allows; caps stay as they are")
+            ->check(number_between(1e-9, many, "a length in mm above 0"));
+        c->add_option("--max-faces", exported.max_faces,
+                      "no more than so many faces a piece; the deviation is reported")
+            ->check(number_between(4, many, "a count of faces from 4"));
+        c->add_option("--max-deviation", exported.max_deviation_mm,
+                      "with --max-faces: refuse what moves a surface by more than so many mm (1 % of the piece's "
+                      "diagonal)")
+            ->check(number_between(1e-9, many, "a length in mm above 0"));
+        c->add_option("-o,--out", exported.out,
+                      "the file to make, or for STL and PLY the folder (NAME.3mf, NAME-stl beside the project)");
+        add_common(c, common, [this] { common.command = exported; });
+    }
+
+    void add_cells() {
+        CLI::App* c = app.add_subcommand("cells", "list, show and check cell files, and tell where a block can stand");
+        c->require_subcommand(1);
+        CLI::App* list = c->add_subcommand("list", "list the cell files of a folder");
+        list->add_option("FOLDER", cells_list.folder, "where they lie (cells)");
+        add_common(list, common, [this] { common.command = cells_list; });
+        CLI::App* show = c->add_subcommand("show", "show what a cell file describes");
+        show->add_option("CELL", cells_show.file, "the cell file, NAME.toml")->required();
+        show->add_option("-o,--out", cells_show.out,
+                         "a picture to write, .png: what the tool tip reaches at tilts of 0, 30, 60 and 90 degrees");
+        add_common(show, common, [this] { common.command = cells_show; });
+        CLI::App* check = c->add_subcommand(
+            "check", "tell what is assumed or missing in a cell file, and whether its jobs may be dispatched");
+        check->add_option("CELL", cells_check.file, "the cell file, NAME.toml")->required();
+        add_common(check, common, [this] { common.command = cells_check; });
+        CLI::App* reach = c->add_subcommand(
+            "reach",
+            "tell where on the table a block can stand so that the machine comes to it at a tilt from all around");
+        reach->add_option("CELL", cells_reach.file, "the cell file, NAME.toml")->required();
+        reach->add_option("--tilt", cells_reach.tilt_deg, "of the tool from the vertical, degrees")
+            ->required()
+            ->check(number_between(0, 90, "an angle from 0 to 90 degrees"));
+        reach->add_option("--block", cells_reach.block, "its size X,Y,Z in mm (the largest block of the cell file)")
+            ->check(read_by(lengths_from, "not X,Y,Z in mm"));
+        add_common(reach, common, [this] { common.command = cells_reach; });
+    }
+
+    void add_setup() {
+        CLI::App* c =
+            app.add_subcommand("setup", "show how pieces lie and what the tool reaches, and choose otherwise");
+        c->add_option("PROJECT", setup.project, "the folder NAME.qch")->required();
+        CLI::Option* piece = c->add_option("--piece", setup.piece, "this piece, with all ways to lay it");
+        CLI::Option* base = c->add_option("--base", setup.base, "lay the piece on the base of this number")
+                                ->check(number_between(0, 1e6, "the number of a base"))
+                                ->needs(piece);
+        CLI::Option* directions =
+            c->add_option("--directions", setup.max_directions, "carve it from at most so many directions (8)")
+                ->check(number_between(1, 264, "a count of directions from 1 to 264"))
+                ->needs(piece);
+        CLI::Option* tools = add_tools(c, setup.tools)->needs(piece);
+        c->add_flag("--auto", setup.is_free, "let the program choose again")
+            ->needs(piece)
+            ->excludes(base)
+            ->excludes(directions)
+            ->excludes(tools);
+        add_common(c, common, [this] { common.command = setup; });
+    }
+
+    void add_verify() {
+        CLI::App* c = app.add_subcommand(
+            "verify", "read the robot programs of jobs back, replay them in foam, and write the verdict beside each");
+        c->add_option("JOB", verify.input, "a job file NAME.qjob, or the folder NAME.qch of a project")->required();
+        c->add_option("--cell", verify.cell, "the cell file of a job file (cell.toml of the project that it lies in)");
+        c->add_option("--piece", verify.piece, "of a project only this piece");
+        add_common(c, common, [this] { common.command = verify; });
+    }
+
+    void add_dry_run() {
+        CLI::App* c = app.add_subcommand("dry-run", "hand every piece to a simulated cell inside, over real TCP");
+        c->add_option("PROJECT", dry_run.project, "the folder NAME.qch")->required();
+        c->add_option("--piece", dry_run.piece, "only this piece");
+        c->add_option("--speed", dry_run.speed, "simulated seconds per second (100000)")
+            ->check(number_between(1e-3, 1e9, "a factor above 0"));
+        add_common(c, common, [this] { common.command = dry_run; });
+    }
+
+    void add_cell_sim() {
+        CLI::App* c = app.add_subcommand("cell-sim", "run a simulated cell until stopped");
+        c->add_option("--listen", cell_sim.listen, "HOST:PORT (127.0.0.1:15020); port 0 takes a free one");
+        c->add_option("--drop", cell_sim.drop, "the folder where job files arrive");
+        c->add_option("--consent", cell_sim.consent, "auto, ask (on this terminal) or never (auto)")
+            ->check(one_of({"auto", "ask", "never"}));
+        c->add_option("--store", cell_sim.store, "the folder of the cell's lasting memory; none: a temporary one");
+        c->add_option("--cell", cell_sim.cell, "take id, reach and stock from this cell file");
+        c->add_option("--speed", cell_sim.speed, "simulated seconds per second (1)")
+            ->check(number_between(1e-3, 1e9, "a factor above 0"));
+        c->add_option("--script", cell_sim.script, "perform the commands of this file; standard input takes the same");
+        c->add_flag("--list-faults", cell_sim.list_faults, "list the faults that a script can order, and end");
+        add_common(c, common, [this] { common.command = cell_sim; });
+    }
+
+    void add_dispatch() {
+        CLI::App* c = app.add_subcommand("dispatch", "hand the jobs to the cell and follow them to their end");
+        c->add_option("PROJECT", dispatch.project, "the folder NAME.qch")->required();
+        c->add_option("--piece", dispatch.piece, "only this piece");
+        c->add_option("--to", dispatch.to, "HOST:PORT of the cell (from the cell file)");
+        c->add_option("--drop", dispatch.drop, "the folder where the cell fetches job files (from the cell file)");
+        c->add_flag("--yes", dispatch.yes, "do not ask before a real cell is set in motion");
+        c->add_flag("--accept-unreachable", dispatch.accept_unreachable,
+                    "send jobs too of which the tool does not reach more of the surface than the limit allows");
+        c->add_flag("--accept-workholding", dispatch.accept_workholding,
+                    "do not ask before jobs of pieces that tape, glue and their own foam do not hold safely");
+        c->add_flag("--again", dispatch.again, "carve files too that the cell has carved before");
+        c->add_flag("--chunks", dispatch.chunks, "send job files over the link, without a drop folder");
+        c->add_flag("--rehearse", dispatch.rehearse,
+                    "let the cell rehearse each job, without motion, before it asks for consent");
+        c->add_option("--take-over", dispatch.takeover_code,
+                      "end the lease of another dispatcher by the code shown at the cell's panel")
+            ->check(number_between(1, 4294967295.0, "a code"));
+        add_common(c, common, [this] { common.command = dispatch; });
+    }
+
+    void add_journal() {
+        CLI::App* c = app.add_subcommand("journal", "show and verify what was sent to cells from this computer");
+        c->require_subcommand(1);
+        CLI::App* show = c->add_subcommand("show", "show the rows of a journal, which is verified");
+        show->add_option("JOURNAL", journal_show.folder, "its folder, or its name in the state folder (all)");
+        add_common(show, common, [this] { common.command = journal_show; });
+        CLI::App* chain = c->add_subcommand("verify", "verify the hash chain of a journal");
+        chain->add_option("JOURNAL", journal_verify.folder, "its folder, or its name in the state folder (all)");
+        journal_verify.shows = false;
+        add_common(chain, common, [this] { common.command = journal_verify; });
+    }
+
+    void add_cell() {
+        CLI::App* c = app.add_subcommand("cell", "show the status of a cell, and command it outside of a dispatch");
+        c->require_subcommand(1);
+        constexpr const char* commands[][2] = {
+            {"status", "show what the cell says of itself"},
+            {"hold", "hold the running job; works beside a dispatch"},
+            {"unhold", "let a held job go on, after consent at the cell"},
+            {"stop", "stop the running job for good; works beside a dispatch; this is no emergency stop"},
+            {"abort", "abort whatever the cell does; works beside a dispatch; this is no emergency stop"},
+            {"clear", "clear an aborted cell, after consent at the cell"},
+            {"reset", "bring a stopped cell, or one that has completed a job, to idle"},
+            {"take-over", "end the lease of another dispatcher, by the code shown at the cell's panel"},
+            {"accept-store", "accept that the cell lost its memory, after a look at the cell"},
+        };
+        for (const auto& [word, what] : commands) {
+            CLI::App* one = c->add_subcommand(word, what);
+            one->add_option("--to", cell_control.to, "HOST:PORT of the cell");
+            one->add_option("--cell", cell_control.cell, "take address and id from this cell file");
+            const std::string action = word;
+            if (action == "take-over") {
+                one->add_option("--code", cell_control.code, "the code shown at the cell's panel")
+                    ->required()
+                    ->check(number_between(1, 4294967295.0, "a code"));
+            }
+            if (action == "accept-store") one->add_flag("--yes", cell_control.yes, "do not ask before it is accepted");
+            add_common(one, common, [this, action] {
+                cell_control.action = action;
+                common.command = cell_control;
+            });
+        }
+    }
+};
+
+}  // namespace
+
+std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
+    Parser parser;
+    try {
+        parser.app.parse(argc, argv);
+        return parser.common;
+    } catch (const CLI::ParseError& e) {
+        if (e.get_exit_code() == 0) {  // help, version
+            parser.app.exit(e, std::cout, std::cerr);
+            return std::nullopt;
+        }
+        throw unknown_word(parser.app, argc, argv, e.what());
+    }
+}
+
+}  // namespace qchopper

@@ -1,0 +1,31 @@
+// Adds the options of the commands that import a scan to make a solid or a project of it.
+//
+// All arguments passed by reference must outlive the parser; they are filled while it parses.
+
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "app/cli/arguments/arguments.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace qchopper {
+
+// Adds the options that every command has. `on_parsed` is called once if this command is given.
+void add_common(CLI::App* command, Arguments& arguments, const std::function<void()>& on_parsed);
+
+// Adds --tools, which several commands have.
+CLI::Option* add_tools(CLI::App* command, std::vector<std::uint16_t>& tools);
+
+// Each adds its command, whose arguments become common.command if it is given.
+void add_repair(CLI::App& app, RepairArguments& repair, Arguments& common);
+void add_prepare(CLI::App& app, PrepareArguments& prepare, Arguments& common);
+void add_segment(CLI::App& app, SegmentArguments& segment, Arguments& common);
+
+}  // namespace qchopper

@@ -1,0 +1,26 @@
+// Where the journals of cells lie: in the user's state folder, by the XDG base directory specification.
+//
+// Not in a project: two projects must not drive one cell.
+
+#pragma once
+
+#include <filesystem>
+
+#include "devices/journal/journal.h"
+
+namespace qchopper {
+
+// $XDG_STATE_HOME/qchopper, or ~/.local/state/qchopper if that is not set or not an absolute path. Throws InputError
+// (create) if HOME is not set either.
+std::filesystem::path state_folder();
+
+// The folder of the journal of a cell, whether it exists or not.
+std::filesystem::path journal_folder(const JournalCell& cell);
+
+// The cell that shows this id, as its journal names it. A simulated one is told apart by the numeric address
+// ("127.0.0.1:15020") from which it answers; where there is a journal already under a name of that address
+// ("localhost:15020"), it is that one, and of several the one that was written last. Resolves the names of the journals
+// that are there. Throws as state_folder().
+JournalCell journal_cell(std::uint16_t cell_id, bool simulated, const std::string& address);
+
+}  // namespace qchopper

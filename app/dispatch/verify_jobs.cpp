@@ -1,0 +1,262 @@
+// The proof is that of job_proof.h; pieces and joints of a project are made again from scan and decisions. The cost is
+// that of the replay.
+
+#include "app/dispatch/verify_jobs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <span>
+
+#include "app/dispatch/hand_over.h"
+#include "app/engine/open_project.h"
+#include "app/jobs/hole_faults.h"
+#include "app/jobs/job_proof.h"
+#include "app/jobs/project_joints.h"
+#include "base/error.h"
+#include "base/files/file.h"
+#include "base/shell_word.h"
+#include "base/text.h"
+#include "base/timings.h"
+#include "cam/job/job_caps.h"
+#include "cam/job/read_job.h"
+#include "cam/setup/block_placement.h"
+#include "segment/mesh/transform.h"
+
+namespace qchopper {
+namespace {
+
+namespace fs = std::filesystem;
+
+VerdictFinding finding(const char* kind, const std::string& text) {
+    return {kind, "", 0, text};
+}
+
+bool is_near(const Pose& a, const Pose& b) {
+    constexpr double tolerance = 1e-6;  // mm, and of unit vectors: a job and a cell file of another rounding
+    double most = norm(a.shift - b.shift);
+    for (std::size_t i = 0; i < 3; ++i) most = std::max(most, norm(a.row[i] - b.row[i]));
+    return most <= tolerance;
+}
+
+// What of the job contradicts the cell file.
+std::vector<VerdictFinding> faults_against_cell(const ReadJob& job, const Cell& cell) {
+    std::vector<VerdictFinding> faults;
+    if (job.cell_id != cell.id) {
+        faults.push_back(finding("other_cell", "the job is made for cell " + std::to_string(job.cell_id) +
+                                                   ", and the cell file describes cell " + std::to_string(cell.id)));
+    }
+    for (std::size_t d = 0; d < job.setup_in_cell.size(); ++d) {
+        const Pose frame = setup_in_cell(cell, job.setup.spoil, job.setup.placement, d);
+        if (!is_near(frame, job.setup_in_cell[d])) {
+            faults.push_back(finding("other_frame",
+                                     "setup_in_cell of the manifest is not what its placement and the "
+                                     "cell file give"));
+        }
+    }
+    if (!job.envelope.fits() || !job.holds_poses) {
+        faults.push_back(finding("does_not_fit", "the job states that its piece does not fit the cell"));
+    }
+    return faults;
+}
+
+std::map<std::string, std::string> texts_of(const ReadJob& job) {
+    std::map<std::string, std::string> texts;
+    for (const std::string& name : job.program->files) {
+        const Bytes& bytes = job.files.at(name);
+        texts[name] = {bytes.begin(), bytes.end()};
+    }
+    return texts;
+}
+
+void add_proof(const ReadJob& job, const std::string& job_file, const Cell& cell, JobVerdict& verdict,
+               const Context& context, Bytes* stock_left) {
+    const TriangleMesh mesh = job_mesh(job.files.at("piece.stl"), job_file + ": piece.stl");
+    const std::map<std::string, std::string> texts = texts_of(job);
+    const auto stock = job.files.find("stock.bin");
+    const Bytes* before = stock != job.files.end() ? &stock->second : nullptr;
+    JobProof proof =
+        prove({cell, job.setup, job.setup_in_cell, mesh, *job.program, texts, before, holes_of(job.caps)}, context);
+    if (stock_left != nullptr) *stock_left = std::move(proof.stock_left);
+    verdict.figures = std::move(proof.figures);
+    verdict.findings.insert(verdict.findings.end(), proof.findings.begin(), proof.findings.end());
+    verdict.findings_left_out = proof.findings_left_out;
+    verdict.notes = std::move(proof.notes);
+}
+
+// Lists at most most_listed_findings of them.
+void shorten(JobVerdict& verdict) {
+    if (verdict.findings.size() <= most_listed_findings) return;
+    verdict.findings_left_out += verdict.findings.size() - most_listed_findings;
+    verdict.findings.resize(most_listed_findings);
+}
+
+JobVerdict without_findings(const ReadJob& job, const std::string& job_file, const CellFile& cell,
+                            const std::string& program_version) {
+    JobVerdict verdict;
+    verdict.piece = job.piece;
+    verdict.job = fs::path(job_file).filename().string();
+    verdict.job_sha256 = job.file_sha256;
+    verdict.cell = cell.cell.name;
+    verdict.cell_sha256 = cell.sha256;
+    verdict.program_version = program_version;
+    return verdict;
+}
+
+// Rotation alone is not asked: the piece of the project is laid as the job says, by a pose of determinant +1, and has
+// to be the job's mesh triangle for triangle.
+std::optional<VerdictFinding> fault_against_piece(const ReadJob& job, const std::string& job_file, const Piece& piece) {
+    constexpr double tolerance = 1e-3;  // mm; piece.stl is single precision
+    const TriangleMesh expected = apply(job.setup.piece_in_setup, *piece.mesh);
+    const TriangleMesh found = job_mesh(job.files.at("piece.stl"), job_file + ": piece.stl");
+    const std::string text = "the mesh of the job is not that of piece " + piece.name;
+    if (found.triangles.size() != expected.triangles.size()) {
+        return finding("other_piece", text + ": " + std::to_string(found.triangles.size()) + " faces instead of " +
+                                          std::to_string(expected.triangles.size()));
+    }
+    for (std::size_t t = 0; t < expected.triangles.size(); ++t) {
+        const std::array<Vec3, 3> a = corners_of(expected, t);
+        const std::array<Vec3, 3> b = corners_of(found, t);
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (!(norm(a[i] - b[i]) <= tolerance)) return finding("other_piece", text);
+        }
+    }
+    return std::nullopt;
+}
+
+// What of the job's setup is not that which the project has for the piece.
+std::optional<VerdictFinding> fault_against_setup(const ReadJob& job, const Setup& own) {
+    if (job.setup == own) return std::nullopt;
+    const std::string text = "the setup of the job is not that of the project for piece " + job.piece;
+    const std::size_t directions = job.setup.reach.directions.size();
+    if (directions != own.reach.directions.size()) {
+        return finding("other_setup", text + ": " + counted(directions, "direction") + " instead of " +
+                                          std::to_string(own.reach.directions.size()));
+    }
+    if (job.setup.tools != own.tools) return finding("other_setup", text + ": other tools may be used");
+    return finding("other_setup", text);
+}
+
+// What of the job contradicts the project: no such piece, another mesh, another setup, other holes.
+std::vector<VerdictFinding> faults_against_project(const ReadJob& job, const std::string& job_file,
+                                                   OpenProject& project, std::span<const PieceJoint> joints,
+                                                   const Cell& cell) {
+    const std::vector<Piece>& pieces = project.segmentation().pieces;
+    const auto piece = std::find_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return p.name == job.piece; });
+    if (piece == pieces.end()) return {finding("other_piece", "the project has no piece " + job.piece)};
+    if (auto fault = fault_against_piece(job, job_file, *piece)) return {*fault};
+    if (auto fault = fault_against_setup(job, project.setups()->held(*piece).setup())) return {*fault};
+    std::vector<JobCap> caps;
+    const auto index = static_cast<std::size_t>(piece - pieces.begin());
+    for (DrawnCap& drawn : caps_of(pieces, index, joints, job.setup, cell)) caps.push_back(std::move(drawn.cap));
+    return hole_faults(job.piece, job.caps, caps);
+}
+
+// The part of a piece that was verified last.
+struct PartBefore {
+    std::string piece;
+    std::uint16_t number = 0;
+    Sha256 sha256;
+    Bytes stock;  // what it left
+};
+
+// What speaks against a part coming after the one that was verified before it.
+std::optional<VerdictFinding> fault_against_part_before(const ReadJob& job, const PartBefore& before) {
+    if (!job.program || job.program->part.number == 1) return std::nullopt;
+    const JobPart& part = job.program->part;
+    const std::string number = std::to_string(part.number - 1);
+    if (before.piece != job.piece || before.number + 1 != part.number) {
+        return finding("other_part", "part " + number + " of the program is missing before this one");
+    }
+    if (part.before != before.sha256) {
+        return finding("other_part", "the job was made for another part " + number + " than is there");
+    }
+    if (before.stock.empty() || job.files.at("stock.bin") != before.stock) {
+        return finding("other_stock", "stock.bin is not what part " + number + " leaves");
+    }
+    return std::nullopt;
+}
+
+// Those that have a job.
+std::vector<Piece> pieces_of(const std::vector<PieceJob>& jobs, const std::vector<Piece>& pieces) {
+    std::vector<Piece> with_job;
+    std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(with_job), [&](const Piece& piece) {
+        return std::any_of(jobs.begin(), jobs.end(), [&](const PieceJob& job) { return job.piece == piece.name; });
+    });
+    return with_job;
+}
+
+VerifiedJob written(const fs::path& file, JobVerdict verdict) {
+    verdict.is_positive = verdict.findings.empty();
+    write_verdict(file, verdict);
+    return {file, std::move(verdict)};
+}
+
+}  // namespace
+
+CellFile read_cell_file(const fs::path& path) {
+    return {read_cell(path), sha256(read_file(path, settings_limit))};
+}
+
+JobVerdict judge_job(const ReadJob& job, const std::string& job_file, const CellFile& cell,
+                     const std::string& program_version, const Context& context, Bytes* stock_left) {
+    if (stock_left != nullptr) stock_left->clear();
+    JobVerdict verdict = without_findings(job, job_file, cell, program_version);
+    verdict.findings = faults_against_cell(job, cell.cell);
+    if (!job.program) {
+        verdict.findings.push_back(finding("no_program", "the job holds no robot program: " + job.no_program_because));
+    } else if (verdict.findings.empty()) {
+        add_proof(job, job_file, cell.cell, verdict, context, stock_left);
+    }
+    shorten(verdict);
+    verdict.is_positive = verdict.findings.empty();
+    return verdict;
+}
+
+VerifiedJob verify_job(const fs::path& job, const std::optional<fs::path>& cell_file,
+                       const std::string& program_version, const Context& context) {
+    const ReadJob read = parse_job(read_job(job), job.string());
+    fs::path cell = cell_file.value_or(fs::absolute(job).parent_path().parent_path() / "cell.toml");
+    std::error_code error;
+    if (!cell_file && !fs::exists(cell, error)) {
+        throw InputError(InputFault::use, "no cell file is known for " + job.string(), "pass --cell FILE");
+    }
+    JobVerdict verdict = judge_job(read, job.string(), read_cell_file(cell), program_version, context);
+    verdict.notes.emplace_back(
+        "its setup was not compared with that of its project, because a single job file does not have the project");
+    return written(job, std::move(verdict));
+}
+
+VerifyAnswer verify_project(const fs::path& folder, const std::optional<std::string>& piece,
+                            const std::string& program_version, const ProjectContext& context) {
+    const ProjectJobs ordered = jobs_of(folder, piece, context);
+    const CellFile cell = read_cell_file(folder / "cell.toml");
+    OpenProject project(folder, context);
+    const Segmentation& segmentation = project.segmentation();
+    StageTimer stage(context, "dowels placed");
+    const std::vector<PieceJoint> joints = piece_joints(segmentation.pieces, joint_settings(&cell.cell), context);
+    stage.next("setups chosen");
+    project.setups()->compute_held(pieces_of(ordered.jobs, segmentation.pieces), context);
+    stage.next("jobs verified");
+    VerifyAnswer verified;
+    PartBefore before;
+    for (const PieceJob& job : ordered.jobs) {
+        context.progress("jobs verified", verified.size(), ordered.jobs.size());
+        const fs::path file = folder / "jobs" / job_file_name(job.piece, job.part);
+        const ReadJob read = parse_job(job.file, file.string());
+        Bytes stock_left;
+        JobVerdict verdict = judge_job(read, file.string(), cell, program_version, context, &stock_left);
+        if (const auto of_part = fault_against_part_before(read, before)) {
+            verdict.findings.insert(verdict.findings.begin(), *of_part);
+        }
+        before = {read.piece, read.program ? read.program->part.number : std::uint16_t{1}, read.file_sha256,
+                  std::move(stock_left)};
+        const auto faults = faults_against_project(read, file.string(), project, joints, cell.cell);
+        verdict.findings.insert(verdict.findings.begin(), faults.begin(), faults.end());
+        shorten(verdict);
+        verified.push_back(written(file, std::move(verdict)));
+    }
+    return verified;
+}
+
+}  // namespace qchopper

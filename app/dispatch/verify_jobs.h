@@ -1,0 +1,53 @@
+// Verifies job files: reads them whole, reads their programs back, replays them, and writes the verdict beside each.
+//
+// Of a job nothing is needed but its file and the cell file. Of a project its jobs are also compared with its pieces
+// and joints (tests/app/dispatch/verify_jobs_test.cpp).
+
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/jobs/job_verdict.h"
+#include "app/store/project_context.h"
+#include "cam/cell/cell.h"
+#include "cam/job/job.h"
+
+namespace qchopper {
+
+struct VerifiedJob {
+    std::filesystem::path file;
+    JobVerdict verdict;
+};
+
+using VerifyAnswer = std::vector<VerifiedJob>;
+
+// A cell file as it was read once.
+struct CellFile {
+    Cell cell;
+    Sha256 sha256;
+};
+
+// Throws what read_cell throws.
+CellFile read_cell_file(const std::filesystem::path& path);
+
+// The verdict on a job that parse_job took. Faults are findings. Throws Cancelled. A part but the first is replayed
+// from the stock that its job carries; `stock_left`, if it is not nullptr, becomes what the next part has to carry:
+// empty after the last part, and where the program cannot be replayed.
+JobVerdict judge_job(const ReadJob& job, const std::string& job_file, const CellFile& cell,
+                     const std::string& program_version, const Context& context, Bytes* stock_left = nullptr);
+
+// One job file. Without a cell file, that of the project in whose folder "jobs" it lies. Throws what read_job and
+// parse_job throw, what read_cell throws, and InputError (use) without a cell file.
+VerifiedJob verify_job(const std::filesystem::path& job, const std::optional<std::filesystem::path>& cell_file,
+                       const std::string& program_version, const Context& context);
+
+// All jobs of a project, or those of one piece, in the order of its pieces. Parts of a program have to follow each
+// other, each carrying the stock that the replay of the one before left, and its SHA-256. Throws what jobs_of
+// (hand_over.h) throws.
+VerifyAnswer verify_project(const std::filesystem::path& folder, const std::optional<std::string>& piece,
+                            const std::string& program_version, const ProjectContext& context);
+
+}  // namespace qchopper

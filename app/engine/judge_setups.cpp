@@ -1,0 +1,211 @@
+// The part of OpenProject in which setups judge what a search made. Cuts are asked in their order: a replacement gives
+// other names to the pieces of later cuts only. Then pieces are cut again: docs/decisions/0039.
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "app/engine/open_project.h"
+#include "app/engine/planes_by_setups.h"
+#include "app/engine/verdict.h"
+#include "app/store/project_folder.h"
+#include "app/store/replay.h"
+#include "base/timings.h"
+#include "segment/search/cut_list.h"
+#include "segment/search/recut.h"
+
+namespace qchopper {
+namespace {
+
+// Whether the operator chose the plane, or decided about a piece of this or a later cut.
+bool is_decided(const Project& project, const Segmentation& segmentation, const Cut& cut) {
+    if (cut.chosen.normal_index == own_index) return true;
+    const auto is_later = [&](const Discard& d) { return d.after >= static_cast<std::size_t>(cut.number); };
+    if (std::any_of(project.discards.begin(), project.discards.end(), is_later)) return true;
+    const std::vector<SetupOrder> orders = committed_setup_orders(project.history);
+    return std::any_of(orders.begin(), orders.end(), [&](const SetupOrder& order) {
+        const auto piece = piece_named(segmentation, order.piece);
+        return piece && made_by(segmentation.pieces[*piece]) >= cut.number;
+    });
+}
+
+// What needs no trial; nothing: other planes can be tried.
+std::optional<VerdictOutcome> settled(const Project& project, const Segmentation& segmentation, const Cut& cut) {
+    if (!is_last_of_its_pieces(segmentation.cuts, cut.number)) return VerdictOutcome::carries_cut;
+    if (is_decided(project, segmentation, cut)) return VerdictOutcome::decided;
+    return std::nullopt;
+}
+
+}  // namespace
+
+bool OpenProject::asks_for_verdict() {
+    const bool is_open = project_.verdict && !project_.verdict->is_done;
+    const SearchSettings& settings = project_.settings;
+    if (settings.objectives.weights.unreachable <= 0 && !settings.stop.max_unreachable) return false;
+    if (setups() == nullptr) return false;
+    return is_open || (project_.stage == Stage::cut && !project_.verdict);
+}
+
+// Other weights or rules: the search goes on with them, and its cuts are judged again.
+void OpenProject::drop_unfinished_verdict() {
+    if (is_being_judged()) project_.verdict.reset();
+}
+
+std::optional<SearchEnd> OpenProject::judge_setups(const Context& context,
+                                                   const std::function<void(const Segmentation&)>& on_round,
+                                                   const std::optional<TimeLimit>& time_limit) {
+    if (!asks_for_verdict()) return std::nullopt;
+    if (!project_.verdict) {
+        project_.verdict.emplace();
+        save();
+    }
+    if (!project_.verdict->are_cuts_asked) judge_cuts(context);
+    std::optional<SearchEnd> end = cut_by_setups(context, on_round, time_limit);
+    if (end && end->is_out_of_time()) {
+        end_ = end;
+        return end;
+    }
+    setups()->keep_only(segmentation().pieces);
+    if (project_.stage == Stage::cutting) write_current_pieces();
+    project_.stage = Stage::cut;
+    project_.verdict->is_done = true;
+    save();
+    return end;
+}
+
+void OpenProject::judge_cuts(const Context& context) {
+    if (project_.settings.objectives.weights.unreachable > 0) {
+        const StageTimer stage(context, "setups judge the cuts");
+        std::vector<std::int32_t> numbers = doubtful_cuts(segmentation(), *setups(), context);
+        const auto is_known = [&](std::int32_t number) {
+            const std::vector<CutVerdict>& known = project_.verdict->cuts;
+            return std::any_of(known.begin(), known.end(), [&](const CutVerdict& v) { return v.cut == number; });
+        };
+        std::erase_if(numbers, is_known);
+        std::map<std::int32_t, Piece> divided = pieces_to_recut(numbers, context);
+        for (const std::int32_t number : numbers) {
+            judge_cut(number, divided, context);
+            divided.erase(number);
+        }
+    }
+    project_.verdict->are_cuts_asked = true;
+    save();
+}
+
+// The rules of the search, but by the setups that jobs are made of.
+PieceChecks OpenProject::checks_by_setups(const SearchSettings& settings, const Context& context) {
+    PieceChecks checks = this->checks();
+    checks.unreachable = [this](const Piece& piece) { return setups()->left_by_setup(piece); };
+    checks.planes_on_trial = [this, &settings, &context](const Segmentation& s, std::size_t piece,
+                                                         std::vector<Ranked> ranked) {
+        return planes_by_setups(s, piece, std::move(ranked), settings, *setups(), cache(), context);
+    };
+    return checks;
+}
+
+// The state in which pieces are passed over that the search gave up, unless holder and arm keep more of them out of
+// reach than it knew, or a cut that is replaced made them other pieces.
+BeamProgress OpenProject::after_the_search(const Segmentation& segmentation) {
+    std::int32_t first_replaced = std::numeric_limits<std::int32_t>::max();
+    for (const CutVerdict& cut : project_.verdict->cuts) {
+        if (cut.outcome == VerdictOutcome::replaced) first_replaced = std::min(first_replaced, cut.cut);
+    }
+    BeamState state;
+    state.from = segmentation.cuts.size();
+    state.branches.emplace_back();
+    for (const RevertedTrial& trial : project_.reverted) {
+        const auto index = piece_named(segmentation, trial.piece);
+        if (!index || made_by(segmentation.pieces[*index]) >= first_replaced) continue;
+        const UnreachableSurface left = setups()->left_by_setup(segmentation.pieces[*index]);
+        if (left.mm2 > 0 && left.share * (1 - trial.before_mm2 / left.mm2) > doubtful_share) continue;
+        state.branches.front().passed_over.push_back(trial.piece);
+        state.branches.front().reverted.push_back(trial);
+    }
+    return {std::move(state), segmentation};
+}
+
+// A search of its own, with trials that setups decide. Its state is saved as that of any search; that it is this one
+// follows from the verdict.
+std::optional<SearchEnd> OpenProject::cut_by_setups(const Context& context,
+                                                    const std::function<void(const Segmentation&)>& on_round,
+                                                    const std::optional<TimeLimit>& time_limit) {
+    if (!project_.settings.stop.max_unreachable) return std::nullopt;
+    if (time_limit && time_limit->has_passed()) return end_of_time(*time_limit);
+    const StageTimer stage(context, "pieces cut by their setups");
+    setups()->compute_held(segmentation().pieces, context);
+    Segmentation working = segmentation();
+    SearchSettings settings = project_.settings;
+    settings.beam = 1;
+    BeamProgress progress =
+        project_.beam ? beam_progress(
+                            project_, working, [this]() -> const TriangleMesh& { return scan(); }, folder_ / "cache")
+                      : after_the_search(working);
+    release_scan();
+    const auto keep = [&](const Segmentation& s) {
+        take_over(s, progress.saved());
+        save();
+        setups()->keep_only(segmentation().pieces);
+        if (on_round) on_round(s);
+    };
+    SearchEnd end = qchopper::search(working, settings, cache(), checks_by_setups(settings, context), keep, context,
+                                     time_limit, &progress);
+    project_.beam.reset();
+    if (end.is_out_of_time()) {
+        project_.beam = progress.saved();
+        save();
+        return end;
+    }
+    record(project_, segmentation());
+    record_end(end);
+    return end;
+}
+
+std::map<std::int32_t, Piece> OpenProject::pieces_to_recut(std::vector<std::int32_t> numbers, const Context& context) {
+    std::erase_if(numbers, [&](std::int32_t number) {
+        return settled(project_, segmentation(), segmentation().cuts[static_cast<std::size_t>(number - 1)]).has_value();
+    });
+    if (numbers.empty()) return {};
+    std::map<std::int32_t, Piece> divided = divided_pieces(project_, scan(), numbers, context, folder_ / "cache");
+    for (auto& [number, piece] : divided) {
+        if (project_.settings.objectives.needs_structure()) piece.stress = stress();
+    }
+    release_scan();
+    return divided;
+}
+
+void OpenProject::judge_cut(std::int32_t number, const std::map<std::int32_t, Piece>& divided, const Context& context) {
+    const Segmentation& now = segmentation();
+    const Cut& cut = now.cuts[static_cast<std::size_t>(number - 1)];
+    const auto piece = divided.find(number);
+    if (piece == divided.end()) {
+        const CarvedSurface surface = carved_surface(now, number, *setups());
+        const VerdictOutcome outcome = settled(project_, now, cut).value_or(VerdictOutcome::kept);
+        project_.verdict->cuts.push_back({number, cut.piece, outcome, 0, surface, surface});
+        return save();
+    }
+    Piece parted = piece->second;
+    parted.name = cut.piece;
+    RecutTrial trial = try_other_planes(now, parted, number, project_.settings, *setups(), context);
+    if (trial.better) return replace_cut(*trial.better, std::move(trial.verdict));
+    setups()->keep_only(now.pieces);
+    project_.verdict->cuts.push_back(std::move(trial.verdict));
+    save();
+}
+
+// The stage is `cutting` before a file is removed, so that nothing that is on disk belongs to other cuts. Why the
+// search ended stays: by it and by the verdict that is not done the project is known to go on here.
+void OpenProject::replace_cut(const Segmentation& alone, CutVerdict verdict) {
+    project_.stage = Stage::cutting;
+    project_.jobs.clear();
+    save_project(folder_, project_);
+    remove_outputs(folder_, project_);
+    segmentation_ = recut(segmentation(), alone);
+    setups()->keep_only(segmentation_->pieces);
+    decide(project_.history, Replacement{alone.cuts.front()});
+    record(project_, *segmentation_);
+    if (!project_.do_rules_hold()) project_.warnings.push_back(early_end(project_.ended_because));
+    project_.verdict->cuts.push_back(std::move(verdict));
+    save();
+}
+
+}  // namespace qchopper

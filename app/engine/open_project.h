@@ -1,0 +1,188 @@
+// The engine that makes a project advance: cut by cut with undo, redo and reset, or by the search, to pieces and jobs.
+//
+// Lengths in mm about the scan's centre. Every decision is saved before the next one is evaluated, and evaluations are
+// kept in the folder's cache. Memory and project.json never differ, and killing the program at any moment leaves the
+// decisions before or after the last one. Undo restores the project of before exactly but for its history; redo
+// reverses that (tests/app/engine/open_project_test.cpp). The scan is imported, and cut again, only when it is needed.
+
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/engine/outputs.h"
+#include "app/jobs/piece_jobs.h"
+#include "app/jobs/project_joints.h"
+#include "app/store/project.h"
+#include "segment/search/search.h"
+
+namespace qchopper {
+
+// A finished project, and how each of its pieces is carved.
+struct PreparedProject {
+    std::filesystem::path folder;
+    Project project;
+    Cell cell;
+    double max_unreachable = 0;       // share of a piece's surface that may stay out of reach
+    std::vector<PieceReport> pieces;  // in the order of the project's
+    ProjectJoints joints = {};        // of them
+    bool all_fit() const;
+    // Whether jobs of this cell hold programs, and programs were asked for.
+    bool has_programs() const;
+    // Whether every program that was made is proven.
+    bool are_programs_proven() const;
+};
+
+// "the stop rules do not hold: ...", the warning of a project whose search ended too early.
+std::string early_end(const std::string& sentence);
+
+class OpenProject {
+ public:
+    // `import_scan` returns the scan of project.scan with what is ignored; it is called when needed, and again when it
+    // is needed after it was freed. Precondition of all functions that change something: the caller holds the lock of
+    // the folder (project_folder.h). What the context points to outlives this object.
+    OpenProject(std::filesystem::path folder, Project project, std::function<TriangleMesh()> import_scan,
+                const Context& context = {});
+
+    // The project of a folder, whose scan is imported with the context when it is needed; every function that needs it
+    // then throws what scan_of_project throws. Throws what load_project throws.
+    OpenProject(const std::filesystem::path& folder, const Context& context);
+
+    OpenProject(const OpenProject&) = delete;
+    OpenProject& operator=(const OpenProject&) = delete;
+
+    const std::filesystem::path& folder() const { return folder_; }
+    const Project& project() const { return project_; }
+    const TriangleMesh& scan();
+    const Segmentation& segmentation();
+    // The stress of the scan under the project's load, and a message about it; null without a load. Throws what
+    // stress_of throws.
+    const std::shared_ptr<const StressedModel>& stress();
+    EvaluationCache& cache();
+
+    // How pieces are carved in the project's cell; nullptr without a cell. Throws InputError (config) for a cell file
+    // that is wrong.
+    Setups* setups();
+    // Throws InputError (use) for a project without a cell.
+    void check_cell();
+    // What the stop rules ask: whether a piece fits the cell (empty without a cell), and what of it is out of reach of
+    // the cell's tools, or of any tool (unreachable_of.h). Valid while this object lives.
+    PieceChecks checks();
+
+    // The piece to be cut next: by the rules, or the one with most faces if they hold already or none is set.
+    struct Next {
+        std::optional<std::size_t> piece;  // an index; nothing: there is no piece
+        bool rules_hold = false;           // rules are set, and they hold
+    };
+    Next next(const PieceChecks& checks);
+
+    // In the following, `piece` is an index in segmentation().pieces. All candidates of the piece, best first.
+    // Evaluates those that are not evaluated yet; changes nothing but the cache.
+    // The first `best` that are listed are certain to be so (segment/search/rank_piece.h).
+    std::vector<Ranked> ranking(std::size_t piece, std::size_t best, const Context& context);
+    // Of a ranking of the piece the indices of the first `most` planes that are more than one step of the offsets apart
+    // (segment/search/rank.h): the places of which an operator takes one.
+    std::vector<std::size_t> listed(std::size_t piece, const std::vector<Ranked>& ranked, std::size_t most);
+    // The boxes into which a piece that the stop rules of the settings call too large is cut; else empty.
+    BlocksNeeded too_large_for(const SearchSettings& settings, const Piece& piece);
+    // The operator's own plane, nudged once. Nothing if it misses, or leaves fewer than two pieces that are no
+    // fragments. The numbers of its normal and offset are -1.
+    std::optional<Ranked> own_plane(std::size_t piece, const Plane& plane, const Context& context);
+
+    // Whether a plane misses the piece, or runs so near to its end or to a cut that bounds it that it parts nothing.
+    bool misses(std::size_t piece, const Plane& plane);
+
+    // Decisions. They return false and change nothing where there is nothing to decide:
+    bool decide_cut(Cut cut);                                     // the plane misses
+    bool decide_weights(const Weights& weights);                  // they are the current ones
+    bool decide_discard(const std::vector<std::string>& pieces);  // none, one is not there, or no other is left
+    bool decide_reset();                                          // no cut and no discarded piece is in force
+    bool decide_setup(const SetupOrder& order);                   // it is in force already, or there is no such piece
+    // The decision that was taken back or put in force again; nothing if there is none.
+    std::optional<Decision> undo();
+    std::optional<Decision> redo();
+
+    // Writes the pieces now, and from now on whenever the project is saved, not only at the end of a search.
+    void keep_pieces_written();
+    bool are_pieces_written() const { return pieces_are_written_; }
+
+    // Sets how the search goes on. This is no decision: undo does not take it back.
+    void set_search(const StopRules& stop, std::size_t beam);
+    // The same for all settings. Precondition: the weights stay as they are.
+    void set_settings(const SearchSettings& settings);
+
+    // Runs the search to the stop rules, saves the best segmentation of every round, then calls `on_round` with it, and
+    // writes the pieces at its end, unless time ran out. Throws Cancelled; the last round stays saved.
+    SearchEnd search(const PieceChecks& checks, const std::function<void(const Segmentation&)>& on_round,
+                     const Context& context, const std::optional<TimeLimit>& time_limit);
+
+    // After a search in a project with a cell, setups judge what it made. With the weight `unreachable` a cut of which
+    // the pieces can be carved better along another plane is replaced (verdict.h); every cut is asked once, and saved
+    // before the next; a replacement is a decision. With the rule max_unreachable a piece of which the setup of its job
+    // leaves more out of reach is cut again on trial, by planes that setups compare (planes_by_setups.h); `on_round` is
+    // called with the segmentation after each such decision. project().end_reason then says of the final setups whether
+    // the rules hold. Returns the end of that cutting: if time ran out, the next call goes on with it. Does nothing
+    // where that is done already, or the search has not ended. Throws Cancelled.
+    std::optional<SearchEnd> judge_setups(const Context& context,
+                                          const std::function<void(const Segmentation&)>& on_round = {},
+                                          const std::optional<TimeLimit>& time_limit = std::nullopt);
+    // Whether a search has ended that setups are still judging: it does not go on before that is done.
+    bool is_being_judged() const { return project_.verdict && !project_.verdict->is_done; }
+
+    // Whether jobs are written with robot programs from now on. This is no decision: undo does not take it back.
+    void set_has_programs(bool has_programs);
+
+    // Writes pieces, jobs and pictures. Of a project whose last search ran out of time too; its stage stays
+    // Stage::cutting, so that it can go on. Throws what check_cell throws, and Cancelled.
+    PreparedProject prepare(const std::string& program_version, const Context& context);
+
+    // Writes the job of one piece again, if the jobs are written, and says what it is; `piece` is an index in
+    // segmentation().pieces. Throws what check_cell throws.
+    std::optional<PieceReport> write_job_again(std::size_t piece, const std::string& program_version);
+
+    // Makes the newest cut or discarded piece of a segmentation that is extended by others (replay_plan.h) a decision.
+    void adopt(const Segmentation& segmentation);
+
+ private:
+    void adopt(const Segmentation& segmentation, std::optional<BeamState> beam);
+    void take_over(const Segmentation& segmentation, std::optional<BeamState> beam);
+    // The pieces are made again, with samples or without, if that follows from them.
+    void set_weights(const Weights& weights);
+    bool asks_for_verdict();
+    void drop_unfinished_verdict();
+    std::map<std::int32_t, Piece> pieces_to_recut(std::vector<std::int32_t> numbers, const Context& context);
+    void judge_cuts(const Context& context);
+    std::optional<SearchEnd> cut_by_setups(const Context& context,
+                                           const std::function<void(const Segmentation&)>& on_round,
+                                           const std::optional<TimeLimit>& time_limit);
+    BeamProgress after_the_search(const Segmentation& segmentation);
+    PieceChecks checks_by_setups(const SearchSettings& settings, const Context& context);
+    void judge_cut(std::int32_t number, const std::map<std::int32_t, Piece>& divided, const Context& context);
+    void replace_cut(const Segmentation& alone, CutVerdict verdict);
+    void record_end(const SearchEnd& end);
+    std::optional<Decision> change_committed(const Decision* changed, std::size_t committed);
+    void commit_first(std::size_t committed);
+    // Frees the scan, which the pieces do not need: 36 bytes a face. scan() imports it again.
+    void release_scan();
+    void save();
+    void write_current_pieces();
+
+    std::filesystem::path folder_;
+    Project project_;
+    Context context_;
+    std::function<TriangleMesh()> import_scan_;
+    std::optional<TriangleMesh> scan_;
+    std::optional<Segmentation> segmentation_;
+    std::shared_ptr<const StressedModel> stress_;
+    std::unique_ptr<EvaluationCache> cache_;
+    std::optional<Setups> setups_;
+    std::optional<SearchEnd> end_;  // of the last search, until something else is decided
+    bool pieces_are_written_ = false;
+};
+
+}  // namespace qchopper

@@ -1,0 +1,82 @@
+// Search, then outputs; both are those of OpenProject.
+
+#include "app/engine/prepare_project.h"
+
+#include "app/store/project_lines.h"
+#include "base/error.h"
+#include "base/shell_word.h"
+
+namespace qchopper {
+namespace {
+
+void discard(OpenProject& project, const DiscardRequest& request, const ProjectContext& context) {
+    const std::vector<std::string> names = pieces_meant(request, project.segmentation());
+    if (names.empty()) return context.message(none_is_below(request));
+    if (!project.decide_discard(names)) {
+        throw InputError(InputFault::use, "every piece is meant by --discard", "leave one, or prepare another scan");
+    }
+    for (const std::string& line : discarded_lines(project.project())) context.message(line);
+}
+
+PreparedProject finish(OpenProject& project, const PrepareOptions& options, const ProjectContext& context) {
+    const auto report_kept = [&](const Segmentation& s) {
+        context.saved(kept_cuts(s.cuts.size(), project.folder()) + "; go on with: qchopper prepare " +
+                      shell_word(project.folder()) + ".");
+    };
+    report_kept(project.segmentation());
+    if (options.has_programs) project.set_has_programs(*options.has_programs);
+    if (project.segmentation().pieces.empty()) {
+        throw InputError(InputFault::mesh, project.project().scan.path.string() + " holds nothing but fragments",
+                         "check the scan");
+    }
+    if (options.discard) discard(project, *options.discard, context);
+    const bool was_done = project.project().stage == Stage::done;
+    std::size_t told = project.project().cuts.size();
+    const auto on_round = [&](const Segmentation& s) {
+        report_kept(s);
+        for (const std::string& line : round_lines(s.cuts, told, project.project().settings)) context.message(line);
+        told = s.cuts.size();
+    };
+    std::optional<SearchEnd> end;
+    std::optional<TimeLimit> time_limit;
+    if (options.time_limit_s) time_limit.emplace(TimeLimit{*options.time_limit_s});
+    if (project.project().stage == Stage::cutting && !project.is_being_judged()) {
+        end = project.search(project.checks(), on_round, context, time_limit);
+    }
+    if (const std::optional<SearchEnd> judged = project.judge_setups(context, on_round, time_limit)) end = judged;
+    if (end) context.warn(project.segmentation().warnings);
+    if (end && end->is_out_of_time()) {
+        context.warn({early_end(end->sentence)});
+    } else if (!was_done && !project.project().do_rules_hold()) {
+        context.warn({early_end(project.project().ended_because)});
+    }
+    return project.prepare(options.program_version, context);
+}
+
+}  // namespace
+
+PreparedProject prepare_scan(const ProjectChoices& choices, const PrepareOptions& options,
+                             const ProjectContext& context) {
+    ProjectDraft draft = draft_project(choices, context);
+    StopRules& stop = draft.project.settings.stop;
+    if (!stop.is_any_set()) stop.fits_cell = true;
+    LockedProject open = make_project(std::move(draft), context);
+    return finish(open.project, options, context);
+}
+
+PreparedProject prepare_project(const std::filesystem::path& folder,
+                                const std::optional<std::filesystem::path>& cell_file, const PrepareOptions& options,
+                                const ProjectContext& context) {
+    LockedProject open(folder, cell_file, context);
+    open.project.check_cell();
+    context.saved("The project is unchanged.");
+    open.project.scan();
+    const Project& project = open.project.project();
+    context.message(folder.string() + ": goes on after " + std::to_string(project.cuts.size()) + " cuts");
+    if (project.beam && project.settings.beam > 1) {
+        context.message("The beam of " + std::to_string(project.beam->branches.size()) + " goes on.");
+    }
+    return finish(open.project, options, context);
+}
+
+}  // namespace qchopper

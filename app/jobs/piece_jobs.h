@@ -1,0 +1,55 @@
+// Writes the jobs of a segmentation into the project folder, each with its verdict beside it.
+//
+// They are never stale: they are removed before a decision changes and written when the cutting is over (outputs.h).
+// All throw what write_file throws.
+
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/jobs/job_verdict.h"
+#include "app/jobs/reach_advice.h"
+#include "app/jobs/setups.h"
+#include "app/store/project.h"
+#include "base/context.h"
+#include "segment/joint/piece_joints.h"
+
+namespace qchopper {
+
+// The share of a piece's surface that may stay out of reach: the operator's, or else the cell's. A cell without a
+// machine sets no limit: 1.
+double most_unreachable(const Project& project, const Cell& cell);
+
+// The result of prepare for one piece.
+struct PieceReport {
+    std::string name;
+    std::size_t faces = 0;
+    double volume_mm3 = 0;
+    Carving carving;
+    std::filesystem::path job;              // empty: it does not fit the cell and has no job
+    std::vector<ReachAdvice> advice = {};   // of a piece of which more is out of reach than may be
+    std::string no_program_because = {};    // empty: its jobs hold robot programs
+    std::vector<JobVerdict> verdicts = {};  // one per part of its program
+    double time_s = 0;                      // of all its parts, as the replay finds it
+    double length_mm = 0;
+    bool is_proven() const;  // every part is; false without a program
+};
+
+// Writes jobs/<name>.qjob of one piece, and those of further parts, if it fits the cell, else removes them, and records
+// them in the project, which is not saved. `index` is that of the piece in the segmentation, `joints` are those of all
+// its pieces.
+PieceReport write_job(const std::filesystem::path& folder, Project& project, const Segmentation& segmentation,
+                      std::size_t index, Setups& setups, std::span<const PieceJoint> joints,
+                      const std::string& program_version, const Context& context);
+
+// The same for all pieces; no other job stays recorded. Each is recorded and the project saved as soon as it is
+// written, so that it can be rehearsed while others are made. One report per piece. Throws Cancelled.
+std::vector<PieceReport> write_jobs(const std::filesystem::path& folder, Project& project,
+                                    const Segmentation& segmentation, Setups& setups,
+                                    std::span<const PieceJoint> joints, const std::string& program_version,
+                                    const Context& context);
+
+}  // namespace qchopper

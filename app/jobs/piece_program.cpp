@@ -1,0 +1,252 @@
+// One step after the other; the replay takes most of the time.
+
+#include "app/jobs/piece_program.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "app/pictures/deviation_picture.h"
+#include "base/error.h"
+#include "base/text.h"
+#include "base/timings.h"
+#include "cam/cell/allowed_tools.h"
+#include "cam/job/job_caps.h"
+#include "cam/post/krl.h"
+#include "cam/program/hold_drilling.h"
+#include "cam/program/make_program.h"
+#include "cam/setup/block_placement.h"
+#include "cam/setup/drill_direction.h"
+#include "cam/toolpath/make_toolpath.h"
+#include "segment/io/write_stl.h"
+#include "segment/mesh/transform.h"
+
+namespace qchopper {
+namespace {
+
+constexpr double narrowly_beside = 2;  // mm; the finishing tool then still roughs what stands beside the walls
+
+std::vector<Pose> frames_of(const Setup& setup, const Cell& cell) {
+    std::vector<Pose> frames;
+    const std::size_t angles = std::max<std::size_t>(1, setup.placement.table_angles.size());
+    for (std::size_t d = 0; d < angles; ++d) frames.push_back(setup_in_cell(cell, setup.spoil, setup.placement, d));
+    return frames;
+}
+
+// A toolpath and the drilling that follows it.
+struct MadePath {
+    Toolpath toolpath;
+    Drilling drilling;
+};
+
+// The wall of the dowels of a size; 0 if the cell lists none.
+double wall_of(const JobHole& hole, const Cell& cell) {
+    double wall = 0;
+    for (const DowelSize& size : cell.dowels) {
+        if (size.diameter == hole.diameter && size.depth == hole.depth) wall = size.wall;
+    }
+    return wall;
+}
+
+MadePath make_path(const Piece& piece, const Carving& carving, const Cell& cell, const std::vector<DrawnCap>& caps,
+                   const ToolpathSettings& settings, const Context& context) {
+    const Setup& setup = carving.setup();
+    InProcessStock left(setup);
+    MadePath made{make_toolpath(setup, *piece.mesh, cell, settings, context, &left), {}};
+    std::vector<DrillHole> holes;
+    for (const DrawnCap& drawn : caps) {
+        for (const JobHole& hole : holes_of({drawn.cap})) {
+            holes.push_back(
+                {hole.number, hole.point, -hole.axis, hole.diameter, hole.depth, wall_of(hole, cell), hole.by_hand});
+        }
+    }
+    if (holes.empty()) return made;
+    made.drilling = drill_holes(holes, setup, apply(setup.piece_in_setup, *piece.mesh), cell, left);
+    hold_drilling(made.drilling, setup, carving.work_envelope, cell, context);
+    return made;
+}
+
+struct PostedProgram {
+    std::vector<ProgramPart> parts;
+    MovesLeftOut left_out;
+};
+
+PostedProgram post(const Toolpath& path, const Drilling& drilling, const Carving& carving, std::uint16_t piece_no,
+                   const Cell& cell, const Context& context) {
+    Toolpath whole = path;
+    const std::vector<Operation>& drilled = drilling.operations;
+    whole.operations.insert(whole.operations.end(), drilled.begin(), drilled.end());
+    const Setup setup = with_drill_directions(carving.setup(), drilling.directions);
+    const Program program = make_program(whole, setup, carving.work_envelope, cell, context);
+    return {post_krl(program, cell, {piece_no}), {program.left_out_mm, program.left_out_because}};
+}
+
+std::vector<std::size_t> drilled_holes(const Drilling& drilling) {
+    std::vector<std::size_t> numbers;
+    for (const DrillHole& hole : drilling.holes) {
+        if (hole.by_hand.empty()) numbers.push_back(hole.number);
+    }
+    return numbers;
+}
+
+// What refuses a program that drills this hole and does nothing else; empty: nothing.
+std::string refusal_alone(std::size_t number, const Drilling& drilling, const Carving& carving, std::uint16_t piece_no,
+                          const Cell& cell, const Context& context) {
+    Drilling alone = drilling;
+    for (const std::size_t other : drilled_holes(drilling)) {
+        if (other != number) leave_to_hand(alone, other, "not asked", carving.setup());
+    }
+    try {
+        post({}, alone, carving, piece_no, cell, context);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+// With the holes. Where the program cannot be made with them, without those with which alone none can be made; and
+// where that does not help, without any.
+PostedProgram make_parts(MadePath& made, const Carving& carving, std::uint16_t piece_no, const Cell& cell,
+                         const Context& context) {
+    const auto posted = [&] { return post(made.toolpath, made.drilling, carving, piece_no, cell, context); };
+    const auto leave = [&](std::size_t number, const std::string& why) {
+        leave_to_hand(made.drilling, number, "the program cannot drill: " + why, carving.setup());
+    };
+    while (!made.drilling.operations.empty()) {
+        std::string why;
+        try {
+            return posted();
+        } catch (const InputError& error) {
+            why = error.what();
+        }
+        const std::vector<std::size_t> before = drilled_holes(made.drilling);
+        const Drilling all = made.drilling;
+        for (const std::size_t number : before) {
+            const std::string alone = refusal_alone(number, all, carving, piece_no, cell, context);
+            if (!alone.empty()) leave(number, alone);
+        }
+        if (drilled_holes(made.drilling).size() < before.size()) continue;
+        for (const std::size_t number : before) leave(number, why);
+    }
+    return posted();
+}
+
+std::vector<DrawnCap> decided(std::vector<DrawnCap> caps, const Drilling& drilling) {
+    std::map<std::size_t, std::string> reasons;
+    for (const DrillHole& hole : drilling.holes) reasons[hole.number] = hole.by_hand;
+    decide_holes(caps, drilled_holes(drilling), reasons, {});
+    return caps;
+}
+
+// Of a part as it was posted; the figures of its chunks are read back later.
+ProgramInput program_of(const PostedProgram& posted, std::size_t number, const MadePath& made,
+                        const CellMachine& machine, const ToolpathSettings& settings) {
+    const ProgramPart& part = posted.parts[number - 1];
+    ProgramInput input;
+    input.program.scallop_mm = settings.scallop;
+    for (const UnusedTool& unused : made.toolpath.unused) {
+        ToolLeftOut left_out{{}, unused.direction, unused.because};
+        if (unused.tool) left_out.tool = machine.tools[*unused.tool].number;
+        input.program.left_out.push_back(std::move(left_out));
+    }
+    input.program.moves_left_out = posted.left_out;
+    input.program.drilling = made.drilling.directions;
+    input.program.entry = part.entry;
+    for (const ProgramText& file : part.files) {
+        input.program.files.push_back(file.name);
+        input.texts[file.name] = file.text;
+    }
+    for (const PostedChunk& chunk : part.chunks) {
+        JobChunk record;
+        record.file = chunk.name;
+        record.tool = chunk.tool_number;
+        record.direction = chunk.direction;
+        input.program.chunks.push_back(record);
+        input.program.holes.insert(input.program.holes.end(), chunk.holes.begin(), chunk.holes.end());
+        if (input.tools.empty() || input.tools.back() != chunk.tool_number) input.tools.push_back(chunk.tool_number);
+    }
+    input.program.part.number = static_cast<std::uint16_t>(number);
+    input.program.part.count = static_cast<std::uint16_t>(posted.parts.size());
+    std::sort(input.program.holes.begin(), input.program.holes.end());
+    return input;
+}
+
+void add_proof(ProgramInput& input, const JobProof& proof, const TriangleMesh& mesh) {
+    if (proof.chunks.size() == input.program.chunks.size()) input.program.chunks = proof.chunks;
+    input.program.time_s = proof.time_s;
+    input.is_proven = proof.is_proven();
+    input.figures = proof.figures;
+    for (const VerdictFinding& finding : proof.findings) input.findings.push_back(describe(finding));
+    if (!proof.deviation.empty()) input.deviation_picture = deviation_picture(mesh, proof.deviation);
+}
+
+}  // namespace
+
+std::string no_programs_for(const Cell& cell) {
+    if (!cell.machine) return "the cell file describes no machine";
+    const Dialect dialect = cell.machine->program.dialect;
+    if (dialect == Dialect::krl) return {};
+    return std::string("programs in the dialect ") + to_word(dialect) + " are not written yet";
+}
+
+std::vector<DrawnCap> caps_by_hand(std::vector<DrawnCap> caps, const std::string& none_because) {
+    decide_holes(caps, {}, {}, "there is no program: " + none_because);
+    return caps;
+}
+
+PiecePrograms make_programs(const Piece& piece, const Carving& carving, std::uint16_t piece_no, const Cell& cell,
+                            std::vector<DrawnCap> caps, const Context& context) {
+    const Setup& setup = carving.setup();
+    const Cell planned = with_tools(cell, setup.tools);
+    PostedProgram posted;
+    MadePath made;
+    ToolpathSettings settings;
+    settings.scallop = settings.fine_scallop = cell.machine->program.scallop;
+    const auto make = [&](const ToolpathSettings& asked) {
+        StageTimer stage(context, "toolpaths made");
+        made = make_path(piece, carving, planned, caps, asked, context);
+        stage.next("programs made");
+        posted = make_parts(made, carving, piece_no, planned, context);
+    };
+    try {
+        try {
+            make(settings);
+        } catch (const ProgramRefused&) {
+            // The work envelope was asked for tips on the block, not for all that roughing takes beside it.
+            ToolpathSettings narrow = settings;
+            narrow.beside_block = narrowly_beside;
+            make(narrow);
+        }
+    } catch (const InputError& error) {
+        return {{}, error.what(), caps_by_hand(std::move(caps), error.what())};
+    }
+    const TriangleMesh mesh = job_mesh(to_stl(apply(setup.piece_in_setup, *piece.mesh)), piece.name);
+    const std::vector<Pose> frames = frames_of(setup, cell);
+    PiecePrograms programs;
+    programs.caps = decided(std::move(caps), made.drilling);
+    std::vector<JobCap> job_caps;
+    for (const DrawnCap& drawn : programs.caps) job_caps.push_back(drawn.cap);
+    Bytes stock;  // what the part before left
+    while (programs.parts.size() < posted.parts.size()) {
+        ProvenProgram proven;
+        proven.input = program_of(posted, programs.parts.size() + 1, made, *planned.machine, settings);
+        proven.input.stock = std::move(stock);
+        const StageTimer stage(context, "programs replayed");
+        ProofInput proof{cell,
+                         setup,
+                         frames,
+                         mesh,
+                         proven.input.program,
+                         proven.input.texts,
+                         &proven.input.stock,
+                         holes_of(job_caps)};
+        proof.is_stated = false;
+        proven.proof = prove(proof, context);
+        stock = std::move(proven.proof.stock_left);
+        add_proof(proven.input, proven.proof, mesh);
+        programs.parts.push_back(std::move(proven));
+    }
+    return programs;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,45 @@
+// Makes the robot program of a piece and proves it: toolpath, program, text, and the replay of the text.
+//
+// The proof is the one that verify makes (job_proof.h), of the same texts and of the mesh as it stands in the job file.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/jobs/job_proof.h"
+#include "app/jobs/setups.h"
+#include "base/context.h"
+#include "cam/job/job_cap.h"
+#include "cam/job/job_program.h"
+#include "segment/cut/piece.h"
+
+namespace qchopper {
+
+struct ProvenProgram {
+    ProgramInput input;  // JobPart::before is not known yet
+    JobProof proof;
+};
+
+struct PiecePrograms {
+    std::vector<ProvenProgram> parts;  // in their order; empty: no program
+    std::string none_because;          // for people, without a full stop
+    std::vector<DrawnCap> caps;        // of the piece, with who drills each hole (decide_holes())
+};
+
+// Empty for a cell for whose jobs programs can be made, else why not: no machine, or a dialect that cannot be written.
+std::string no_programs_for(const Cell& cell);
+
+// The caps are those of the piece (caps_of()): of their holes those that the robot can drill are drilled after
+// finishing. Where a program cannot be made with a hole, this hole is left to the hand. Preconditions: the
+// carving is that of the piece and fits, the cell has the tools of its setup and others, piece_no >= 1,
+// no_programs_for(cell) is empty. Where the machine cannot follow the toolpath there is no program, and none_because
+// says why. Throws Cancelled.
+PiecePrograms make_programs(const Piece& piece, const Carving& carving, std::uint16_t piece_no, const Cell& cell,
+                            std::vector<DrawnCap> caps, const Context& context);
+
+// Caps of a piece that gets no program.
+std::vector<DrawnCap> caps_by_hand(std::vector<DrawnCap> caps, const std::string& none_because);
+
+}  // namespace qchopper

@@ -1,0 +1,33 @@
+// One call after the other, each timed.
+
+#include "app/jobs/project_joints.h"
+
+#include "base/timings.h"
+
+namespace qchopper {
+
+JointSettings joint_settings(const Cell* cell) {
+    JointSettings settings;
+    if (cell != nullptr) {
+        settings.sizes = cell->dowels;
+        settings.play = cell->dowel_play;
+    }
+    return settings;
+}
+
+ProjectJoints project_joints(const Segmentation& segmentation, const Cell* cell, const Context& context) {
+    StageTimer stage(context, "dowels placed");
+    ProjectJoints made;
+    for (const Piece& piece : segmentation.pieces) made.pieces.push_back(piece.name);
+    made.joints = piece_joints(segmentation.pieces, joint_settings(cell), context);
+    for (const PieceJoint& joint : made.joints) {
+        made.faults.push_back(describe_fault(joint, segmentation.pieces, made.joints));
+    }
+    stage.next("assembly ordered");
+    made.assembly = assembly_of(segmentation, made.joints, context);
+    stage.next("seams measured");
+    made.seam = seam_length(segmentation.pieces, 2, context);
+    return made;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,70 @@
+// A table of ranges gives the colours. O(triangles).
+
+#include "app/pictures/deviation_picture.h"
+
+#include <array>
+#include <cassert>
+#include <limits>
+#include <vector>
+
+#include "cam/job/sheet/program_section.h"
+#include "segment/picture/two_sides.h"
+
+namespace qchopper {
+namespace {
+
+constexpr int legend_height = 70;
+constexpr TwoSidesLayout layout{.view_width = deviation_picture_width / 2,
+                                .view_height = deviation_picture_height - legend_height,
+                                .legend_height = legend_height,
+                                .square = 20,
+                                .letter_height = 13,
+                                .letter_width = 11.6,
+                                .left_of_legend = 12,
+                                .after_square = 6,
+                                .after_name = 16};
+
+struct DeviationRange {
+    float below;  // values below it, and not below that of the range before
+    Rgb colour;
+    const char* name;
+};
+
+// mm. Colours that differ for colour-blind eyes too.
+constexpr float open_end = std::numeric_limits<float>::infinity();
+constexpr std::array<DeviationRange, 6> ranges{{{-0.25F, {165, 0, 38}, "gouge > 0.25"},
+                                                {-0.05F, {244, 140, 80}, "gouge > 0.05"},
+                                                {0.3F, {232, 228, 216}, "to 0.3"},
+                                                {0.75F, {158, 202, 225}, "to 0.75"},
+                                                {3.0F, {66, 126, 190}, "to 3 mm"},
+                                                {open_end, {20, 40, 100}, "more foam"}}};
+
+std::uint8_t index_of(float value) {
+    std::uint8_t i = 0;
+    while (!(value < ranges[i].below) && i + 1U < ranges.size()) ++i;
+    return i;
+}
+
+std::vector<std::uint8_t> colours_of(std::span<const float> deviation) {
+    std::vector<std::uint8_t> colours;
+    colours.reserve(deviation.size());
+    for (const float value : deviation) colours.push_back(index_of(value));
+    return colours;
+}
+
+}  // namespace
+
+Bytes deviation_picture(const TriangleMesh& mesh, std::span<const float> deviation) {
+    assert(deviation.size() == mesh.triangles.size() && !mesh.triangles.empty());
+    std::array<Rgb, ranges.size()> palette;
+    for (std::size_t i = 0; i < ranges.size(); ++i) palette[i] = ranges[i].colour;
+    const std::vector<std::uint8_t> colours = colours_of(deviation);
+    ColouredMesh coloured{&mesh, bone_colour, {}};
+    coloured.palette = palette;
+    coloured.colour_of = colours;
+    std::vector<LegendEntry> legend;
+    for (const DeviationRange& range : ranges) legend.push_back({range.colour, range.name});
+    return draw_two_sides(std::span(&coloured, 1), legend, layout);
+}
+
+}  // namespace qchopper

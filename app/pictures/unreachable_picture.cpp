@@ -1,0 +1,88 @@
+// The states of the surface are indices of a palette. O(triangles + samples).
+
+#include "app/pictures/unreachable_picture.h"
+
+#include <array>
+#include <cassert>
+#include <cstdint>
+
+#include "cam/job/sheet/setup_picture.h"
+#include "segment/mesh/triangle_mesh.h"
+#include "segment/picture/exploded.h"
+#include "segment/picture/two_sides.h"
+
+namespace qchopper {
+namespace {
+
+constexpr TwoSidesLayout layout{.view_width = 1000,
+                                .view_height = 900,
+                                .legend_height = 60,
+                                .square = 24,
+                                .letter_height = 15,
+                                .letter_width = 11.8,
+                                .left_of_legend = 30,
+                                .after_square = 10,
+                                .after_name = 30};
+
+constexpr std::uint8_t base_index = 6;
+
+// In the order of SurfaceState; then the base.
+std::array<LegendEntry, base_index + 1> colours(bool narrow_counts) {
+    const auto of = [&](SurfaceState state, const char* name) {
+        return LegendEntry{surface_colour(state, narrow_counts), name};
+    };
+    return {{of(SurfaceState::reached, "reached"),
+             of(SurfaceState::too_narrow, narrow_counts ? "too narrow" : "too narrow: does not count"),
+             of(SurfaceState::steep, "steep"),
+             of(SurfaceState::holder, "holder in the way"),
+             of(SurfaceState::hidden, "hidden"),
+             of(SurfaceState::ignored, "ignored: it may stay"),
+             {base_colour, "base"}}};
+}
+
+std::vector<std::uint8_t> colours_of(const Piece& piece, const CarvedPiece& carved) {
+    assert(carved.states.empty() || carved.states.size() == piece.mesh->triangles.size());
+    std::vector<std::uint8_t> result(piece.mesh->triangles.size(), 0);
+    for (std::size_t t = 0; t < result.size(); ++t) {
+        if (!carved.states.empty()) result[t] = static_cast<std::uint8_t>(carved.states[t]);
+        if (carved.base_cut && cap_of(*piece.mesh, t) == *carved.base_cut) result[t] = base_index;
+    }
+    return result;
+}
+
+// Of the colours that occur, and always of the three kinds of surface that cuts and tools can open.
+std::vector<LegendEntry> legend_of(std::span<const LegendEntry> entries,
+                                   const std::array<bool, base_index + 1>& occurs) {
+    std::vector<LegendEntry> legend;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const auto state = static_cast<SurfaceState>(i);
+        const bool is_kind =
+            state == SurfaceState::hidden || state == SurfaceState::too_narrow || state == SurfaceState::steep;
+        if (occurs[i] || is_kind) legend.push_back(entries[i]);
+    }
+    return legend;
+}
+
+}  // namespace
+
+Bytes draw_unreachable(std::span<const Piece> pieces, std::span<const Vec3> shifts, std::span<const CarvedPiece> carved,
+                       bool narrow_counts, const Context& context) {
+    assert(!pieces.empty() && shifts.size() == pieces.size() && carved.size() == pieces.size());
+    const auto entries = colours(narrow_counts);
+    std::array<Rgb, entries.size()> palette;
+    for (std::size_t i = 0; i < entries.size(); ++i) palette[i] = entries[i].colour;
+    std::vector<std::vector<std::uint8_t>> indices;
+    std::array<bool, entries.size()> occurs{};
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        indices.push_back(colours_of(pieces[p], carved[p]));
+        for (const std::uint8_t i : indices.back()) occurs[i] = true;
+    }
+    std::vector<ColouredMesh> meshes = coloured(pieces, shifts);
+    for (std::size_t p = 0; p < meshes.size(); ++p) {
+        meshes[p].palette = palette;
+        meshes[p].colour_of = indices[p];
+    }
+    return draw_two_sides(meshes, legend_of(entries, occurs), layout, context);
+}
+
+}  // namespace qchopper

@@ -1,0 +1,94 @@
+// Text and JSON from a value.
+
+#include "app/report/cell/journal_report.h"
+
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "app/report/columns.h"
+#include "app/store/value_json.h"
+#include "base/printable.h"
+#include "base/uuid.h"
+#include "devices/hand_off/journal_history.h"
+
+namespace qchopper {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// "2026-11-22 17:43:28" in UTC.
+std::string time_text(std::uint64_t unix_ms) {
+    const auto seconds = static_cast<std::time_t>(unix_ms / 1000);
+    std::tm parts{};
+    ::gmtime_r(&seconds, &parts);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &parts);
+    return text;
+}
+
+std::string job_text(const JournalEvent& event) {
+    return event.job_id == Uuid{} ? "-" : to_text(event.job_id).substr(0, 8);
+}
+
+std::size_t open_jobs(const JournalReport& report) {
+    std::size_t open = 0;
+    for (const JournalJob& job : history_of(report.content.rows).jobs) open += job.is_open() ? 1 : 0;
+    return open;
+}
+
+std::string verdict_line(const JournalReport& report) {
+    return "the chain is whole: " + std::to_string(report.content.rows.size()) + " rows, " +
+           std::to_string(history_of(report.content.rows).jobs.size()) + " jobs, " + std::to_string(open_jobs(report)) +
+           " of them open; last hash " + report.content.hash.substr(0, 16);
+}
+
+Json row_json(const JournalRow& row) {
+    return {{"number", row.number},
+            {"unix_ms", row.unix_ms},
+            {"kind", name(row.event.kind)},
+            {"job_id", row.event.job_id == Uuid{} ? Json() : Json(to_text(row.event.job_id))},
+            {"data", text_of(row.event)},
+            {"meaning", describe(row.event)}};
+}
+
+}  // namespace
+
+std::vector<std::string> lines(const std::vector<JournalReport>& reports) {
+    std::vector<std::string> text;
+    for (const JournalReport& report : reports) {
+        text.push_back("journal of " + to_text(report.content.cell) + ", " + report.folder);
+        if (report.shows) {
+            std::vector<std::vector<std::string>> rows{{"row", "UTC", "job", "event", ""}};
+            for (const JournalRow& row : report.content.rows) {
+                rows.push_back({std::to_string(row.number), time_text(row.unix_ms), job_text(row.event),
+                                name(row.event.kind), describe(row.event)});
+            }
+            for (std::string& line : columns(rows)) text.push_back(std::move(line));
+        }
+        text.push_back(verdict_line(report));
+    }
+    if (reports.empty()) text.emplace_back("there is no journal yet; the first dispatch to a cell makes one");
+    return text;
+}
+
+std::string document(const std::vector<JournalReport>& reports) {
+    Json journals = Json::array();
+    for (const JournalReport& report : reports) {
+        Json one = {{"folder", report.folder},
+                    {"cell_id", report.content.cell.cell_id},
+                    {"simulated", report.content.cell.simulated},
+                    {"endpoint", printable(report.content.cell.endpoint)},
+                    {"is_whole", true},
+                    {"hash", report.content.hash},
+                    {"row_count", report.content.rows.size()},
+                    {"open_jobs", open_jobs(report)}};
+        if (report.shows) {
+            one["rows"] = Json::array();
+            for (const JournalRow& row : report.content.rows) one["rows"].push_back(row_json(row));
+        }
+        journals.push_back(std::move(one));
+    }
+    return text_of(Json{{"schema", "qchopper-journal-1"}, {"journals", journals}});
+}
+
+}  // namespace qchopper

@@ -1,0 +1,45 @@
+// O(bytes).
+
+#include "app/store/caches/cache_file.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/hex.h"
+#include "base/sha256.h"
+
+namespace qchopper {
+
+namespace fs = std::filesystem;
+
+fs::path cache_file(const fs::path& folder, const CacheWriter& key, const std::string& extension) {
+    return folder / (to_hex(sha256(key.bytes())) + extension);
+}
+
+std::optional<Bytes> kept(const fs::path& file) {
+    try {
+        Bytes bytes = read_file(file);
+        if (bytes.size() < sizeof(Sha256)) return std::nullopt;
+        const std::size_t size = bytes.size() - sizeof(Sha256);
+        const Sha256 digest = sha256(std::span(bytes).first(size));
+        if (!std::equal(digest.bytes.begin(), digest.bytes.end(), bytes.end() - sizeof(Sha256))) return std::nullopt;
+        bytes.resize(size);
+        return bytes;
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
+void keep(const fs::path& file, const CacheWriter& content) {
+    Bytes bytes = content.bytes();
+    const Sha256 digest = sha256(bytes);
+    bytes.insert(bytes.end(), digest.bytes.begin(), digest.bytes.end());
+    std::error_code error;
+    fs::create_directories(file.parent_path(), error);
+    try {
+        write_file(file, bytes);
+    } catch (const InputError&) {
+    }
+}
+
+}  // namespace qchopper

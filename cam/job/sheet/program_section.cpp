@@ -1,0 +1,71 @@
+// Tables of values.
+
+#include "cam/job/sheet/program_section.h"
+
+#include "base/text.h"
+#include "cam/cell/allowed_tools.h"
+#include "cam/job/left_out.h"
+#include "cam/job/sheet/sheet_html.h"
+
+namespace qchopper {
+namespace {
+
+using namespace sheet;
+
+std::string chunks_of(const JobProgram& program) {
+    Rows rows{{right("chunk"), word("file"), right("tool"), right("direction"), right("moves"), right("length, m")}};
+    for (const JobChunk& chunk : program.chunks) {
+        rows.push_back({right(std::to_string(rows.size())), word(chunk.file), right(std::to_string(chunk.tool)),
+                        right(std::to_string(chunk.direction + 1)), right(with_commas(chunk.moves)),
+                        number(chunk.length_mm / 1000, 1)});
+    }
+    return table(rows);
+}
+
+std::string left_out_of(const JobProgram& program, const std::vector<std::uint16_t>& allowed) {
+    std::string html;
+    if (!allowed.empty()) {
+        html += paragraph("By order of the operator it is carved with " + describe_tools(allowed) + " alone.");
+    }
+    const std::string moves = describe(program.moves_left_out);
+    if (!moves.empty()) html += paragraph("Left out: " + moves + ".");
+    if (program.left_out.empty()) return html;
+    Rows rows{{right("tool left out"), right("direction"), word("because")}};
+    for (const ToolLeftOut& tool : program.left_out) {
+        rows.push_back({right(tool.tool ? std::to_string(*tool.tool) : "all"),
+                        right(tool.direction ? std::to_string(*tool.direction + 1) : "all"), word(tool.because)});
+    }
+    return html + table(rows) + paragraph("The proof says how much of the surface is given up for that.");
+}
+
+std::string proof_of(const ProgramInput& input) {
+    std::string html;
+    if (!input.is_proven) {
+        html += stop("DO NOT START: the replay of the program found faults.");
+        for (const std::string& finding : input.findings) html += paragraph(finding);
+    }
+    html += paragraph(
+        "Proof: the files of the program were read back and replayed in a block of foam by a part of qchopper that "
+        "does not know how they were made.");
+    Rows rows{{word("figure"), right("value"), word("unit")}};
+    for (const ProofFigure& figure : input.figures) {
+        rows.push_back({word(figure.name), number(figure.value, figure.decimals), word(figure.unit)});
+    }
+    html += table(rows);
+    if (input.deviation_picture.empty()) return html;
+    return html + figure({"deviation.png", deviation_picture_width, deviation_picture_height},
+                         "The piece as the replay left it, coloured by its deviation from the piece as ordered.");
+}
+
+}  // namespace
+
+std::string program_section(const JobInput& input) {
+    constexpr const char* title = "Program and proof";
+    if (!input.program) {
+        return section(title, paragraph("This job holds no robot program: " + input.no_program_because + "."));
+    }
+    return section(title, left_out_of(input.program->program, input.setup.tools) + proof_of(*input.program) +
+                              chunks_of(input.program->program));
+}
+
+}  // namespace qchopper

@@ -1,0 +1,157 @@
+// Bars are boxes, arrows and points are bodies of revolution of 16 sides. Drawn without ambient light, because rays of
+// single precision follow the processor's instruction set and the job must not. O(triangles + samples) a picture: 0.24
+// s of processor time for both at 100,000 faces, 0.43 s at 1.9 million.
+
+#include "cam/job/sheet/setup_picture.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "cam/job/sheet/solid_shapes.h"
+#include "segment/picture/picture.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::array states{SurfaceState::reached, SurfaceState::too_narrow, SurfaceState::steep,
+                            SurfaceState::holder,  SurfaceState::hidden,     SurfaceState::ignored};
+constexpr std::uint8_t base_index = states.size();  // in the palette, after the states
+
+constexpr Rgb bar_colour{105, 110, 120};
+constexpr Rgb arrow_colour{70, 75, 85};
+constexpr Rgb touch_colour{25, 27, 30};
+
+// Bars of so many mm along those edges of a box whose middle the test accepts.
+template <class Test>
+void add_bars(TriangleMesh& mesh, const Box& box, double width, Test is_wanted) {
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const bool at_max : {false, true}) {
+            for (const bool at_other_max : {false, true}) {
+                const int second = (axis + 1) % 3;
+                const int third = (axis + 2) % 3;
+                Box edge = box;
+                edge.min[second] = edge.max[second] = at_max ? box.max[second] : box.min[second];
+                edge.min[third] = edge.max[third] = at_other_max ? box.max[third] : box.min[third];
+                if (!is_wanted(edge)) continue;
+                const Vec3 half{width / 2, width / 2, width / 2};
+                add_box(mesh, {edge.min - half, edge.max + half});
+            }
+        }
+    }
+}
+
+TriangleMesh bars_of(const Setup& setup, double width) {
+    TriangleMesh bars;
+    Box box = setup.block_box();
+    add_bars(bars, box, width, [](const Box&) { return true; });
+    if (setup.spoil <= 0) return bars;
+    box.max.z = 0;  // where the piece is parted from the spoil layer
+    add_bars(bars, box, width / 2, [](const Box& edge) { return edge.min.z == 0 && edge.max.z == 0; });
+    return bars;
+}
+
+// From outside towards the middle of the piece, its tip just outside of the block.
+TriangleMesh arrow(const Setup& setup, Vec3 out, double diagonal) {
+    const Box block = setup.block_box();
+    const Vec3 middle = setup.box.centre();
+    double inside = std::numeric_limits<double>::max();
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::abs(out[axis]) < 1e-9) continue;
+        const double side = out[axis] > 0 ? block.max[axis] : block.min[axis];
+        inside = std::min(inside, std::max(0.0, (side - middle[axis]) / out[axis]));
+    }
+    const double length = 0.24 * diagonal;
+    const double head = 0.09 * diagonal;
+    const Vec3 tail = middle + (inside + 0.015 * diagonal + length) * out;
+    const double shaft = 0.010 * diagonal;
+    return turned_profile(tail, -out,
+                          {{0, 0}, {0, shaft}, {length - head, shaft}, {length - head, 0.03 * diagonal}, {length, 0}});
+}
+
+std::vector<std::uint8_t> colours_of(const JobInput& input, const TriangleMesh& lying) {
+    assert(input.states.empty() || input.states.size() == lying.triangles.size());
+    std::vector<std::uint8_t> colours(lying.triangles.size());
+    for (std::size_t t = 0; t < colours.size(); ++t) {
+        if (!input.states.empty()) colours[t] = static_cast<std::uint8_t>(input.states[t]);
+        if (input.setup.base && cap_of(lying, t) == *input.setup.base) colours[t] = base_index;
+    }
+    return colours;
+}
+
+}  // namespace
+
+Rgb surface_colour(SurfaceState state, bool narrow_counts) {
+    switch (state) {
+        case SurfaceState::reached:
+            return bone_colour;
+        case SurfaceState::too_narrow:
+            return narrow_counts ? Rgb{20, 105, 215} : Rgb{165, 200, 235};
+        case SurfaceState::steep:
+            return {250, 195, 0};
+        case SurfaceState::holder:
+            return {105, 25, 115};
+        case SurfaceState::hidden:
+            return {205, 50, 15};
+        case SurfaceState::ignored:
+            return {150, 155, 160};
+    }
+    return bone_colour;
+}
+
+std::array<TouchPoint, 3> touch_points(const Setup& setup) {
+    const Box block = setup.block_box();
+    return {{{"P1", "corner of the block's top at -x, -y", {block.min.x, block.min.y, block.max.z}},
+             {"P2", "corner of the block's top at +x, -y", {block.max.x, block.min.y, block.max.z}},
+             {"P3", "corner of the block's top at -x, +y", {block.min.x, block.max.y, block.max.z}}}};
+}
+
+SetupPictures setup_pictures(const JobInput& input, const TriangleMesh& lying) {
+    const Setup& setup = input.setup;
+    const double diagonal = norm(setup.block.size);
+    std::array<Rgb, states.size() + 1> palette;
+    for (const SurfaceState state : states) {
+        palette[static_cast<std::size_t>(state)] = surface_colour(state, setup.reach.narrow_counts);
+    }
+    palette[base_index] = base_colour;
+    const std::vector<std::uint8_t> colours = colours_of(input, lying);
+    std::vector<std::pair<TriangleMesh, std::string>> named;  // with what is written on each
+    for (const SetupDirection& direction : setup.reach.directions) {
+        const Vec3 out = setup.tool_axis(direction);
+        named.emplace_back(arrow(setup, out, diagonal), std::to_string(named.size() + 1));
+    }
+    const std::size_t arrows = named.size();
+    for (const TouchPoint& point : touch_points(setup))
+        named.emplace_back(ball_mesh(point.at, 0.016 * diagonal), point.name);
+    const TriangleMesh bars = bars_of(setup, 0.0045 * diagonal);
+
+    std::vector<ColouredMesh> meshes;
+    ColouredMesh piece{&lying, bone_colour, {}};
+    piece.palette = palette;
+    piece.colour_of = colours;
+    meshes.push_back(piece);
+    meshes.push_back({&bars, bar_colour, {}});
+    for (std::size_t i = 0; i < named.size(); ++i) {
+        meshes.push_back({&named[i].first, i < arrows ? arrow_colour : touch_colour, {}, named[i].second});
+    }
+    const Scene scene(meshes, false);
+    PictureOptions options;
+    options.width = setup_picture_width;
+    options.height = setup_picture_height;
+    options.background = {255, 255, 255};
+    options.ambient_rays = 0;
+    options.outline = 0;
+    options.frame = 0.03;
+    options.letters = 0.034;  // printed side by side on A4 they are 2 mm high
+    SetupPictures pictures;
+    options.view = {0.5, 0.8, -0.42};
+    pictures.front = render_png(scene, options);
+    options.view = {-0.5, -0.8, 0.3};
+    pictures.back = render_png(scene, options);
+    return pictures;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,173 @@
+// One function per section, on helpers that escape every text. O(size of the details).
+
+#include "cam/job/sheet/sheet_details.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/hex.h"
+#include "base/text.h"
+#include "cam/job/manifest.h"
+#include "cam/job/sheet/cap_section.h"
+#include "cam/job/sheet/envelope_section.h"
+#include "cam/job/sheet/holding_section.h"
+#include "cam/job/sheet/program_section.h"
+#include "cam/job/sheet/setup_picture.h"
+#include "cam/job/sheet/sheet_html.h"
+#include "segment/picture/svg.h"
+
+namespace qchopper {
+namespace {
+
+using namespace sheet;
+
+double degrees(double radians) {
+    return radians * 180 / std::numbers::pi;
+}
+
+std::string piece_section(const Setup& setup) {
+    const Vec3 size = setup.box.size();
+    std::string base = "Base " + std::to_string(setup.base_number) + ": " + setup.base_description;
+    if (setup.base) base += ", " + fixed(setup.base_mm2 / 100, 1) + " cm2";
+    return section("Piece", paragraph("It lies in the middle of the block, " + fixed(size.x, 1) + " mm along x, " +
+                                      fixed(size.y, 1) + " mm along y, " + fixed(size.z, 1) +
+                                      " mm high, its base at z = 0. preview.glb shows it as it lies.") +
+                                paragraph(base + ". Up is (" + fixed(setup.up.x, 4) + ", " + fixed(setup.up.y, 4) +
+                                          ", " + fixed(setup.up.z, 4) + ") of the scan.") +
+                                paragraph("Undercut: " + percent(setup.undercut, 1) + " of the projected area, " +
+                                          percent(setup.undercut_by_count, 1) + " of the triangles."));
+}
+
+std::vector<Entry> direction_row(const Setup& setup, const std::string& name, const SetupDirection& direction) {
+    const Vec3 out = setup.tool_axis(direction);
+    const bool is_vertical = std::hypot(out.x, out.y) < 1e-6;
+    const double azimuth = degrees(std::atan2(out.y, out.x));
+    return {word(name), number(direction.tilt_deg, 1),
+            is_vertical ? right("any") : number(azimuth < -0.05 ? azimuth + 360 : azimuth, 1),
+            number(100 * direction.gained_share, 1), number(direction.depth_mm, 1)};
+}
+
+std::string direction_section(const JobInput& input) {
+    const SurfaceReach& reach = input.setup.reach;
+    const std::string arm = paragraph(reach.is_arm_checked ? "Arm checked: it holds the tool in all these directions."
+                                                           : "Arm not checked: whether it holds the tool in these "
+                                                             "directions is not known.");
+    if (reach.directions.empty()) return section("Directions", paragraph("None was chosen.") + arm);
+    Rows rows{{word("direction"), right("tilt, degrees"), right("azimuth, degrees"), right("surface gained, %"),
+               right("depth")}};
+    for (std::size_t i = 0; i < reach.directions.size(); ++i) {
+        rows.push_back(direction_row(input.setup, std::to_string(i + 1), reach.directions[i]));
+    }
+    if (reach.further) rows.push_back(direction_row(input.setup, "worth adding", *reach.further));
+    return section(
+        "Directions",
+        table(rows) +
+            paragraph("Tilt: of the tool from the vertical. Azimuth: towards which the upper end of the tool "
+                      "then leans, from x towards y. Gained: reached by this direction and by none before "
+                      "it. Depth: from where the tool enters the block to the deepest surface.") +
+            arm);
+}
+
+std::string reach_section(const JobInput& input) {
+    constexpr const char* title = "What the tool does not reach";
+    const SurfaceReach& reach = input.setup.reach;
+    if (reach.area_mm2 <= 0) return section(title, paragraph("Not judged: the pictures show the piece in one colour."));
+    Rows rows{{word("surface"), right("cm2"), right("% of the surface"), word("because")}};
+    std::string besides;
+    const auto add = [&](SurfaceState state, const char* name, double mm2, bool counts, const char* why) {
+        const Entry in_colour = key(svg_colour(surface_colour(state, reach.narrow_counts)), name);
+        if (counts) {
+            rows.push_back({in_colour, number(mm2 / 100, 1), number(100 * mm2 / reach.area_mm2, 2), word(why)});
+        } else if (mm2 > 0) {
+            besides += "<p>" + in_colour.html + svg_text(": " + fixed(mm2 / 100, 1) + " cm2, " + why) +
+                       "; does not count</p>\n";
+        }
+    };
+    add(SurfaceState::hidden, "hidden", reach.hidden_mm2, true, "in sight of no direction");
+    add(SurfaceState::steep, "steep", reach.steep_mm2, reach.steep_counts, "within 3 degrees of a direction");
+    add(SurfaceState::holder, "holder", reach.holder_mm2, true, "the tool is too short: its holder would touch");
+    add(SurfaceState::too_narrow, "too narrow", reach.too_narrow_mm2, reach.narrow_counts,
+        "the smallest tool does not fit in");
+    add(SurfaceState::ignored, "ignored", reach.ignored_mm2, false, "may stay as it is by the operator's choice");
+    rows.push_back({word("unreachable together"), number(reach.unreachable_mm2() / 100, 1),
+                    number(100 * reach.unreachable_share(), 2), word("")});
+    rows.push_back({word("limit"), word(""),
+                    input.max_unreachable < 1 ? number(100 * input.max_unreachable, 2) : right("none"), word("")});
+    std::string html = table(rows) + besides + "<p>" +
+                       key(svg_colour(base_colour), "the base, which is left out of all shares").html + "</p>\n";
+    if (input.states.empty()) {
+        html += paragraph("The pictures show the piece in one colour: which triangles are reached was not computed.");
+    }
+    if (reach.method == ReachMethod::mapped) {
+        html += table(
+            {{word("foam that stays"), right("cm3"), right("depth, at most")},
+             {word("where no tool of these directions reaches"), number(reach.foam_mm3 / 1000, 1),
+              number(reach.foam_depth_mm, 1)},
+             {word("residue of the smallest tool's radius, besides"), number(reach.residue_mm3 / 1000, 1), word("")}});
+    } else {
+        html +=
+            paragraph("Judged by samples of the surface: volume and depth of the foam that stays are not computed.");
+    }
+    return section(title, html);
+}
+
+std::string alternative_section(const JobInput& input) {
+    if (input.alternatives.empty()) return section("Other bases", paragraph("None."));
+    Rows rows{{right("base"), word("what it is"), word("judged by"), right("unreachable, %"), right("foam, cm3"),
+               right("residue, cm3"), word("block"), right("directions")}};
+    for (const Alternative& other : alternatives_of(input)) {
+        const bool is_mapped = other.method == ReachMethod::mapped;
+        rows.push_back({right(std::to_string(other.base_number)), word(other.base_description),
+                        word(is_mapped ? "height maps" : "samples"), number(100 * other.unreachable_share, 2),
+                        is_mapped ? number(other.foam_mm3 / 1000, 1) : right("-"),
+                        is_mapped ? number(other.residue_mm3 / 1000, 1) : right("-"), word(size_text(other.block)),
+                        right(std::to_string(other.directions))});
+    }
+    return section("Other bases", table(rows) + paragraph("qchopper setup --base takes the number of a base."));
+}
+
+std::string margin_section(const EnvelopeReport& envelope) {
+    Rows rows{{word("margin"), right("mm")}};
+    for (const Margin& margin : envelope.margins) rows.push_back({word(margin.name), number(margin.mm, 1)});
+    return section("Margins", table(rows) + paragraph("What is negative does not fit."));
+}
+
+std::string warning_section(const JobInput& input) {
+    std::string list;
+    for (const std::string& warning : warnings_of(input)) list += "<li>" + svg_text(warning) + "</li>\n";
+    return section("Warnings", list.empty() ? paragraph("None.") : "<ul>\n" + list + "</ul>\n");
+}
+
+}  // namespace
+
+std::string title_of(const JobInput& input) {
+    return "piece " + input.piece.name + " (" + std::to_string(input.piece_no) + " of " +
+           std::to_string(input.piece_count) + ")";
+}
+
+std::vector<std::string> warnings_of(const JobInput& input) {
+    std::vector<std::string> all = input.setup.warnings;
+    all.insert(all.end(), input.warnings.begin(), input.warnings.end());
+    return all;
+}
+
+std::string sheet_footer(const JobInput& input) {
+    return "<footer>" +
+           svg_text("Project " + to_hex(input.project_id) + ". Scan " + to_hex(input.scan_sha256) +
+                    ". Written by qchopper " + input.program_version + ".") +
+           "</footer>\n";
+}
+
+std::string sheet_details(const JobInput& input) {
+    return document("Details: " + title_of(input),
+                    page_begin + ("<h1>" + svg_text("Details: " + title_of(input)) + "</h1>\n") +
+                        paragraph("Behind the setup sheet, setup.html: why the piece lies as it lies, and what was "
+                                  "checked. Lengths are in mm where nothing else is stated.") +
+                        warning_section(input) + piece_section(input.setup) + direction_section(input) +
+                        reach_section(input) + cap_section(input) + program_section(input) + envelope_section(input) +
+                        margin_section(input.envelope) + formula_section(input.setup) + alternative_section(input) +
+                        sheet_footer(input) + page_end);
+}
+
+}  // namespace qchopper

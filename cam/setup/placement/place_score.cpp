@@ -1,0 +1,192 @@
+// Branches, turns and angles are tried one after another, what was best at the last place first; each is left as soon
+// as it is known to be worse than the best so far.
+
+#include "cam/setup/placement/place_score.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "cam/setup/holder_limit.h"
+
+namespace qchopper {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double nothing = -std::numeric_limits<double>::infinity();
+constexpr double table_step = 15 * degree;
+constexpr int table_angles = 24;
+
+}  // namespace
+
+std::vector<ArmBranch> all_branches() {
+    std::vector<ArmBranch> branches;
+    for (const bool back : {false, true}) {
+        for (const bool elbow : {false, true}) {
+            for (const bool wrist : {false, true}) branches.push_back({back, elbow, wrist});
+        }
+    }
+    return branches;
+}
+
+PlaceScorer::PlaceScorer(const Setup& setup, const Cell& cell, const std::vector<DirectionPoses>& directions)
+    : setup_(setup),
+      cell_(cell),
+      directions_(directions),
+      judge_(cell, longest_tool(cell.machine->tools)),
+      branches_(all_branches()),
+      hints_(directions.size()),
+      preferred_angle_(directions.size(), 0) {
+    for (const CarvingTool& tool : cell.machine->tools) home_judges_.emplace_back(cell, tool);
+    if (const auto& robot = cell.machine->robot) {
+        const ArmBranch home_branch = branch_of(robot->geometry, cell.machine->start.joints);
+        const auto home = std::find(branches_.begin(), branches_.end(), home_branch);
+        std::rotate(branches_.begin(), home, home + 1);
+    }
+    order_.resize(directions.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    for (std::size_t d = 0; d < directions.size(); ++d) hints_[d].resize(directions[d].regions.size());
+}
+
+PlaceScore PlaceScorer::judged(BlockPlacement placement, const ScoreOptions& options) {
+    ++places_;
+    PlaceScore place{std::numeric_limits<double>::infinity(), std::move(placement), {}};
+    place.holds.resize(directions_.size());
+    for (std::size_t i = 0; i < order_.size() && place.score >= options.bound; ++i) {
+        const std::size_t d = order_[i];
+        ScoreOptions own = options;
+        if (!options.best_everywhere) own.enough = std::min(own.enough, place.score);
+        place.score = std::min(place.score, direction_score(d, own, place));
+        if (place.score >= options.bound) continue;
+        // What was too bad here is asked for first at the next place.
+        const auto worst = order_.begin() + static_cast<std::ptrdiff_t>(i);
+        std::rotate(order_.begin(), worst, worst + 1);
+    }
+    return place;
+}
+
+StandingBlock PlaceScorer::standing(const BlockPlacement& placement, std::size_t direction) const {
+    return judge_.standing(setup_in_cell(cell_, setup_.spoil, placement, direction), setup_.block_box());
+}
+
+// Of home with each tool, the first being the one of the poses.
+double PlaceScorer::home_score(const BlockPlacement& placement) {
+    MarginTally tally(false);
+    const StandingBlock block = standing(placement, 0);
+    for (PoseJudge& judge : home_judges_) judge.judge_home(block, tally);
+    return tally.score();
+}
+
+double PlaceScorer::direction_score(std::size_t d, const ScoreOptions& options, PlaceScore& place) {
+    if (!has_rotary()) return score_at(d, options, place.placement, place.holds[d]);
+    std::vector<double>& angles = place.placement.table_angles;
+    if (are_angles_given_ || !options.freedom.table_angles) {
+        if (!are_angles_given_) angles.assign(directions_.size(), 0);
+        return score_at(d, options, place.placement, place.holds[d]);
+    }
+    angles.resize(directions_.size(), 0);
+    double best = nothing;
+    double best_angle = preferred_angle_[d];
+    const auto consider = [&](double angle) {
+        if (best >= options.enough) return;
+        angles[d] = std::remainder(angle, 2 * std::numbers::pi);
+        std::vector<RegionHold> holds;
+        ScoreOptions better = options;
+        better.bound = std::max(options.bound, best);
+        const double score = score_at(d, better, place.placement, holds);
+        if (score <= best) return;
+        best = score;
+        best_angle = angles[d];
+        place.holds[d] = std::move(holds);
+    };
+    // Next to the angle that was best at the last place first; a multiple of 15 degrees, or of 30 in a search.
+    const int every = options.all || has_fine_angles_ ? 1 : 2;
+    const int first = static_cast<int>(std::lround(preferred_angle_[d] / table_step / every)) * every;
+    for (int i = 0; i < table_angles; i += every) {
+        const int k = i / every % 2 == 0 ? i / every / 2 : -(i / every + 1) / 2;
+        consider((first + k * every) * table_step);
+    }
+    if (options.all && best >= options.bound) {
+        for (const double step : {5 * degree, 2 * degree}) {
+            const double middle = best_angle;
+            consider(middle - step);
+            consider(middle + step);
+        }
+    }
+    angles[d] = best_angle;
+    if (best >= options.bound) preferred_angle_[d] = best_angle;
+    return best;
+}
+
+double PlaceScorer::score_at(std::size_t d, ScoreOptions options, const BlockPlacement& placement,
+                             std::vector<RegionHold>& holds) {
+    const StandingBlock block = standing(placement, d);
+    const DirectionPoses& direction = directions_[d];
+    // Home is where the table stands as for the first direction.
+    double score = d == 0 ? home_score(placement) : std::numeric_limits<double>::infinity();
+    for (std::size_t r = 0; r < direction.regions.size() && score >= options.bound; ++r) {
+        const PoseRegion& region = direction.regions[r];
+        const std::size_t count = options.all ? region.poses.size() : region.extremes;
+        RegionHold hold;
+        if (!options.best_everywhere) options.enough = std::min(options.enough, score);
+        score = std::min(score, region_score({block, direction.out, region, count}, options, hints_[d][r], hold));
+        holds.push_back(hold);
+    }
+    return score;
+}
+
+double PlaceScorer::candidate_score(const PlacedRegion& placed, double bound, RegionHint& hint, RegionHold& hold) {
+    // Alone a pose is held no worse than among the others.
+    if (hint.worst < placed.count) {
+        alone_.poses.assign(1, placed.region.poses[hint.worst]);
+        alone_.poses.front().beside = 0;
+        RegionHold own = hold;
+        MarginTally tally(false);
+        judge_.judge(placed.block, placed.out, alone_, 1, own, bound, tally);
+        if (tally.score() < bound) return nothing;
+    }
+    MarginTally tally(false);
+    judge_.judge(placed.block, placed.out, placed.region, placed.count, hold, bound, tally);
+    hint.worst = tally.worst_pose();
+    return tally.score();
+}
+
+double PlaceScorer::region_score(const PlacedRegion& placed, const ScoreOptions& options, RegionHint& hint,
+                                 RegionHold& best_hold) {
+    double best = nothing;
+    const CureFreedom& freedom = options.freedom;
+    const auto consider = [&](RegionHold hold) {
+        if (best >= options.enough) return false;
+        const double score = candidate_score(placed, std::max(options.bound, best), hint, hold);
+        if (score <= best) return false;
+        best = score;
+        best_hold = hold;
+        return true;
+    };
+    if (judge_.is_gantry()) {
+        consider({});
+        return best;
+    }
+    const bool is_free = freedom.tool_turns && judge_.turns_by_axis_6();
+    const int turns = freedom.tool_turns && !is_free ? tool_turns : 1;
+    const std::size_t branches = freedom.branches ? branches_.size() : 1;
+    const std::size_t first = freedom.branches ? hint.branch : 0;
+    for (std::size_t i = 0; i < branches; ++i) {
+        const std::size_t b = (first + i) % branches_.size();
+        for (int turn = 0; turn < turns; ++turn) {
+            if (consider({branches_[b], turn * 10 * degree, is_free}) && best >= options.bound) hint.branch = b;
+        }
+    }
+    if (turns == 1 || best < options.bound) return best;
+    for (const double step : {5 * degree, 2.5 * degree, 1.25 * degree}) {
+        const RegionHold middle = best_hold;
+        for (const double turn : {middle.tool_turn - step, middle.tool_turn + step}) {
+            consider({middle.branch, std::remainder(turn, 2 * std::numbers::pi), false});
+        }
+    }
+    return best;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,80 @@
+// How a job is handed to a cell: the choices of the caller and the time limits of the hand-off.
+//
+// Times in seconds.
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "cam/job/ticket.h"
+#include "devices/journal/journal_event.h"
+#include "devices/wire/codes.h"
+
+namespace qchopper {
+
+struct HandOffTimings {
+    double poll_s = 0.5;          // between two reads of STATUS
+    double heartbeat_s = 0.5;     // between two heartbeats; the cell's watchdog expires at 2.5
+    double answer_s = 10;         // for a command without consent (VERIFY and REHEARSE: 10 times this)
+    double resend_s = 1;          // until a command without acknowledgement is sent again
+    double consent_s = 600;       // for the operator at the cell
+    double link_patience_s = 30;  // for a lost link, and for a frozen cell before the start
+    double frozen_s = 2.5;        // without a change of the cell's heartbeat: the cell counts as frozen
+    double leave_s = 2;           // from the request to stop to the end of the hand-off, whatever the cell does
+};
+
+// What the journal of the cell says of its memory and of the job.
+struct HandOffPast {
+    std::optional<SeenStore> store;  // as the cell showed it last
+    bool store_is_lost = false;      // and nobody has accepted the new one
+    std::uint32_t epoch = 0;         // the highest one used in CLAIM
+    std::uint32_t grant = 0;         // of the last CLAIM before a START could be sent
+    // The same owner goes on while its lease may live; owner 0: draw a new one.
+    std::uint32_t owner = 0;
+    std::uint32_t secret = 0;
+    std::uint32_t seq = 0;  // its last CMD_SEQ
+    // Of a job that is taken up.
+    bool is_stored = false;
+    bool start_may_have_arrived = false;
+    bool is_started = false;
+    std::uint32_t start_boots = 0;  // BOOT_COUNT before its START
+};
+
+// The time of a hand-off, in seconds from any moment; it never goes back. Empty: the clock of the computer.
+struct HandOffClock {
+    std::function<double()> now_s;
+    std::function<void(double seconds)> sleep;  // both or none
+};
+
+struct DispatchOptions {
+    std::uint16_t cell_id = 0xFFFF;     // any other cell is refused
+    bool want_simulated = true;         // a cell whose FLAGS differ from this is refused
+    std::filesystem::path drop_folder;  // where the cell fetches job files; empty: sent in chunks over the bus
+    LinkLoss on_link_loss = LinkLoss::go_on;
+    bool rehearse = false;             // REHEARSE before PREPARE
+    bool stop_when_cancelled = false;  // a request to stop while the job runs also stops the machine
+    HandOffTimings timings;
+    bool again = false;               // also a file that the cell has carved before
+    std::uint32_t takeover_code = 0;  // given at the cell's panel: ends the lease of another dispatcher
+    std::string address;              // HOST:PORT for the commands that the operator is told to run; may be empty
+    std::uint32_t owner_held = 0;     // OWNER_HELD of the first STATUS, if that was read before
+    std::optional<Uuid> job_id;       // empty: a new random one
+    HandOffPast past;
+    HandOffClock clock;  // for tests that count time instead of waiting for it
+    // Draws job id, owner and secret; empty: the operating system does. For tests that repeat a course of events.
+    std::function<std::uint32_t()> random;
+    // Keeps an event before the action that follows from it; if it throws, the action is not done. May be empty.
+    std::function<void(const JournalEvent& event)> journal;
+    // Asked for a command that another program wants to be passed to the cell, none if there is none; and told how it
+    // ended. May be empty.
+    std::function<CellCommand()> request;
+    std::function<void(const std::string& answer)> answer_request;
+    // Told the name of each point in the course of a dispatch, for tests that end the process there. May be empty.
+    std::function<void(const std::string& point)> at_point;
+};
+
+}  // namespace qchopper

@@ -1,0 +1,69 @@
+// What a journal says about its cell and its jobs, for the next dispatcher.
+//
+// A pure function of the rows (tests/devices/hand_off/journal_history_test.cpp). It says what the rows say: where the
+// last ones were lost, an open job may have started all the same, and the numbers are too low. adopt_job() reckons with
+// that.
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "devices/hand_off/dispatch_options.h"
+#include "devices/journal/journal.h"
+#include "devices/wire/blocks.h"
+
+namespace qchopper {
+
+struct JournalJob {
+    Uuid job_id{};
+    Sha256 file_sha256{};
+    std::vector<std::uint16_t> ticket;  // the block TICKET
+    bool is_stored = false;             // STORE may have arrived
+    bool start_may_have_arrived = false;
+    std::uint32_t start_boots = 0;  // BOOT_COUNT as last seen before its START
+    bool is_started = false;
+    bool has_ended = false;  // ended or aborted in the cell
+    JobResult job_result = JobResult::none;
+    std::optional<StartVerdict> verdict;  // of the last hand-off that came to its end
+    bool is_settled = false;              // it was open when the cell lost its memory: what became of it is UNKNOWN
+    bool is_forgotten = false;            // it is older than the memory of the cell
+
+    bool may_have_started() const {
+        return is_started || is_settled || verdict == StartVerdict::unknown ||
+               (start_may_have_arrived && verdict != StartVerdict::not_started);
+    }
+    bool is_complete() const { return has_ended && job_result == JobResult::complete; }
+    // Its hand-off did not come to an end: the cell is to be asked.
+    bool is_open() const { return !has_ended && !is_settled && verdict != StartVerdict::not_started; }
+};
+
+struct JournalHistory {
+    std::optional<SeenStore> store;  // as last seen or accepted
+    bool store_is_lost = false;      // and not accepted since
+    std::uint32_t epoch = 0;         // the highest one used in CLAIM, for the store as it is now
+    std::uint32_t grant = 0;         // of the last CLAIM that was granted, for the store as it is now
+    bool lease_may_live = false;     // of owner and secret
+    std::uint32_t owner = 0;         // of the last CLAIM
+    std::uint32_t secret = 0;
+    std::uint32_t seq = 0;  // the last CMD_SEQ of that owner
+    std::vector<JournalJob> jobs;
+
+    // The last job with this file that has started or may have; nullptr if none.
+    const JournalJob* last_start_of(const Sha256& file) const;
+};
+
+// What a hand-off to this cell has to know; of `job` if it is taken up (nullptr: a new job). `owner_held` as STATUS
+// shows it: the last owner goes on too if the cell has not got its RELEASE.
+HandOffPast past_of(const JournalHistory& history, const JournalJob* job, std::uint32_t owner_held = 0);
+
+// Why part `part` of `parts` of a piece must not be carved yet, or "": the part before it has not ended complete. Parts
+// of one piece have the same PROJECT_ID, PIECE_NO and PARTS.
+std::string why_part_must_wait(const JournalHistory& history, const WireTicket& ticket);
+
+JournalHistory history_of(std::span<const JournalRow> rows);
+
+}  // namespace qchopper

@@ -1,0 +1,49 @@
+// How a hand-off ended.
+//
+// Seconds. devices/hand_off/dispatch.h defines STARTED, NOT STARTED and UNKNOWN.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cam/job/ticket.h"
+#include "devices/wire/codes.h"
+
+namespace qchopper {
+
+enum class StartVerdict { started, not_started, unknown };
+
+// STARTED, NOT STARTED, UNKNOWN: ask the cell.
+const char* describe(StartVerdict verdict);
+
+struct JobOutcome {
+    StartVerdict verdict = StartVerdict::unknown;
+    JobState job_state = JobState::none;     // the last one read, of this job
+    JobResult job_result = JobResult::none;  // complete: the cell carved the job to its end
+    Uuid job_id{};
+    std::uint32_t starts = 0;             // STARTS in the cell's RESULT for this job: 0 or 1
+    bool starts_known = false;            // that RESULT was read
+    AckResult refusal = AckResult::none;  // the result with which the cell refused the job
+    bool cancelled = false;               // ended because the caller asked to stop
+    bool carved_before = false;           // not started, because the cell has started a job with this file before
+    bool carved_complete = false;         // and the last of these ended complete
+    bool may_be_carved = false;           // not started, because whether the cell has carved this file is UNKNOWN
+    bool store_is_lost = false;           // CELL_STORE_LOST
+    std::uint16_t cell_id = 0;
+    bool simulated = false;
+    double elapsed_s = 0;          // of the job, counted by the cell
+    double took_s = 0;             // of the whole hand-off
+    std::string why;               // one sentence: how it ended
+    std::string to_do;             // one sentence, may be empty
+    std::vector<std::string> log;  // the steps, one line each
+
+    // Nothing is left to look at: not if the cell lost its memory, whatever became of the job.
+    bool is_complete() const {
+        return verdict == StartVerdict::started && job_state == JobState::ended && job_result == JobResult::complete &&
+               !store_is_lost;
+    }
+};
+
+}  // namespace qchopper

@@ -1,0 +1,250 @@
+// Two tables: a row per field, which writes and reads it, and a row per kind, which lists its fields. O(length of the
+// text).
+
+#include "devices/journal/journal_event.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <initializer_list>
+#include <iterator>
+#include <limits>
+#include <type_traits>
+
+#include "base/hex.h"
+
+namespace qchopper {
+namespace {
+
+template <class Number>
+bool read_number(std::string_view text, Number& number) {
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return fault == std::errc() && end == text.data() + text.size() && text == std::to_string(number);
+}
+
+std::string written(std::uint32_t number) {
+    return std::to_string(number);
+}
+std::string written(std::uint16_t number) {
+    return std::to_string(number);
+}
+template <class Enum>
+requires std::is_enum_v<Enum> std::string written(Enum value) {
+    return std::to_string(static_cast<std::uint32_t>(value));
+}
+std::string written(const Uuid& id) {
+    return to_hex(std::span<const std::uint8_t>(id));
+}
+std::string written(const Sha256& digest) {
+    return to_hex(digest);
+}
+std::string written(const std::vector<std::uint16_t>& registers) {
+    std::vector<std::uint8_t> bytes;
+    for (const std::uint16_t value : registers) {
+        bytes.push_back(static_cast<std::uint8_t>(value >> 8U));
+        bytes.push_back(static_cast<std::uint8_t>(value & 0xFFU));
+    }
+    return to_hex(std::span<const std::uint8_t>(bytes));
+}
+
+bool read(std::string_view text, std::uint32_t& number) {
+    return read_number(text, number);
+}
+bool read(std::string_view text, std::uint16_t& number) {
+    return read_number(text, number);
+}
+template <class Enum>
+requires std::is_enum_v<Enum>
+bool read(std::string_view text, Enum& value) {
+    std::uint32_t number = 0;
+    if (!read_number(text, number) || number > std::numeric_limits<std::underlying_type_t<Enum>>::max()) return false;
+    value = static_cast<Enum>(number);
+    return true;
+}
+bool read(std::string_view text, StartVerdict& verdict) {
+    std::uint32_t number = 0;
+    if (!read_number(text, number) || number > static_cast<std::uint32_t>(StartVerdict::unknown)) return false;
+    verdict = static_cast<StartVerdict>(number);
+    return true;
+}
+bool read(std::string_view text, Uuid& id) {
+    return read_hex(text, id);
+}
+bool read(std::string_view text, Sha256& digest) {
+    return read_hex(text, digest.bytes);
+}
+bool read(std::string_view text, std::vector<std::uint16_t>& registers) {
+    constexpr std::size_t most_registers = 125;
+    if (text.size() % 4 != 0 || text.size() > 4 * most_registers) return false;
+    std::vector<std::uint8_t> bytes(text.size() / 2);
+    if (!read_hex(text, bytes)) return false;
+    registers.clear();
+    for (std::size_t i = 0; i < bytes.size(); i += 2) {
+        registers.push_back(static_cast<std::uint16_t>(bytes[i] << 8U | bytes[i + 1]));
+    }
+    return true;
+}
+
+struct FieldRow {
+    const char* name;
+    std::string (*write)(const JournalEvent&);
+    bool (*read)(std::string_view, JournalEvent&);
+};
+
+template <auto at>
+constexpr FieldRow field(const char* name) {
+    return {name, [](const JournalEvent& event) { return written(event.*at); },
+            [](std::string_view text, JournalEvent& event) { return read(text, event.*at); }};
+}
+template <auto at>
+constexpr FieldRow store_field(const char* name) {
+    return {name, [](const JournalEvent& event) { return written(event.store.*at); },
+            [](std::string_view text, JournalEvent& event) { return read(text, event.store.*at); }};
+}
+
+namespace f {
+constexpr FieldRow job = field<&JournalEvent::job_id>("job");
+constexpr FieldRow sha256 = field<&JournalEvent::file_sha256>("sha256");
+constexpr FieldRow ticket = field<&JournalEvent::ticket>("ticket");
+constexpr FieldRow epoch = field<&JournalEvent::epoch>("epoch");
+constexpr FieldRow seq = field<&JournalEvent::seq>("seq");
+constexpr FieldRow owner = field<&JournalEvent::owner>("owner");
+constexpr FieldRow secret = field<&JournalEvent::secret>("secret");
+constexpr FieldRow command = field<&JournalEvent::command>("command");
+constexpr FieldRow token = field<&JournalEvent::token>("token");
+constexpr FieldRow receipt = field<&JournalEvent::receipt>("receipt");
+constexpr FieldRow grant = field<&JournalEvent::grant>("grant");
+constexpr FieldRow progress = field<&JournalEvent::progress>("progress");
+constexpr FieldRow refusal = field<&JournalEvent::refusal>("refusal");
+constexpr FieldRow state = field<&JournalEvent::job_state>("state");
+constexpr FieldRow result = field<&JournalEvent::job_result>("result");
+constexpr FieldRow starts = field<&JournalEvent::starts>("starts");
+constexpr FieldRow verdict = field<&JournalEvent::verdict>("verdict");
+constexpr FieldRow store = store_field<&SeenStore::store_id>("store");
+constexpr FieldRow version = store_field<&SeenStore::version>("version");
+constexpr FieldRow boots = store_field<&SeenStore::boot_count>("boots");
+constexpr FieldRow held = store_field<&SeenStore::epoch_held>("held");
+constexpr FieldRow total = store_field<&SeenStore::starts_total>("total");
+}  // namespace f
+
+struct KindRow {
+    JournalKind kind;
+    const char* name;
+    std::array<FieldRow, 5> fields;  // those without a name are not there
+};
+using Is = JournalKind;
+constexpr std::array<KindRow, journal_kinds> kind_rows{{
+    {Is::created, "CREATED", {f::job, f::sha256, f::ticket}},
+    {Is::resumed, "RESUMED", {f::job}},
+    {Is::identity, "IDENTITY", {f::store, f::version, f::boots, f::held, f::total}},
+    {Is::claim, "CLAIM", {f::epoch, f::seq, f::owner, f::secret}},
+    {Is::command, "COMMAND", {f::job, f::epoch, f::seq, f::owner, f::command}},
+    {Is::start_intent, "START_INTENT", {f::job, f::epoch, f::seq, f::owner, f::token}},
+    {Is::start_void, "START_VOID", {f::job}},
+    {Is::started, "STARTED", {f::job, f::epoch}},
+    {Is::receipt, "RECEIPT", {f::job, f::receipt}},
+    {Is::progress, "PROGRESS", {f::job, f::progress}},
+    {Is::refused, "REFUSED", {f::job, f::command, f::refusal}},
+    {Is::result, "RESULT", {f::job, f::state, f::result, f::starts}},
+    {Is::closed, "CLOSED", {f::job, f::verdict}},
+    {Is::store_lost, "STORE_LOST", {f::store, f::version, f::boots, f::held, f::total}},
+    {Is::store_accepted, "STORE_ACCEPTED", {f::store, f::version, f::boots, f::held, f::total}},
+    {Is::granted, "GRANTED", {f::epoch, f::owner, f::grant}},
+}};
+
+const KindRow& row_of(JournalKind kind) {
+    return kind_rows[static_cast<std::size_t>(kind)];
+}
+
+std::string of_store(const JournalEvent& event) {
+    const SeenStore& store = event.store;
+    const std::string counters = "BOOT_COUNT " + std::to_string(store.boot_count) + ", EPOCH_HELD " +
+                                 std::to_string(store.epoch_held) + ", STARTS_TOTAL " +
+                                 std::to_string(store.starts_total);
+    return "STORE_ID " + to_text(store.store_id) + ", " + counters;
+}
+
+}  // namespace
+
+const char* name(JournalKind kind) {
+    return row_of(kind).name;
+}
+
+std::optional<JournalKind> journal_kind_from(std::string_view text) {
+    for (const KindRow& row : kind_rows) {
+        if (text == row.name) return row.kind;
+    }
+    return std::nullopt;
+}
+
+std::string text_of(const JournalEvent& event) {
+    std::string text;
+    for (const FieldRow& field : row_of(event.kind).fields) {
+        if (field.name == nullptr) break;
+        if (!text.empty()) text += ' ';
+        text += std::string(field.name) + "=" + field.write(event);
+    }
+    return text;
+}
+
+std::optional<JournalEvent> event_from(JournalKind kind, std::string_view text) {
+    const std::string whole(text);
+    JournalEvent event;
+    event.kind = kind;
+    for (const FieldRow& field : row_of(kind).fields) {
+        if (field.name == nullptr) break;
+        const std::string_view word = text.substr(0, text.find(' '));
+        const std::string begin = std::string(field.name) + "=";
+        if (!word.starts_with(begin) || !field.read(word.substr(begin.size()), event)) return std::nullopt;
+        text.remove_prefix(word.size());
+        if (!text.empty()) text.remove_prefix(1);
+    }
+    if (text_of(event) != whole) return std::nullopt;
+    return event;
+}
+
+std::string describe(const JournalEvent& event) {
+    const auto numbered = [&](const std::string& what) {
+        return what + " (epoch " + std::to_string(event.epoch) + ", number " + std::to_string(event.seq) + ")";
+    };
+    switch (event.kind) {
+        case Is::created:
+            return "a job was made for the file " + to_hex(event.file_sha256).substr(0, 12);
+        case Is::resumed:
+            return "the job of an earlier dispatcher was taken up";
+        case Is::identity:
+            return "the cell showed " + of_store(event);
+        case Is::claim:
+            return numbered("about to send CLAIM");
+        case Is::command:
+            return numbered(std::string("about to send ") + name(event.command));
+        case Is::start_intent:
+            return numbered("about to send START");
+        case Is::start_void:
+            return "the START before had no effect and can have none any more";
+        case Is::started:
+            return "the cell has started the job";
+        case Is::receipt:
+            return "the rehearsal passed";
+        case Is::progress:
+            return "at " + std::to_string(event.progress / 100) + " %";
+        case Is::refused:
+            return std::string("the cell refused ") + name(event.command) + ": " + describe(event.refusal) + " (" +
+                   name(event.refusal) + ")";
+        case Is::result:
+            return std::string("the cell reports the job as ") + name(event.job_state) + " (" + name(event.job_result) +
+                   "), STARTS " + std::to_string(event.starts);
+        case Is::closed:
+            return std::string("the hand-off ended: ") + describe(event.verdict);
+        case Is::store_lost:
+            return "CELL_STORE_LOST: the cell showed " + of_store(event);
+        case Is::store_accepted:
+            return "the operator accepted the memory of the cell: " + of_store(event);
+        case Is::granted:
+            return "the cell granted epoch " + std::to_string(event.epoch) + " under the number " +
+                   std::to_string(event.grant);
+    }
+    return {};
+}
+
+}  // namespace qchopper

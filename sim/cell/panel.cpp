@@ -1,0 +1,155 @@
+// Each function changes a few members and calls the machine for what follows. O(1).
+
+#include "sim/cell/panel.h"
+
+#include <cassert>
+#include <iterator>
+
+#include "sim/cell/machine_parts.h"
+
+namespace qchopper {
+namespace {
+
+constexpr std::uint32_t e_stop_alarm = 1;
+constexpr std::uint32_t door_alarm = 2;
+constexpr std::uint32_t tool_alarm = 3;
+
+bool is_at_rest(PackState state) {
+    return state == PackState::idle || state == PackState::stopped || state == PackState::complete ||
+           state == PackState::held || state == PackState::suspended || state == PackState::aborted;
+}
+
+}  // namespace
+
+void open_door(CellState& cell, bool is_open, CellTime now, const CellHooks& hooks) {
+    pass_time(cell, now, hooks);
+    cell.surroundings.door_open = is_open;
+    cell::log(cell, hooks, is_open ? "the door is open" : "the door is closed");
+    if (!is_open) return;
+    if (is_at_rest(cell.state)) return cell::drop_preparation(cell, AckResult::safety_open);
+    cell::raise_alarm(cell, {door_alarm, 0, "door opened"}, JobResult::aborted, now, hooks);
+}
+
+void press_e_stop(CellState& cell, bool is_pressed, CellTime now, const CellHooks& hooks) {
+    cell.surroundings.e_stop = is_pressed;
+    if (is_pressed) cell::raise_alarm(cell, {e_stop_alarm, 0, "emergency stop"}, JobResult::aborted, now, hooks);
+    if (!is_pressed) cell::log(cell, hooks, "the emergency stop is released");
+}
+
+void set_tool_broken(CellState& cell, bool is_broken, CellTime now, const CellHooks& hooks) {
+    cell.surroundings.tool_broken = is_broken;
+    cell::log(cell, hooks, is_broken ? "the tool is broken" : "the tool is sound");
+    if (!is_broken || !cell.job.is_active()) return;
+    cell::raise_alarm(cell, {tool_alarm, 0, "tool broken"}, JobResult::tool, now, hooks);
+}
+
+void set_local_control(CellState& cell, bool is_local, const CellHooks& hooks) {
+    cell.surroundings.local_control = is_local;
+    cell::log(cell, hooks, is_local ? "under control of the panel" : "under control of the dispatcher");
+    if (is_local) cell::drop_preparation(cell, AckResult::local_control);
+}
+
+void set_block(CellState& cell, BlockOnTable block, const CellHooks& hooks) {
+    const bool was_consented = cell.job.state == JobState::prepared;
+    cell.surroundings.block = block;
+    cell::log(cell, hooks, "the block on the table was changed");
+    if (was_consented) cell::drop_preparation(cell, AckResult::no_consent);
+}
+
+void perform(CellState& cell, const ScriptLine& line, CellTime now, const CellHooks& hooks) {
+    switch (line.act) {
+        case Act::policy:
+            cell.limits.consent = static_cast<Consent>(line.choice);
+            return;
+        case Act::door:
+            return open_door(cell, line.choice == 1, now, hooks);
+        case Act::e_stop:
+            return press_e_stop(cell, line.choice == 1, now, hooks);
+        case Act::panel:
+            return set_local_control(cell, line.choice == 1, hooks);
+        case Act::block:
+            return set_block(cell, static_cast<BlockOnTable>(line.choice), hooks);
+        case Act::tool:
+            return set_tool_broken(cell, line.choice == 1, now, hooks);
+        case Act::seed:
+            cell.faults.random = static_cast<std::uint64_t>(line.number);
+            return;
+        case Act::fault:
+            return arm(cell, line.fault, now);
+        case Act::clear_faults:
+            return disarm_all(cell);
+        default:
+            return;
+    }
+}
+
+bool holds(const CellState& cell, std::size_t choice) {
+    const bool is_so[] = {cell.pending && cell.pending->waits == Pending::Waits::consent,
+                          cell.job.state == JobState::prepared,
+                          cell.state == PackState::execute && cell.job.is_active(),
+                          cell.state == PackState::held,
+                          cell.job.is_finished(),
+                          cell.state == PackState::aborted,
+                          cell.state == PackState::idle};
+    assert(choice < std::size(is_so));
+    return is_so[choice];
+}
+
+void arm(CellState& cell, const ArmedFault& fault, CellTime now) {
+    const auto cut = [&](PowerCut::Store store) {
+        const std::uint64_t after = fault.number < 1 ? 1 : static_cast<std::uint64_t>(fault.number);
+        cell.power = {cell.steps + after, store, false};
+    };
+    switch (fault.fault) {
+        case Fault::power_cut:
+            return cut(PowerCut::Store::stays);
+        case Fault::power_cut_store_lost:
+            return cut(PowerCut::Store::lost);
+        case Fault::power_cut_store_back:
+            return cut(PowerCut::Store::back);
+        case Fault::power_cut_all_back:
+            return cut(PowerCut::Store::all_back);
+        case Fault::clock_jump:
+            cell.jump_ms += 1000 * fault.number;
+            return;
+        case Fault::frozen_heartbeat:
+            cell.frozen_heartbeat = heartbeat_of(cell, now);
+            return;
+        case Fault::heartbeat_at:
+            cell.heartbeat_offset = static_cast<std::uint16_t>(
+                cell.heartbeat_offset + static_cast<std::uint16_t>(fault.number) - heartbeat_of(cell, now));
+            return;
+        default:
+            cell.faults.armed.push_back(fault);
+    }
+}
+
+void disarm_all(CellState& cell) {
+    cell.faults.armed.clear();
+    cell.power.at_event = 0;
+    cell.frozen_heartbeat.reset();
+}
+
+CellMemory memory_after(PowerCut::Store store, const CellMemory& saved) {
+    if (store == PowerCut::Store::stays) return saved;
+    CellMemory memory;
+    if (store == PowerCut::Store::lost) return memory;
+    memory.store_id = saved.store_id;  // the copy that was made when the store was new
+    memory.mark = 1;
+    memory.store_created_ms = saved.store_created_ms;
+    return memory;
+}
+
+CellState power_on(const CellState& before, CellMemory memory, std::uint64_t seed, CellTime now,
+                   const CellHooks& hooks) {
+    CellTime shown = now;
+    shown.unix_ms = cell::unix_ms(before, now);
+    CellState cell = boot(before.limits, std::move(memory), seed, shown, hooks);
+    cell.surroundings = before.surroundings;
+    cell.faults = before.faults;
+    cell.jump_ms = before.jump_ms;
+    cell.store_free_kib = before.store_free_kib;
+    return cell;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,88 @@
+#include "app/jobs/setups.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "base/error.h"
+#include "cam/setup/blocks_needed.h"
+#include "segment/mesh/measure.h"
+#include "tests/cam/setup/pieces.h"
+
+namespace qchopper {
+namespace {
+
+Cell cell_named(const std::string& name) {
+    return read_cell(std::filesystem::path(QCHOPPER_SOURCE_DIR) / "cells" / (name + ".toml"));
+}
+
+// A square frame that lies on its underside, the cap of cut 1: walls of 50 mm around a shaft of 200 mm.
+Piece frame(double height) {
+    TriangleMesh mesh;
+    for (const double z : {0.0, height}) {
+        for (const double half : {150.0, 100.0}) {
+            mesh.points.insert(mesh.points.end(),
+                               {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}});
+        }
+    }
+    const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+        mesh.triangles.push_back({a, b, c});
+        mesh.triangles.push_back({a, c, d});
+    };
+    for (std::uint32_t k = 0; k < 4; ++k) {
+        const std::uint32_t next = (k + 1) % 4;
+        quad(k, next, next + 8, k + 8);            // outside
+        quad(next + 4, k + 4, k + 12, next + 12);  // inside
+        quad(k + 8, next + 8, next + 12, k + 12);  // above
+        quad(next, k, k + 4, next + 4);            // below
+    }
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const Vec3 area = area_vector(mesh, t);
+        mesh.cap_of.push_back(area.z < 0 ? 1 : no_cap);
+    }
+    return {"A", std::make_shared<TriangleMesh>(mesh), {{1, {{0, 0, 1}, 0}, true}}};
+}
+
+TEST(Setups, APieceWhoseShaftIsDeeperThanTheToolIsLongCannotBeCarved) {
+    Setups setups(cell_named("kr60-ha"));
+    const double low = low_piece_height(setups.cell());
+    const Piece high = frame(400);
+    ASSERT_GT(volume_mm3(*high.mesh), 0);
+    EXPECT_TRUE(setups.fits(high)) << "by its block and the poses above it";
+    EXPECT_FALSE(setups.is_carvable(high));
+    EXPECT_FALSE(setups.is_carvable(high)) << "asked again";
+    EXPECT_TRUE(setups.is_carvable(frame(low - 1)));
+}
+
+TEST(Setups, AHighPieceThatTheToolReachesFromItsSidesCanBeCarved) {
+    Setups setups(cell_named("kr60-ha"));
+    const Piece pillar = test_pieces::standing_box({-60, -60, 0}, {60, 60, 220}, 1);
+    EXPECT_GT(220, low_piece_height(setups.cell()));
+    EXPECT_TRUE(setups.is_carvable(pillar));
+}
+
+TEST(Setups, ToolsThatTheOperatorDoesNotAllowAreNotPlannedWith) {
+    Setups setups(cell_named("kr60-ha"));
+    const Piece high = frame(120);
+    const auto with_all = setups.of(high).setup();
+    EXPECT_TRUE(with_all.tools.empty());
+    setups.set_tools({4});  // 100 mm long, the others 150
+    EXPECT_LT(low_piece_height(setups.planned()), low_piece_height(setups.cell()) - 40);
+    const auto with_finest = setups.of(high).setup();
+    EXPECT_EQ(with_finest.tools, std::vector<std::uint16_t>{4});
+    EXPECT_GT(with_finest.reach.holder_mm2, with_all.reach.holder_mm2 + 1000) << "its holder meets the walls";
+    setups.set_orders({{"A", {}, {}, {3, 4}}});
+    EXPECT_EQ(setups.held(high).setup().tools, (std::vector<std::uint16_t>{3, 4})) << "of one piece";
+    EXPECT_THROW(setups.set_tools({9}), InputError);
+}
+
+TEST(Setups, ACellWithoutAMachineKnowsNoToolAndCarvesWhatFits) {
+    Setups setups(cell_named("foam-1"));
+    EXPECT_TRUE(setups.is_carvable(frame(400)));
+}
+
+}  // namespace
+}  // namespace qchopper
