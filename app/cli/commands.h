@@ -8,8 +8,7 @@
 
 #include "app/cli/arguments/arguments.h"
 #include "app/cli/terminal.h"
-#include "app/dispatch/hand_over.h"
-#include "devices/wire/modbus_tcp.h"
+#include "app/report/cell/hand_over_report.h"
 
 namespace qchopper {
 
@@ -32,15 +31,7 @@ int run(const DispatchArguments& arguments, Terminal& terminal);
 int run(const JournalArguments& arguments, Terminal& terminal);
 int run(const CellControlArguments& arguments, Terminal& terminal);
 
-// For dry-run and dispatch: hands the jobs over, shows table or document, and returns the exit code. `next` is the
-// command that comes next if all end complete, or empty.
-int hand_over(const std::vector<PieceJob>& jobs, RegisterBus& bus, const DispatchOptions& options, Journal& journal,
-              const std::string& schema, const std::string& next, Terminal& terminal);
-
-// STATUS of the cell, read before anything is sent. Throws DeviceError, and Cancelled if a stop was requested.
-Status first_status(ModbusTcpBus& bus, const std::string& where, Terminal& terminal);
-
-// Asks on the terminal. Throws InputError (use) if there is none, and Cancelled if a stop was requested.
-bool is_confirmed(const std::string& question);
+// For dry-run and dispatch: shows table or document and returns the exit code.
+int show(const HandOverReport& report, const std::string& schema, Terminal& terminal);
 
 }  // namespace qchopper

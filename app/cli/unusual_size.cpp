@@ -4,7 +4,7 @@
 
 #include <unistd.h>
 
-#include "app/cli/commands.h"
+#include "app/cli/confirm.h"
 #include "base/error.h"
 #include "segment/import/inspect.h"
 

@@ -36,6 +36,11 @@ std::string endpoint_of(const std::string& folder, const JournalCell& cell) {
     return host.find('_') == std::string::npos ? host + ":" + port : std::string();  // an IPv6 address is numeric
 }
 
+bool has_journal(const fs::path& folder) {
+    std::error_code error;
+    return fs::exists(folder / "journal.sqlite", error);
+}
+
 bool stands_for(const std::string& endpoint, const std::string& address) {
     const std::vector<std::string> addresses = numeric_addresses(parse_tcp_address(endpoint));
     return std::find(addresses.begin(), addresses.end(), address) != addresses.end();
@@ -78,6 +83,18 @@ JournalCell journal_cell(std::uint16_t cell_id, bool simulated, const std::strin
         cell = known;
     }
     return cell;
+}
+
+std::vector<fs::path> journal_folders(const fs::path& wanted) {
+    const fs::path state = state_folder();
+    if (!wanted.empty()) return {has_journal(wanted) ? wanted : state / wanted};
+    std::vector<fs::path> folders;
+    std::error_code error;
+    for (fs::directory_iterator entry(state, error), end; !error && entry != end; entry.increment(error)) {
+        if (has_journal(entry->path())) folders.push_back(entry->path());
+    }
+    std::sort(folders.begin(), folders.end());
+    return folders;
 }
 
 }  // namespace qchopper

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "devices/journal/journal.h"
 
@@ -22,5 +23,9 @@ std::filesystem::path journal_folder(const JournalCell& cell);
 // ("localhost:15020"), it is that one, and of several the one that was written last. Resolves the names of the journals
 // that are there. Throws as state_folder().
 JournalCell journal_cell(std::uint16_t cell_id, bool simulated, const std::string& address);
+
+// Of all journals that are there, by name; or of the one that is named, as a path or as a name in the state folder,
+// whether it exists or not. Throws as state_folder().
+std::vector<std::filesystem::path> journal_folders(const std::filesystem::path& wanted);
 
 }  // namespace qchopper

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "app/cli/simulated_limits.h"
+#include "app/dispatch/simulated_limits.h"
 #include "cam/job/read_job.h"
 #include "cam/job/write_job.h"
 #include "cam/setup/choose_setup.h"

@@ -1,7 +1,7 @@
 // Limits of a simulated cell from a cell file: id, reach, stock and all tools. Lengths in mm.
 //
 // A ticket that this program writes for a piece that fits the cell is within them
-// (tests/app/cli/simulated_limits_test.cpp).
+// (tests/app/dispatch/simulated_limits_test.cpp).
 
 #pragma once
 

@@ -1,6 +1,6 @@
 // Tickets of jobs that fit a ready cell are within the limits of the simulated cell that is made of its file.
 
-#include "app/cli/simulated_limits.h"
+#include "app/dispatch/simulated_limits.h"
 
 #include <gtest/gtest.h>
 

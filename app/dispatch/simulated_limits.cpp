@@ -1,6 +1,6 @@
 // One pass over the blocks, and one over the tools.
 
-#include "app/cli/simulated_limits.h"
+#include "app/dispatch/simulated_limits.h"
 
 #include <algorithm>
 

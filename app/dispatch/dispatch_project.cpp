@@ -1,0 +1,153 @@
+// The checks cost O(bytes of the jobs), the hand-off as hand_over.h says.
+
+#include "app/dispatch/dispatch_project.h"
+
+#include "app/dispatch/contact_cell.h"
+#include "app/dispatch/left_open.h"
+#include "app/dispatch/proven_jobs.h"
+#include "app/dispatch/state_folder.h"
+#include "base/error.h"
+#include "cam/cell/cell_check.h"
+#include "devices/hand_off/drop_folder.h"
+#include "devices/hand_off/request_socket.h"
+#include "devices/wire/codec.h"
+#include "devices/wire/device_error.h"
+
+namespace qchopper {
+namespace {
+
+constexpr const char* nothing_started = "The project is unchanged, and this dispatch started no job.";
+
+std::vector<std::string> with(std::vector<std::string> sentences, const char* what_to_do) {
+    for (std::string& sentence : sentences) sentence += what_to_do;
+    return sentences;
+}
+
+// Asks where there is somebody to answer.
+std::vector<std::string> why_not_held(const std::vector<PieceJob>& jobs, const Operator& person,
+                                      const ProjectContext& context) {
+    std::vector<std::string> sentences = unheld_jobs(jobs);
+    if (sentences.empty()) return {};
+    if (person.can_answer) {
+        context.warn(sentences);
+        if (person.confirm("Send " + std::to_string(jobs.size()) + " jobs, these among them?")) return {};
+    }
+    return with(std::move(sentences), "; pass --accept-workholding if the piece is held by more than that");
+}
+
+// Checks 1 to 3: all jobs are looked at before the cell is. Empty: they may go to a simulated cell.
+std::vector<std::string> why_not_any_cell(const ProjectJobs& ordered, const DispatchRequest& request,
+                                          const Operator& person, const ProjectContext& context) {
+    std::vector<std::string> why = unproven_jobs(ordered, false);
+    if (why.empty() && !request.accept_unreachable) {
+        why = with(unreachable_jobs(ordered.jobs), "; pass --accept-unreachable if the foam that stays there may stay");
+    }
+    if (why.empty() && !request.accept_workholding) why = why_not_held(ordered.jobs, person, context);
+    return why;
+}
+
+// What is assumed may be planned and simulated with, never carved with.
+void refuse_uncertain(const Cell& cell) {
+    const CellCheck check = check_cell(cell);
+    if (check.may_be_dispatched()) return;
+    throw InputError(InputFault::config,
+                     "no job goes to a real cell by the cell file of this project: " + check.against_dispatch.front() +
+                         (check.against_dispatch.size() > 1 ? ", and more" : ""),
+                     "see qchopper cells check, measure, correct the cell file and prepare the scan again");
+}
+
+// Check 6.
+std::vector<std::string> why_not_real_cell(const ProjectJobs& ordered, const DispatchRequest& request,
+                                           const std::string& to, const Operator& person) {
+    refuse_uncertain(ordered.cell);
+    std::vector<std::string> why = unproven_jobs(ordered, true);
+    if (!why.empty() || request.is_confirmed) return why;
+    if (person.confirm("Hand " + std::to_string(ordered.jobs.size()) + " jobs to the REAL cell \"" + ordered.cell.name +
+                       "\" at " + to + "?")) {
+        return {};
+    }
+    return {"not confirmed: nothing was sent"};
+}
+
+// The cell may be running a job of an earlier dispatch: the message of an error before it is asked says so.
+void say_what_is_open(const Cell& cell, const std::string& where, const ProjectContext& context) {
+    const std::string open = left_open(cell.id, where);
+    context.saved(nothing_started + (open.empty() ? "" : " " + open));
+}
+
+Status contact(ModbusTcpBus& bus, const std::string& where, const Cell& cell, const ProjectContext& context) {
+    try {
+        return first_status(bus, where, context);
+    } catch (const DeviceError&) {
+        say_what_is_open(cell, where, context);
+        throw;
+    }
+}
+
+void check_drop_folder(const std::filesystem::path& drop, const Cell& cell, const std::string& where,
+                       const ProjectContext& context) {
+    const std::string fault = fault_of_drop_folder(drop);
+    if (fault.empty()) return;
+    say_what_is_open(cell, where, context);
+    throw InputError(InputFault::create, fault,
+                     "mount its share or make it, or name the one of the cell with --drop DIR; small files can go over "
+                     "the link with --chunks");
+}
+
+DispatchOptions options_of(const DispatchRequest& request, const Cell& cell, const Status& status) {
+    DispatchOptions options;
+    options.want_simulated = status.has(flag::simulated);
+    // A simulated cell without an id of its own accepts every one; a real cell must have the id of the project's cell.
+    options.cell_id = options.want_simulated && status.cell_id == any_cell_id ? any_cell_id : cell.id;
+    options.again = request.again;
+    options.rehearse = request.rehearse;
+    options.takeover_code = request.takeover_code;
+    options.owner_held = status.owner_held;
+    return options;
+}
+
+// With the journal of the cell, and a socket for other programs of this user that want the cell to be told something.
+std::vector<HandedOver> hand_over_with_journal(const std::vector<PieceJob>& jobs, ModbusTcpBus& bus,
+                                               DispatchOptions options, const ProjectContext& context) {
+    const JournalCell cell = journal_cell(options.cell_id, options.want_simulated, bus.peer());
+    Journal journal(journal_folder(cell), cell);
+    RequestSocket requests(journal_folder(cell));
+    options.request = [&] { return requests.next(); };
+    options.answer_request = [&](const std::string& answer) { requests.answer(answer); };
+    return hand_over(jobs, bus, options, journal, context);
+}
+
+}  // namespace
+
+DispatchAnswer dispatch_project(const DispatchRequest& request, const Operator& person, const ProjectContext& context) {
+    context.saved(nothing_started);
+    const ProjectJobs ordered = jobs_of(request.project, request.piece, context);
+    const Cell& cell = ordered.cell;
+    DispatchAnswer answer;
+    answer.wanted = ordered.jobs.size();
+    answer.refused = why_not_any_cell(ordered, request, person, context);
+    if (!answer.refused.empty()) return answer;
+    const std::optional<std::string> to = request.to ? request.to : cell.link.to;
+    const std::optional<std::filesystem::path> drop = request.drop ? request.drop : cell.link.drop;
+    if (!to) throw InputError(InputFault::use, "no cell address is known", "pass --to HOST:PORT");
+    if (!drop && !request.chunks) {
+        throw InputError(InputFault::use, "no drop folder is known", "pass --drop DIR, or --chunks");
+    }
+    ModbusTcpBus bus(parse_tcp_address(*to));
+    if (!request.chunks) check_drop_folder(*drop, cell, *to, context);
+    DispatchOptions options = options_of(request, cell, contact(bus, *to, cell, context));
+    options.address = *to;
+    if (!request.chunks) options.drop_folder = *drop;
+    if (options.want_simulated) {
+        context.message("the cell at " + *to + " is SIMULATED: nothing moves");
+        context.warn(with(simulated_only_jobs(ordered), "; a real cell would not get it"));
+    } else {
+        answer.refused = why_not_real_cell(ordered, request, *to, person);
+        if (!answer.refused.empty()) return answer;
+    }
+    answer.is_simulated = options.want_simulated;
+    answer.handed = hand_over_with_journal(ordered.jobs, bus, options, context);
+    return answer;
+}
+
+}  // namespace qchopper

@@ -1,0 +1,74 @@
+// The cell gives consent at once. The cost is that of hand_over.h.
+
+#include "app/dispatch/dry_run.h"
+
+#include "app/dispatch/proven_jobs.h"
+#include "app/dispatch/simulated_limits.h"
+#include "base/files/temporary_folder.h"
+#include "base/shell_word.h"
+#include "devices/wire/modbus_tcp.h"
+#include "sim/cell/cell_sim.h"
+
+namespace qchopper {
+namespace {
+
+std::string next_command(const ProjectJobs& ordered, const DryRunRequest& request) {
+    if (!unproven_jobs(ordered, false).empty() || !unreachable_jobs(ordered.jobs).empty()) return {};
+    const Link& link = ordered.cell.link;
+    std::error_code error;
+    std::string command = "qchopper dispatch " + shell_word(request.project);
+    if (request.piece) command += " --piece " + *request.piece;
+    if (!link.to) command += " --to HOST:PORT";
+    if (!link.drop || !std::filesystem::is_directory(*link.drop, error)) command += " --drop DIR";
+    return command;
+}
+
+void warn_of(const ProjectJobs& ordered, const ProjectContext& context) {
+    if (!ordered.is_finished) {
+        context.warn({ordered.folder.string() + " is not finished: of its jobs the " +
+                      std::to_string(ordered.jobs.size()) + " that are written so far are rehearsed"});
+    }
+    for (const std::string& sentence : unproven_jobs(ordered, true)) {
+        context.warn({sentence + "; dispatch to a real cell refuses it"});
+    }
+    for (const std::string& sentence : unreachable_jobs(ordered.jobs)) {
+        context.warn({sentence + "; dispatch asks for --accept-unreachable"});
+    }
+    for (const std::string& sentence : unheld_jobs(ordered.jobs)) {
+        context.warn({sentence + "; dispatch asks before it sends it"});
+    }
+}
+
+CellSimOptions simulated_cell(const Cell& cell, double speed, const std::filesystem::path& drop) {
+    CellSimOptions options;
+    options.drop_folder = drop;
+    options.limits = simulated_limits(cell);
+    options.limits.consent = Consent::automatic;
+    options.limits.speed = speed;
+    options.limits.acting_ms = 20;
+    return options;
+}
+
+}  // namespace
+
+DryRunAnswer dry_run(const DryRunRequest& request, const ProjectContext& context) {
+    const ProjectJobs ordered = jobs_of(request.project, request.piece, context, true);
+    warn_of(ordered, context);
+    const TemporaryFolder drop("qchopper-dry-run-");
+    CellSim sim(simulated_cell(ordered.cell, request.speed, drop.path()));
+    sim.start();
+    context.message("dry run: a simulated cell inside this program, over TCP on 127.0.0.1:" +
+                    std::to_string(sim.port()) + "; consent is given at once, nothing moves");
+    ModbusTcpBus bus({"127.0.0.1", sim.port()});
+    DispatchOptions options;
+    options.cell_id = ordered.cell.id;
+    options.want_simulated = true;
+    options.drop_folder = drop.path();
+    options.timings.poll_s = 0.02;
+    const TemporaryFolder state("qchopper-dry-run-journal-");
+    Journal journal(state.path(), {ordered.cell.id, true, "dry-run"});
+    return {hand_over(ordered.jobs, bus, options, journal, context), ordered.jobs.size(),
+            next_command(ordered, request)};
+}
+
+}  // namespace qchopper

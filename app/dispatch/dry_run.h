@@ -1,0 +1,35 @@
+// Hands the jobs of a project to a simulated cell in this process, over TCP.
+//
+// What dispatch would refuse is warned of and rehearsed all the same; of an unfinished project the jobs that are
+// written so far. The user's journals are never touched (tests/app/cli/hand_over_test.cpp).
+
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/dispatch/hand_over.h"
+#include "app/store/project_context.h"
+
+namespace qchopper {
+
+struct DryRunRequest {
+    std::filesystem::path project;
+    std::optional<std::string> piece;  // nothing: all
+    double speed = 100'000;            // simulated seconds per second
+};
+
+struct DryRunAnswer {
+    std::vector<HandedOver> handed;
+    std::size_t wanted = 0;  // jobs to be handed over
+    // The command that hands the jobs to a cell; "" if dispatch would refuse one. What the cell file does not tell
+    // stands in capitals, for a person to fill in.
+    std::string next;
+};
+
+// Throws what jobs_of and hand_over throw.
+DryRunAnswer dry_run(const DryRunRequest& request, const ProjectContext& context);
+
+}  // namespace qchopper
